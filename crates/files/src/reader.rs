@@ -1,0 +1,312 @@
+//! A TOML document as a tree that remembers its lines, and a reader that takes typed values from it: every complaint
+//! names file, line, key, the value found and what would be valid.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::{Bound, RangeBounds};
+use toml::de::{DeTable, DeValue};
+
+/// Greater than zero.
+pub const POSITIVE: (Bound<f64>, Bound<f64>) = (Bound::Excluded(0.0), Bound::Unbounded);
+/// Zero or greater.
+pub const NOT_NEGATIVE: (Bound<f64>, Bound<f64>) = (Bound::Included(0.0), Bound::Unbounded);
+/// Any finite number.
+pub const FINITE: (Bound<f64>, Bound<f64>) = (Bound::Unbounded, Bound::Unbounded);
+
+/// What is wrong with a scene file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RecipeError {
+    /// The file as the user named it.
+    pub file: String,
+    /// The line, counted from 1; 0 when the whole file is meant.
+    pub line: usize,
+    /// What was found and what would be valid.
+    pub problem: String,
+}
+
+impl std::fmt::Display for RecipeError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.line {
+            0 => write!(f, "{}: {}", self.file, self.problem),
+            line => write!(f, "{}:{line}: {}", self.file, self.problem),
+        }
+    }
+}
+
+impl std::error::Error for RecipeError {}
+
+/// A value of the file and the line it stands on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// Line, counted from 1.
+    pub line: usize,
+    /// The value.
+    pub value: Value,
+}
+
+/// A value of a scene file.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// A number; whole numbers too.
+    Number(f64),
+    /// A string.
+    Text(String),
+    /// A table.
+    Section(Section),
+    /// A value of a type that no scene uses (boolean, array, date), as it stands in the file.
+    Other(String),
+}
+
+/// A table of the file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Section {
+    /// The line of its header, counted from 1.
+    pub line: usize,
+    /// Its entries by key.
+    pub entries: BTreeMap<String, Entry>,
+}
+
+impl Section {
+    /// Parses a TOML document; `file` is only for messages.
+    ///
+    /// # Errors
+    /// The line and the parser's message when the text is not TOML, or a number is not an `f64`.
+    pub fn parse(file: &str, text: &str) -> Result<Section, RecipeError> {
+        let fail = |line, problem| RecipeError { file: file.to_owned(), line, problem };
+        let table = DeTable::parse(text).map_err(|error| {
+            let line = error.span().map_or(0, |span| line_of(text, span.start));
+            fail(line, error.message().to_owned())
+        })?;
+        section(text, table.get_ref(), 1).map_err(|(line, problem)| fail(line, problem))
+    }
+
+    /// Lays `over` on top: its values replace equal keys, tables are merged key by key.
+    pub fn overlay(&mut self, over: &Section) {
+        for (key, entry) in &over.entries {
+            match (self.entries.get_mut(key), &entry.value) {
+                (Some(Entry { value: Value::Section(below), .. }), Value::Section(above)) => below.overlay(above),
+                _ => {
+                    self.entries.insert(key.clone(), entry.clone());
+                }
+            }
+        }
+    }
+
+    /// The table under `key`, if there is one.
+    pub fn section(&self, key: &str) -> Option<&Section> {
+        match &self.entries.get(key)?.value {
+            Value::Section(section) => Some(section),
+            _ => None,
+        }
+    }
+
+    /// Every value with its dotted key, sorted: the text that tells two scenes apart. Numbers in shortest form.
+    pub fn canonical(&self, prefix: &str, lines: &mut Vec<String>) {
+        for (key, entry) in &self.entries {
+            let name = format!("{prefix}{key}");
+            match &entry.value {
+                Value::Number(number) => lines.push(format!("{name} = {number:?}")),
+                Value::Text(text) => lines.push(format!("{name} = {text:?}")),
+                Value::Other(text) => lines.push(format!("{name} = {text}")),
+                Value::Section(section) => section.canonical(&format!("{name}."), lines),
+            }
+        }
+    }
+}
+
+fn section(text: &str, table: &DeTable<'_>, line: usize) -> Result<Section, (usize, String)> {
+    let mut entries = BTreeMap::new();
+    for (key, value) in table {
+        let line = line_of(text, key.span().start);
+        let value = match value.get_ref() {
+            DeValue::Integer(digits) => Value::Number(whole(digits.as_str(), digits.radix(), line)?),
+            DeValue::Float(digits) => {
+                Value::Number(digits.as_str().parse().map_err(|_| not_a_number(digits.as_str(), line))?)
+            }
+            DeValue::String(words) => Value::Text(words.to_string()),
+            DeValue::Table(inner) => Value::Section(section(text, inner, line)?),
+            DeValue::Boolean(_) | DeValue::Datetime(_) | DeValue::Array(_) => {
+                Value::Other(value.get_ref().type_str().to_owned())
+            }
+        };
+        entries.insert(key.get_ref().to_string(), Entry { line, value });
+    }
+    Ok(Section { line, entries })
+}
+
+fn whole(digits: &str, radix: u32, line: usize) -> Result<f64, (usize, String)> {
+    i64::from_str_radix(digits, radix).map(|number| number as f64).map_err(|_| not_a_number(digits, line))
+}
+
+fn not_a_number(digits: &str, line: usize) -> (usize, String) {
+    (line, format!("{digits} is not a number that fits"))
+}
+
+fn line_of(text: &str, offset: usize) -> usize {
+    1 + text.as_bytes()[..offset.min(text.len())].iter().filter(|&&byte| byte == b'\n').count()
+}
+
+/// Takes typed values from one table and at the end complains about keys that nothing asked for.
+#[derive(Debug)]
+pub struct Reader<'a> {
+    file: &'a str,
+    name: &'a str,
+    section: &'a Section,
+    asked: BTreeSet<&'static str>,
+}
+
+impl<'a> Reader<'a> {
+    /// A reader of `section`, which the messages call `name` (`"law"`).
+    pub fn new(file: &'a str, name: &'a str, section: &'a Section) -> Reader<'a> {
+        Reader { file, name, section, asked: BTreeSet::new() }
+    }
+
+    /// Whether the table has this key.
+    pub fn has(&self, key: &str) -> bool {
+        self.section.entries.contains_key(key)
+    }
+
+    /// The number under `key`, which must lie in `range` and must not be missing.
+    ///
+    /// # Errors
+    /// Missing, not a number, not finite, or out of range.
+    pub fn number(&mut self, key: &'static str, range: impl RangeBounds<f64>) -> Result<f64, RecipeError> {
+        let wanted = describe(&range);
+        match self.optional_number(key, range)? {
+            Some(number) => Ok(number),
+            None => Err(self.missing(key, &wanted)),
+        }
+    }
+
+    /// The number under `key` if it is there, which must lie in `range`.
+    ///
+    /// # Errors
+    /// Not a number, not finite, or out of range.
+    pub fn optional_number(
+        &mut self,
+        key: &'static str,
+        range: impl RangeBounds<f64>,
+    ) -> Result<Option<f64>, RecipeError> {
+        self.asked.insert(key);
+        match self.section.entries.get(key) {
+            None => Ok(None),
+            Some(Entry { value: Value::Number(number), .. }) if number.is_finite() && range.contains(number) => {
+                Ok(Some(*number))
+            }
+            Some(entry) => Err(self.wrong(key, entry, &describe(&range))),
+        }
+    }
+
+    /// The whole number under `key`, from `low` to `high`.
+    ///
+    /// # Errors
+    /// Missing, not a whole number, or out of range.
+    pub fn count(&mut self, key: &'static str, low: usize, high: usize) -> Result<usize, RecipeError> {
+        self.asked.insert(key);
+        let wanted = format!("a whole number from {low} to {high}");
+        match self.section.entries.get(key) {
+            None => Err(self.missing(key, &wanted)),
+            Some(Entry { value: Value::Number(number), .. })
+                if number.fract() == 0.0 && *number >= low as f64 && *number <= high as f64 =>
+            {
+                Ok(*number as usize)
+            }
+            Some(entry) => Err(self.wrong(key, entry, &wanted)),
+        }
+    }
+
+    /// The text under `key`, which must be one of `choices`.
+    ///
+    /// # Errors
+    /// Missing, not a text, or none of the choices.
+    pub fn choice(&mut self, key: &'static str, choices: &[&'static str]) -> Result<&'static str, RecipeError> {
+        self.asked.insert(key);
+        let wanted = format!("one of {}", choices.join(", "));
+        match self.section.entries.get(key) {
+            None => Err(self.missing(key, &wanted)),
+            Some(entry) => match &entry.value {
+                Value::Text(text) => choices
+                    .iter()
+                    .find(|&&choice| choice == text)
+                    .copied()
+                    .ok_or_else(|| self.wrong(key, entry, &wanted)),
+                _ => Err(self.wrong(key, entry, &wanted)),
+            },
+        }
+    }
+
+    /// The table under `key`.
+    ///
+    /// # Errors
+    /// Missing, or not a table.
+    pub fn section(&mut self, key: &'static str) -> Result<&'a Section, RecipeError> {
+        self.asked.insert(key);
+        match self.section.entries.get(key) {
+            None => Err(self.missing(key, "a table")),
+            Some(Entry { value: Value::Section(section), .. }) => Ok(section),
+            Some(entry) => Err(self.wrong(key, entry, "a table")),
+        }
+    }
+
+    /// The complaint that `key` has a value which is allowed by itself but not here.
+    pub fn complaint(&self, key: &str, problem: &str) -> RecipeError {
+        let entry = self.section.entries.get(key);
+        let line = entry.map_or(self.section.line, |entry| entry.line);
+        let found = entry.map_or(String::new(), |entry| format!(" = {}", shown(&entry.value)));
+        self.error(line, format!("{}.{key}{found}: {problem}", self.name))
+    }
+
+    /// Ends the reading.
+    ///
+    /// # Errors
+    /// A key that nothing asked for; the message lists those that are known.
+    pub fn finish(self) -> Result<(), RecipeError> {
+        match self.section.entries.iter().find(|(key, _)| !self.asked.contains(key.as_str())) {
+            None => Ok(()),
+            Some((key, entry)) => {
+                let known: Vec<&str> = self.asked.iter().copied().collect();
+                Err(self
+                    .error(entry.line, format!("{}.{key}: unknown key; known here: {}", self.name, known.join(", "))))
+            }
+        }
+    }
+
+    fn missing(&self, key: &str, wanted: &str) -> RecipeError {
+        self.error(self.section.line, format!("{}.{key} is missing; it must be {wanted}", self.name))
+    }
+
+    fn wrong(&self, key: &str, entry: &Entry, wanted: &str) -> RecipeError {
+        self.error(entry.line, format!("{}.{key} = {}: must be {wanted}", self.name, shown(&entry.value)))
+    }
+
+    fn error(&self, line: usize, problem: String) -> RecipeError {
+        RecipeError { file: self.file.to_owned(), line, problem }
+    }
+}
+
+fn shown(value: &Value) -> String {
+    match value {
+        Value::Number(number) => format!("{number:?}"),
+        Value::Text(text) => format!("{text:?}"),
+        Value::Section(_) => "a table".to_owned(),
+        Value::Other(kind) => format!("a value of type {kind}"),
+    }
+}
+
+/// A range in words.
+fn describe(range: &impl RangeBounds<f64>) -> String {
+    let low = match range.start_bound() {
+        Bound::Included(low) => format!(" >= {low:?}"),
+        Bound::Excluded(low) => format!(" > {low:?}"),
+        Bound::Unbounded => String::new(),
+    };
+    let high = match range.end_bound() {
+        Bound::Included(high) => format!(" <= {high:?}"),
+        Bound::Excluded(high) => format!(" < {high:?}"),
+        Bound::Unbounded => String::new(),
+    };
+    match (low.is_empty(), high.is_empty()) {
+        (true, true) => "a finite number".to_owned(),
+        (false, false) => format!("a number{low} and{high}"),
+        _ => format!("a number{low}{high}"),
+    }
+}

@@ -1,0 +1,176 @@
+//! A scene file: title, source, and one panel for each set of numbers it asks for. Tables of the file (`[law]`,
+//! `[ring]`, ...) hold for every panel; `[panel.NAME.law]` and the like lie on top of them.
+
+use crate::reader::{Entry, RecipeError, Section, Value};
+use std::path::Path;
+
+/// Tables that determine numbers.
+const DETERMINING: [&str; 7] = ["law", "ring", "start", "run", "uniform", "map", "curve"];
+/// Everything else that may stand at the top.
+const DESCRIBING: [&str; 4] = ["title", "source", "origin", "panel"];
+
+/// What a panel asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A simulation in time (`[run]`).
+    Run,
+    /// A value over two parameters (`[map]`).
+    Map,
+    /// A function of one variable (`[curve]`).
+    Curve,
+    /// No numbers: a drawing.
+    Drawing,
+}
+
+/// One set of numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Panel {
+    /// `"main"` where the file names no panels.
+    pub name: String,
+    /// What it asks for.
+    pub kind: Kind,
+    /// The determining tables, merged.
+    pub tables: Section,
+}
+
+impl Panel {
+    /// Everything that determines the numbers, a line a value, sorted; no titles, no comments, no sources.
+    pub fn determinants(&self) -> String {
+        let mut lines = Vec::new();
+        self.tables.canonical("", &mut lines);
+        lines.join("\n")
+    }
+}
+
+/// A scene file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recipe {
+    /// The file, as it was named.
+    pub file: String,
+    /// What it shows, in words.
+    pub title: String,
+    /// The label of the paper.
+    pub source: String,
+    /// The panels in alphabetical order.
+    pub panels: Vec<Panel>,
+    /// Where each number comes from: dotted key, then a label of the paper or `chosen: why`.
+    pub origin: Vec<(String, String)>,
+}
+
+impl Recipe {
+    /// The panel of this name.
+    ///
+    /// # Errors
+    /// There is none; the names that exist.
+    pub fn panel(&self, name: &str) -> Result<&Panel, RecipeError> {
+        self.panels.iter().find(|panel| panel.name == name).ok_or_else(|| {
+            let names: Vec<&str> = self.panels.iter().map(|panel| panel.name.as_str()).collect();
+            self.error(0, format!("no panel {name}; the scene has {}", names.join(", ")))
+        })
+    }
+
+    fn error(&self, line: usize, problem: String) -> RecipeError {
+        RecipeError { file: self.file.clone(), line, problem }
+    }
+}
+
+/// Reads a scene file.
+///
+/// # Errors
+/// The file cannot be read, is not TOML, or has an unknown table.
+pub fn read(path: &Path) -> Result<Recipe, RecipeError> {
+    let file = path.display().to_string();
+    let text = std::fs::read_to_string(path).map_err(|error| RecipeError {
+        file: file.clone(),
+        line: 0,
+        problem: error.to_string(),
+    })?;
+    parse(&file, &text)
+}
+
+/// Parses the text of a scene file; `file` is only for messages.
+///
+/// # Errors
+/// The text is not TOML, or has an unknown table.
+pub fn parse(file: &str, text: &str) -> Result<Recipe, RecipeError> {
+    let document = Section::parse(file, text)?;
+    let complain = |line, problem| RecipeError { file: file.to_owned(), line, problem };
+    for (key, entry) in &document.entries {
+        if !DETERMINING.contains(&key.as_str()) && !DESCRIBING.contains(&key.as_str()) {
+            let known = [&DESCRIBING[..], &DETERMINING[..]].concat().join(", ");
+            return Err(complain(entry.line, format!("{key}: unknown key; known here: {known}")));
+        }
+    }
+    let base = determining(&document);
+    let panels = match document.section("panel") {
+        None => vec![Panel { name: "main".to_owned(), kind: kind(&base), tables: base }],
+        Some(named) => panels(&base, named).map_err(|(line, problem)| complain(line, problem))?,
+    };
+    Ok(Recipe {
+        file: file.to_owned(),
+        title: words(&document, "title").map_err(|(line, problem)| complain(line, problem))?,
+        source: words(&document, "source").map_err(|(line, problem)| complain(line, problem))?,
+        panels,
+        origin: origin(&document).map_err(|(line, problem)| complain(line, problem))?,
+    })
+}
+
+fn panels(base: &Section, named: &Section) -> Result<Vec<Panel>, (usize, String)> {
+    named
+        .entries
+        .iter()
+        .map(|(name, entry)| {
+            let Value::Section(over) = &entry.value else {
+                return Err((entry.line, format!("panel.{name}: must be a table")));
+            };
+            if let Some((key, entry)) = over.entries.iter().find(|(key, _)| !DETERMINING.contains(&key.as_str())) {
+                return Err((
+                    entry.line,
+                    format!("panel.{name}.{key}: unknown key; known here: {}", DETERMINING.join(", ")),
+                ));
+            }
+            let mut tables = base.clone();
+            tables.overlay(over);
+            Ok(Panel { name: name.clone(), kind: kind(&tables), tables })
+        })
+        .collect()
+}
+
+fn determining(document: &Section) -> Section {
+    let mut base = document.clone();
+    base.entries.retain(|key, _| DETERMINING.contains(&key.as_str()));
+    base
+}
+
+fn kind(tables: &Section) -> Kind {
+    let has = |key: &str| tables.entries.contains_key(key);
+    match () {
+        () if has("run") => Kind::Run,
+        () if has("map") => Kind::Map,
+        () if has("curve") => Kind::Curve,
+        () => Kind::Drawing,
+    }
+}
+
+/// A text at the top of the file; empty when it is missing.
+fn words(document: &Section, key: &str) -> Result<String, (usize, String)> {
+    match document.entries.get(key) {
+        None => Ok(String::new()),
+        Some(Entry { value: Value::Text(text), .. }) => Ok(text.clone()),
+        Some(entry) => Err((entry.line, format!("{key}: must be a text"))),
+    }
+}
+
+fn origin(document: &Section) -> Result<Vec<(String, String)>, (usize, String)> {
+    let Some(section) = document.section("origin") else {
+        return Ok(Vec::new());
+    };
+    section
+        .entries
+        .iter()
+        .map(|(key, entry)| match &entry.value {
+            Value::Text(text) => Ok((key.clone(), text.clone())),
+            _ => Err((entry.line, format!("origin.{key}: must be a text"))),
+        })
+        .collect()
+}
