@@ -1,0 +1,105 @@
+//! An accepted step as an observer sees it: states at both ends and the solution anywhere between.
+
+use crate::control::Norm;
+use crate::system::System;
+
+/// Where a step starts and how long it shall be.
+pub(crate) struct Trial<'a> {
+    pub(crate) state: &'a [f64],
+    pub(crate) rates: &'a [f64],
+    pub(crate) h: f64,
+}
+
+/// Both ends of an accepted step.
+pub(crate) struct Ends<'a> {
+    pub(crate) before: &'a [f64],
+    pub(crate) after: &'a [f64],
+    pub(crate) rates_before: &'a [f64],
+    pub(crate) rates_after: &'a [f64],
+    pub(crate) h: f64,
+}
+
+/// A method that makes steps. Kept within the crate: callers choose a [`crate::Method`].
+pub(crate) trait Stepper {
+    /// Writes the change of the state over the step and returns its error in units of the tolerance: infinite when a
+    /// stage lies outside the domain, 0 without a norm.
+    fn try_step(&mut self, system: &dyn System, from: Trial<'_>, change: &mut [f64], norm: Option<&Norm>) -> f64;
+
+    /// Evaluations of the rates in one step, the one at its start not counted.
+    fn evaluations(&self) -> u64;
+
+    /// The power of the step with which the estimated error falls.
+    fn error_power(&self) -> usize;
+
+    /// Writes the solution at the fraction `theta` of the accepted step; returns the evaluations this took.
+    fn interpolate(&mut self, system: &dyn System, ends: &Ends<'_>, theta: f64, result: &mut [f64]) -> u64;
+}
+
+/// An accepted step.
+pub struct Step<'a> {
+    pub(crate) system: &'a dyn System,
+    pub(crate) stepper: &'a mut dyn Stepper,
+    pub(crate) ends: Ends<'a>,
+    pub(crate) evaluations: u64,
+    /// Time at the start of the step.
+    pub start: f64,
+    /// Time at its end.
+    pub end: f64,
+}
+
+/// Closer than this fraction of a step to one of its ends, a time is taken for that end.
+pub(crate) const SAME: f64 = 1e-9;
+
+impl Step<'_> {
+    /// The state at the start.
+    pub fn before(&self) -> &[f64] {
+        self.ends.before
+    }
+
+    /// The state at the end.
+    pub fn after(&self) -> &[f64] {
+        self.ends.after
+    }
+
+    /// The rates at the start.
+    pub fn rates_before(&self) -> &[f64] {
+        self.ends.rates_before
+    }
+
+    /// The rates at the end.
+    pub fn rates_after(&self) -> &[f64] {
+        self.ends.rates_after
+    }
+
+    /// The length of the step.
+    pub fn length(&self) -> f64 {
+        self.ends.h
+    }
+
+    /// Writes the state at the time `t` within the step.
+    pub fn at(&mut self, t: f64, state: &mut [f64]) {
+        self.at_fraction((t - self.start) / self.ends.h, state);
+    }
+
+    /// Writes the state at the fraction `theta` of the step, 0 to 1.
+    pub fn at_fraction(&mut self, theta: f64, state: &mut [f64]) {
+        if theta.abs() < SAME {
+            state.copy_from_slice(self.ends.before);
+        } else if (theta - 1.0).abs() < SAME {
+            state.copy_from_slice(self.ends.after);
+        } else {
+            self.evaluations += self.stepper.interpolate(self.system, &self.ends, theta, state);
+        }
+    }
+}
+
+/// The cubic Hermite polynomial through both ends, written as corrections to the chord.
+pub(crate) fn cubic(ends: &Ends<'_>, theta: f64, result: &mut [f64]) {
+    let there = theta * (1.0 - theta);
+    for (i, result) in result.iter_mut().enumerate() {
+        let change = ends.after[i] - ends.before[i];
+        let bend_before = ends.h * ends.rates_before[i] - change;
+        let bend_after = change - ends.h * ends.rates_after[i];
+        *result = ends.before[i] + (theta * change + there * ((1.0 - theta) * bend_before + theta * bend_after));
+    }
+}

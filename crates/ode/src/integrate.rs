@@ -1,0 +1,239 @@
+//! The two drivers: steps of fixed length, and steps as long as the error allows.
+
+use crate::ballistic::Ballistic;
+use crate::control::{Control, Controller, Norm};
+use crate::dense::{Ends, SAME, Step, Stepper, Trial};
+use crate::extrapolation::Extrapolation;
+use crate::methods::Method;
+use crate::observe::Observer;
+use crate::runge_kutta::RungeKutta;
+use crate::system::System;
+use crate::vector::{add, add_compensated};
+
+/// What shall be integrated, and how.
+pub struct Problem<'a> {
+    /// The equations.
+    pub system: &'a dyn System,
+    /// The state at the start.
+    pub start: &'a [f64],
+    /// The time at the start.
+    pub begin: f64,
+    /// The time at which the integration ends, after `begin`.
+    pub end: f64,
+    /// The method.
+    pub method: Method,
+    /// The rule for the steps.
+    pub control: Control,
+}
+
+/// What an integration took, and where it ended.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Statistics {
+    /// Accepted steps.
+    pub steps: u64,
+    /// Steps that were tried and made again smaller.
+    pub rejected: u64,
+    /// Evaluations of the right-hand side, those for output included.
+    pub evaluations: u64,
+    /// The time reached.
+    pub time: f64,
+    /// The state at that time.
+    pub state: Vec<f64>,
+}
+
+/// Why an integration could not go on.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Failure {
+    /// The error asks for a step that no longer moves the time.
+    StepTooSmall {
+        /// The time reached.
+        time: f64,
+        /// The step that was asked for.
+        step: f64,
+    },
+    /// A component is no longer a finite number after a step of fixed length.
+    NotFinite {
+        /// The time at the start of that step.
+        time: f64,
+        /// Its length.
+        step: f64,
+    },
+    /// The method has no error estimate and cannot choose its steps.
+    NoErrorEstimate(Method),
+}
+
+impl std::fmt::Display for Failure {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Failure::StepTooSmall { time, step } => {
+                write!(
+                    f,
+                    "at t = {time:?} the tolerance asks for a step of {step:e}, too small to go on; raise the tolerance"
+                )
+            }
+            Failure::NotFinite { time, step } => {
+                write!(
+                    f,
+                    "in the step of {step:e} from t = {time:?} the state is no longer finite; a smaller step may help"
+                )
+            }
+            Failure::NoErrorEstimate(method) => {
+                let names: Vec<&str> = Method::ALL.iter().filter(|m| m.is_adaptive()).map(|m| m.name()).collect();
+                write!(f, "{} has no error estimate: give it a step, or choose {}", method.name(), names.join(" or "))
+            }
+        }
+    }
+}
+
+impl std::error::Error for Failure {}
+
+/// Integrates from the start, showing every accepted step to the observer, until the end or the observer's `Break`.
+///
+/// # Errors
+/// See [`Failure`]. What the observer saw until then stands.
+pub fn integrate(problem: &Problem<'_>, observer: &mut dyn Observer) -> Result<Statistics, Failure> {
+    let mut run = Run::new(problem);
+    match problem.control {
+        Control::Fixed { step } => run.fixed(problem, step, observer)?,
+        Control::Adaptive { .. } if !problem.method.is_adaptive() => {
+            return Err(Failure::NoErrorEstimate(problem.method));
+        }
+        Control::Adaptive { tolerance } => run.adaptive(problem, tolerance, observer)?,
+    }
+    run.statistics.state = run.state;
+    Ok(run.statistics)
+}
+
+/// An integration under way.
+struct Run<'a> {
+    system: &'a dyn System,
+    stepper: Box<dyn Stepper>,
+    state: Vec<f64>,
+    rates: Vec<f64>,
+    next: Vec<f64>,
+    next_rates: Vec<f64>,
+    change: Vec<f64>,
+    statistics: Statistics,
+}
+
+impl<'a> Run<'a> {
+    fn new(problem: &Problem<'a>) -> Run<'a> {
+        let system = problem.system;
+        let n = system.dimension();
+        assert_eq!(problem.start.len(), n, "the state has as many components as the system");
+        let stepper: Box<dyn Stepper> = match (problem.method, problem.method.tableau()) {
+            (_, Some(tableau)) => Box::new(RungeKutta::new(tableau, n)),
+            (Method::Ballistic, None) => Box::new(Ballistic::new(system)),
+            (_, None) => Box::new(Extrapolation::new(n)),
+        };
+        let mut rates = vec![0.0; n];
+        system.rates(problem.start, &mut rates);
+        Run {
+            system,
+            stepper,
+            state: problem.start.to_vec(),
+            rates,
+            next: vec![0.0; n],
+            next_rates: vec![0.0; n],
+            change: vec![0.0; n],
+            statistics: Statistics { evaluations: 1, ..Statistics::default() },
+        }
+    }
+
+    /// Step `k` runs from `begin + k h` to `begin + (k + 1) h`: the time is a product, so that it gathers no rounding.
+    fn fixed(&mut self, problem: &Problem<'_>, h: f64, observer: &mut dyn Observer) -> Result<(), Failure> {
+        let count = (problem.end - problem.begin) / h;
+        let whole = if (count - count.round()).abs() < SAME * count { count.round() } else { count.ceil() } as u64;
+        for k in 0..whole {
+            let start = problem.begin + k as f64 * h;
+            let end = if k + 1 == whole { problem.end } else { problem.begin + (k + 1) as f64 * h };
+            let length = if k + 1 == whole && count.round() as u64 != whole { end - start } else { h };
+            self.try_step(length, None);
+            add(&self.state, &self.change, &mut self.next);
+            if !self.next.iter().all(|component| component.is_finite()) {
+                return Err(Failure::NotFinite { time: start, step: length });
+            }
+            if self.accept(start, end, length, observer).is_break() {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    fn adaptive(&mut self, problem: &Problem<'_>, tolerance: f64, observer: &mut dyn Observer) -> Result<(), Failure> {
+        let mut norm = Norm::new(self.system, tolerance);
+        let mut controller = Controller::new(self.stepper.error_power());
+        let mut carry = vec![0.0; self.state.len()];
+        let (mut time, mut time_carry) = ([problem.begin], [0.0]);
+        let mut h = self.first_step(problem, &mut norm);
+        while time[0] < problem.end {
+            let left = (problem.end - time[0]) - time_carry[0];
+            let is_last = h >= left;
+            let length = if is_last { left } else { h };
+            if length < SHORTEST {
+                return Err(Failure::StepTooSmall { time: time[0], step: h });
+            }
+            norm.start(&self.state);
+            let mut error = self.try_step(length, Some(&norm));
+            add(&self.state, &self.change, &mut self.next);
+            if !self.system.in_domain(&self.next) {
+                error = f64::INFINITY;
+            }
+            if error.is_nan() || error > 1.0 {
+                self.statistics.rejected += 1;
+                h = length * controller.reject(error);
+                continue;
+            }
+            add_compensated(&self.state, &self.change, &mut carry, &mut self.next);
+            let start = time;
+            add_compensated(&start, &[length], &mut time_carry, &mut time);
+            let end = if is_last { problem.end } else { time[0] };
+            if self.accept(start[0], end, length, observer).is_break() {
+                break;
+            }
+            if is_last {
+                break;
+            }
+            h = length * controller.accept(error);
+        }
+        Ok(())
+    }
+
+    fn try_step(&mut self, h: f64, norm: Option<&Norm>) -> f64 {
+        self.statistics.evaluations += self.stepper.evaluations();
+        let from = Trial { state: &self.state, rates: &self.rates, h };
+        self.stepper.try_step(self.system, from, &mut self.change, norm)
+    }
+
+    /// Takes `self.next` for the new state and shows the step to the observer.
+    fn accept(&mut self, start: f64, end: f64, h: f64, observer: &mut dyn Observer) -> std::ops::ControlFlow<()> {
+        self.system.rates(&self.next, &mut self.next_rates);
+        let ends = Ends {
+            before: &self.state,
+            after: &self.next,
+            rates_before: &self.rates,
+            rates_after: &self.next_rates,
+            h,
+        };
+        let mut step = Step { system: self.system, stepper: &mut *self.stepper, ends, evaluations: 0, start, end };
+        let flow = observer.after(&mut step);
+        self.statistics.evaluations += 1 + step.evaluations;
+        self.statistics.steps += 1;
+        self.statistics.time = end;
+        std::mem::swap(&mut self.state, &mut self.next);
+        std::mem::swap(&mut self.rates, &mut self.next_rates);
+        flow
+    }
+
+    /// A first step over which the state changes by about a hundredth of its size.
+    fn first_step(&self, problem: &Problem<'_>, norm: &mut Norm) -> f64 {
+        norm.start(&self.state);
+        let (size, rate) = (norm.of(&self.state), norm.of(&self.rates));
+        let guess = if size > 0.0 && rate > 0.0 { 0.01 * (size / rate) } else { 1e-3 };
+        guess.min(problem.end - problem.begin)
+    }
+}
+
+/// Shorter steps are taken for a sign that the tolerance cannot be met. The equations do not know the time and its sum
+/// is compensated, so a step may lie far below the rounding of the time: a blow-up needs that.
+const SHORTEST: f64 = 1e-60;

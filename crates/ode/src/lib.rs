@@ -1,0 +1,24 @@
+//! Integration of autonomous systems of ordinary differential equations: fixed steps and adaptive ones, output from
+//! interpolation inside the steps, events located on it. Knows no pedestrians.
+//!
+//! A caller describes its equations as a [`System`], picks a [`Method`] and a [`Control`], and hands an [`Observer`] to
+//! [`integrate`], which shows it every accepted [`Step`].
+
+mod ballistic;
+mod control;
+mod dense;
+mod extrapolation;
+mod integrate;
+pub mod methods;
+mod observe;
+mod runge_kutta;
+mod system;
+pub mod tableau;
+mod vector;
+
+pub use control::Control;
+pub use dense::Step;
+pub use integrate::{Failure, Problem, Statistics, integrate};
+pub use methods::Method;
+pub use observe::{Observer, Sampler, first_crossing};
+pub use system::{Group, Measure, System};

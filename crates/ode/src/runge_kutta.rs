@@ -1,0 +1,117 @@
+//! One step of any explicit Runge-Kutta method, and its interpolant.
+
+use crate::control::Norm;
+use crate::dense::{Ends, Stepper, Trial, cubic};
+use crate::system::System;
+use crate::tableau::{Interpolant, Tableau};
+use crate::vector::{add, weighted_sum};
+
+pub(crate) struct RungeKutta {
+    tableau: &'static Tableau,
+    n: usize,
+    /// All stages one after another: those of the step, the rate at its end, those of the interpolant.
+    stages: Vec<f64>,
+    state: Vec<f64>,
+    sum: Vec<f64>,
+    /// `r_0, r_1, ...` of a nested interpolant, once they are wanted.
+    nested: Vec<f64>,
+    nested_is_ready: bool,
+}
+
+impl RungeKutta {
+    pub(crate) fn new(tableau: &'static Tableau, n: usize) -> RungeKutta {
+        let (further, rows) = match tableau.interpolant {
+            Interpolant::Cubic => (0, 0),
+            Interpolant::Nested { stages, rows } => (1 + stages.len(), rows.len()),
+        };
+        RungeKutta {
+            tableau,
+            n,
+            stages: vec![0.0; (tableau.stages() + further) * n],
+            state: vec![0.0; n],
+            sum: vec![0.0; n],
+            nested: vec![0.0; rows * n],
+            nested_is_ready: false,
+        }
+    }
+
+    /// Evaluates stage `i` at `start + h * (row of earlier stages)`; false when that state is outside the domain.
+    fn stage(&mut self, system: &dyn System, start: &[f64], h: f64, row: crate::tableau::Row, i: usize) -> bool {
+        let (earlier, later) = self.stages.split_at_mut(i * self.n);
+        weighted_sum(h, row, earlier, &mut self.sum);
+        add(start, &self.sum, &mut self.state);
+        system.rates(&self.state, &mut later[..self.n]);
+        system.in_domain(&self.state)
+    }
+
+    /// The error of the step in units of the tolerance. Of two estimates `e_5`, `e_3` the combination of DOP853 is
+    /// taken, `e_5^2 / sqrt(e_5^2 + e_3^2 / 100)`, which behaves as an estimate of order 7.
+    fn error(&mut self, h: f64, norm: &Norm) -> f64 {
+        let mut estimates = [0.0; 2];
+        for (estimate, weights) in estimates.iter_mut().zip(self.tableau.errors) {
+            weighted_sum(h, weights, &self.stages, &mut self.sum);
+            *estimate = norm.of(&self.sum);
+        }
+        match (self.tableau.errors.len(), estimates) {
+            (2, [fine, coarse]) if fine > 0.0 => fine * (fine / (fine * fine + 0.01 * coarse * coarse).sqrt()),
+            (_, [estimate, _]) => estimate,
+        }
+    }
+
+    fn prepare_nested(&mut self, system: &dyn System, ends: &Ends<'_>) {
+        let Interpolant::Nested { stages, rows } = self.tableau.interpolant else { return };
+        let h = ends.h;
+        let end = self.tableau.stages();
+        self.stages[end * self.n..(end + 1) * self.n].copy_from_slice(ends.rates_after);
+        for (i, row) in stages.iter().enumerate() {
+            // inside an accepted step: the solution is in the domain at both ends
+            self.stage(system, ends.before, h, row, end + 1 + i);
+        }
+        for (row, nested) in rows.iter().zip(self.nested.chunks_exact_mut(self.n)) {
+            weighted_sum(h, row, &self.stages, nested);
+        }
+        self.nested_is_ready = true;
+    }
+}
+
+impl Stepper for RungeKutta {
+    fn try_step(&mut self, system: &dyn System, from: Trial<'_>, change: &mut [f64], norm: Option<&Norm>) -> f64 {
+        self.nested_is_ready = false;
+        self.stages[..self.n].copy_from_slice(from.rates);
+        for (i, row) in self.tableau.rows.iter().enumerate() {
+            let inside = self.stage(system, from.state, from.h, row, i + 1);
+            if norm.is_some() && !inside {
+                return f64::INFINITY;
+            }
+        }
+        weighted_sum(from.h, self.tableau.weights, &self.stages, change);
+        norm.map_or(0.0, |norm| self.error(from.h, norm))
+    }
+
+    fn evaluations(&self) -> u64 {
+        self.tableau.rows.len() as u64
+    }
+
+    fn error_power(&self) -> usize {
+        self.tableau.order
+    }
+
+    fn interpolate(&mut self, system: &dyn System, ends: &Ends<'_>, theta: f64, result: &mut [f64]) -> u64 {
+        cubic(ends, theta, result);
+        let Interpolant::Nested { stages, rows } = self.tableau.interpolant else { return 0 };
+        let evaluations = if self.nested_is_ready { 0 } else { stages.len() as u64 };
+        if !self.nested_is_ready {
+            self.prepare_nested(system, ends);
+        }
+        let quartic = theta * theta * (1.0 - theta) * (1.0 - theta);
+        for (i, result) in result.iter_mut().enumerate() {
+            let mut sum = 0.0;
+            for r in (0..rows.len()).rev() {
+                let factor = if r % 2 == 0 { theta } else { 1.0 - theta };
+                sum = self.nested[r * self.n + i] + factor * sum;
+            }
+            *result += quartic * sum;
+        }
+        evaluations
+    }
+}

@@ -1,0 +1,53 @@
+//! What a caller says about its equations.
+
+use std::ops::Range;
+
+/// An autonomous system `dy/dt = f(y)` whose state splits into position-like components, the rates of which depend on
+/// the speed-like components alone, and the rest.
+pub trait System {
+    /// The number of components.
+    fn dimension(&self) -> usize;
+
+    /// Writes the rates of the position-like components; leaves the others alone.
+    fn kinematics(&self, state: &[f64], rates: &mut [f64]);
+
+    /// Writes the rates of all other components; leaves the position-like ones alone.
+    fn dynamics(&self, state: &[f64], rates: &mut [f64]);
+
+    /// The position-like components.
+    fn positions(&self) -> Vec<Range<usize>>;
+
+    /// The components whose errors are measured together; together they cover the state.
+    fn groups(&self) -> Vec<Group>;
+
+    /// Whether the equations are defined at this state. An adaptive step with a stage outside is repeated smaller.
+    fn in_domain(&self, _state: &[f64]) -> bool {
+        true
+    }
+
+    /// All rates: [`System::kinematics`] and [`System::dynamics`].
+    fn rates(&self, state: &[f64], rates: &mut [f64]) {
+        self.kinematics(state, rates);
+        self.dynamics(state, rates);
+    }
+}
+
+/// Components of one kind, whose errors are compared with one size.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Group {
+    /// The components.
+    pub range: Range<usize>,
+    /// What an error is compared with.
+    pub measure: Measure,
+    /// The size below which errors need not shrink any further.
+    pub floor: f64,
+}
+
+/// What the error of a component is compared with, besides the floor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// The largest component of the group: the tolerance is relative to the group.
+    Largest,
+    /// The smallest component of the group: every one keeps its relative precision.
+    Smallest,
+}
