@@ -1,0 +1,119 @@
+//! The logarithmic force, eq:modlog: `dv_n/dt = v_0 (1 - ln(1 + c R_n)) - v_n`, `c = e - 1`,
+//! `R_n = r_eps(s_n / (2 + a_v (v_n + v_{n+1})) - 1)`.
+
+use super::{Law, Visitor};
+use crate::ramp::smooth_ramp;
+use crate::stability::Linear;
+use math::lane::{self, SoftplusBase};
+use std::f64::consts::E;
+
+/// `c = e - 1`: the force at contact just cancels the drive.
+pub const C: f64 = E - 1.0;
+
+/// Parameters `(v_0', a_v)` and `eps`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Logarithmic {
+    /// `v_0' > 0`: desired speed.
+    pub desired_speed: f64,
+    /// `a_v >= 0` (with tilde in the paper): growth of the safety distance with speed.
+    pub widening: f64,
+    /// `eps > 0`: width of the smooth ramp.
+    pub epsilon: f64,
+}
+
+impl Logarithmic {
+    /// `a' = 2 (1 + a_v v')`: the critical distance at the speed `v'`.
+    pub fn critical_distance(&self, speed: f64) -> f64 {
+        2.0 + 2.0 * self.widening * speed
+    }
+
+    /// Coefficients of the linearised law at the uniform headway `Delta y` and speed `v'`, without the paper's
+    /// approximation `eps -> 0`.
+    pub fn linearise(&self, headway: f64, speed: f64) -> Linear {
+        let (v0, a_v, epsilon) = (self.desired_speed, self.widening, self.epsilon);
+        let distance = self.critical_distance(speed);
+        let x = headway / distance - 1.0;
+        let d0 = 1.0 + C * smooth_ramp(x, epsilon);
+        let xi = lane::sigmoid(-x / epsilon) * C * v0 / (distance * d0);
+        Linear { phi: xi, beta: xi * (a_v / distance) * headway, kappa: 0.0 }
+    }
+
+    pub(super) fn visit<V: Visitor>(&self, visitor: V) -> V::Output {
+        let parameters = *self;
+        if self.widening != 0.0 {
+            visitor.visit(LogarithmicLaw::<true> { parameters })
+        } else {
+            visitor.visit(LogarithmicLaw::<false> { parameters })
+        }
+    }
+}
+
+/// The law with or without the widening.
+#[derive(Clone, Copy, Debug)]
+pub struct LogarithmicLaw<const WIDENING: bool> {
+    parameters: Logarithmic,
+}
+
+/// The uniform flow: headway, `a'`, `1 / a'`, the ramp, `-1 / eps` and `c eps / (1 + c R')`.
+#[derive(Clone, Copy, Debug)]
+pub struct Base {
+    headway: f64,
+    distance: f64,
+    inverse_distance: f64,
+    ramp: SoftplusBase,
+    slope: f64,
+    scale: f64,
+}
+
+impl<const WIDENING: bool> Law for LogarithmicLaw<WIDENING> {
+    type Base = Base;
+
+    const SINGULAR: bool = false;
+
+    const CONTACT: f64 = 0.0;
+
+    #[inline(always)]
+    fn acceleration(&self, gap: f64, speed: f64, ahead: f64) -> f64 {
+        let Logarithmic { desired_speed: v0, widening: a_v, epsilon } = self.parameters;
+        let ratio = if WIDENING { gap / (2.0 + a_v * (speed + ahead)) } else { 0.5 * gap };
+        let r = smooth_ramp(ratio - 1.0, epsilon);
+        v0 * (1.0 - lane::ln_1p(C * r)) - speed
+    }
+
+    fn base(&self, gap: f64, speed: f64) -> Base {
+        let Logarithmic { widening: a_v, epsilon, .. } = self.parameters;
+        let distance = 2.0 + 2.0 * a_v * speed;
+        let x = gap / distance - 1.0;
+        let r = smooth_ramp(x, epsilon);
+        Base {
+            headway: gap,
+            distance,
+            inverse_distance: 1.0 / distance,
+            ramp: SoftplusBase::new(-x / epsilon),
+            slope: -1.0 / epsilon,
+            scale: C * epsilon / (1.0 + C * r),
+        }
+    }
+
+    #[inline(always)]
+    fn deviation(&self, base: &Base, gap: f64, speed: f64, ahead: f64) -> f64 {
+        let Logarithmic { desired_speed: v0, widening: a_v, .. } = self.parameters;
+        let ratio = if WIDENING {
+            let wider = a_v * (speed + ahead);
+            (gap - base.headway * (wider * base.inverse_distance)) / (base.distance + wider)
+        } else {
+            0.5 * gap
+        };
+        let r = lane::softplus_difference(&base.ramp, ratio * base.slope);
+        -(v0 * lane::ln_1p(base.scale * r)) - speed
+    }
+
+    #[inline(always)]
+    fn room(&self, gap: f64, _speed: f64, _ahead: f64) -> f64 {
+        gap
+    }
+
+    fn room_per_speed(&self) -> f64 {
+        0.0
+    }
+}

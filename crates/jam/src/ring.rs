@@ -1,0 +1,24 @@
+//! The ring of pedestrians and how it starts.
+
+/// `N` pedestrians on a ring of length `L`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ring {
+    /// `N >= 2`.
+    pub pedestrians: usize,
+    /// `L > 0`.
+    pub length: f64,
+}
+
+impl Ring {
+    /// `Delta y = L / N`: the distance of neighbours in the uniform flow.
+    pub fn headway(&self) -> f64 {
+        self.length / self.pedestrians as f64
+    }
+}
+
+/// The initial state: equal distances, all speeds 0, pedestrian 0 moved forward by `shift` (`eps_1` of the paper).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    /// Any size that leaves both gaps of pedestrian 0 open.
+    pub shift: f64,
+}

@@ -1,0 +1,158 @@
+//! Gaps and speeds as deviations from the uniform flow that is integrated along.
+//!
+//! State: `[u_0 .. u_{N-1}, w_0 .. w_{N-1}, x_0 - X, X, V]` with gaps `Delta y + u_n`, speeds `V + w_n`, and the
+//! distance `X` and speed `V` of the uniform flow, `dX/dt = V`, `dV/dt = f(V, V, Delta y)`. A perturbation of any size
+//! keeps all its digits, and an error is one of the perturbation, not of the state.
+
+use super::{Form, closing_rates};
+use crate::laws::Law;
+use crate::observe::spread;
+use crate::ring::{Ring, Start};
+use math::simd::{Kernel, dispatch};
+use ode::{Group, Measure, System};
+use std::ops::Range;
+
+/// The ring as deviations from its uniform flow.
+#[derive(Clone, Copy, Debug)]
+pub struct Deviations<L> {
+    law: L,
+    pedestrians: usize,
+    clearance: f64,
+}
+
+impl<L: Law> Deviations<L> {
+    /// The ring under this law.
+    pub fn new(law: L, ring: Ring) -> Deviations<L> {
+        Deviations { law, pedestrians: ring.pedestrians, clearance: ring.headway() - L::CONTACT }
+    }
+
+    /// Indices of `x_0 - X`, `X` and `V`.
+    fn extras(&self) -> (usize, usize, usize) {
+        let n = self.pedestrians;
+        (2 * n, 2 * n + 1, 2 * n + 2)
+    }
+}
+
+impl<L: Law> System for Deviations<L> {
+    fn dimension(&self) -> usize {
+        2 * self.pedestrians + 3
+    }
+
+    fn kinematics(&self, state: &[f64], rates: &mut [f64]) {
+        let n = self.pedestrians;
+        let (first, distance, speed) = self.extras();
+        closing_rates(&state[n..2 * n], &mut rates[..n]);
+        rates[first] = state[n];
+        rates[distance] = state[speed];
+    }
+
+    fn dynamics(&self, state: &[f64], rates: &mut [f64]) {
+        let n = self.pedestrians;
+        let (_, _, speed) = self.extras();
+        let uniform = state[speed];
+        let base = self.law.base(self.clearance, uniform);
+        let (gaps, speeds) = (&state[..n], &state[n..2 * n]);
+        dispatch(Accelerations { law: self.law, base, gaps, speeds, rates: &mut rates[n..2 * n] });
+        rates[speed] = self.law.acceleration(self.clearance, uniform, uniform);
+    }
+
+    fn positions(&self) -> Vec<Range<usize>> {
+        let n = self.pedestrians;
+        vec![0..n, 2 * n..2 * n + 2]
+    }
+
+    /// The perturbation is measured by itself, however small; the uniform flow and the place of the first against 1.
+    fn groups(&self) -> Vec<Group> {
+        let n = self.pedestrians;
+        vec![
+            Group { range: 0..2 * n, measure: Measure::Largest, floor: f64::MIN_POSITIVE },
+            Group { range: 2 * n..2 * n + 3, measure: Measure::Largest, floor: 1.0 },
+        ]
+    }
+
+    fn in_domain(&self, state: &[f64]) -> bool {
+        if !L::SINGULAR {
+            return true;
+        }
+        let n = self.pedestrians;
+        let (gaps, speeds) = (&state[..n], &state[n..2 * n]);
+        let (_, _, speed) = self.extras();
+        // how much room is left for deviations of gap and speeds
+        let room = self.law.room(self.clearance, state[speed], state[speed]);
+        let a_v = self.law.room_per_speed();
+        let closed = |gap: f64, speed: f64, ahead: f64| u64::from(room + (gap - a_v * (speed + ahead)) <= 0.0);
+        let mut count = closed(gaps[n - 1], speeds[n - 1], speeds[0]);
+        for (gap, pair) in gaps.iter().zip(speeds.windows(2)) {
+            count += closed(*gap, pair[0], pair[1]);
+        }
+        count == 0
+    }
+}
+
+/// The accelerations of all pedestrians minus that of the uniform flow.
+struct Accelerations<'a, L: Law> {
+    law: L,
+    base: L::Base,
+    gaps: &'a [f64],
+    speeds: &'a [f64],
+    rates: &'a mut [f64],
+}
+
+impl<L: Law> Kernel for Accelerations<'_, L> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let last = self.gaps.len() - 1;
+        let ahead = &self.speeds[1..];
+        for (((rate, gap), speed), ahead) in self.rates.iter_mut().zip(self.gaps).zip(self.speeds).zip(ahead) {
+            *rate = self.law.deviation(&self.base, *gap, *speed, *ahead);
+        }
+        self.rates[last] = self.law.deviation(&self.base, self.gaps[last], self.speeds[last], self.speeds[0]);
+    }
+}
+
+impl<L: Law> Form for Deviations<L> {
+    fn start(&self, start: Start) -> Vec<f64> {
+        let mut state = vec![0.0; self.dimension()];
+        state[0] -= start.shift;
+        state[self.pedestrians - 1] += start.shift;
+        state[2 * self.pedestrians] = start.shift;
+        state
+    }
+
+    fn read(&self, state: &[f64], gaps: &mut [f64], speeds: &mut [f64]) {
+        let n = self.pedestrians;
+        let (_, _, speed) = self.extras();
+        let headway = self.clearance + L::CONTACT;
+        for (gap, deviation) in gaps.iter_mut().zip(&state[..n]) {
+            *gap = headway + deviation;
+        }
+        for (own, deviation) in speeds.iter_mut().zip(&state[n..2 * n]) {
+            *own = state[speed] + deviation;
+        }
+    }
+
+    fn read_rates(&self, rates: &[f64], gaps: &mut [f64], speeds: &mut [f64]) {
+        let n = self.pedestrians;
+        let (_, _, speed) = self.extras();
+        gaps.copy_from_slice(&rates[..n]);
+        for (own, deviation) in speeds.iter_mut().zip(&rates[n..2 * n]) {
+            *own = rates[speed] + deviation;
+        }
+    }
+
+    fn write_positions(&self, state: &[f64], positions: &mut [f64]) {
+        let (first, distance, _) = self.extras();
+        let headway = self.clearance + L::CONTACT;
+        let mut moved = state[distance] + state[first];
+        for (n, position) in positions.iter_mut().enumerate() {
+            *position = n as f64 * headway + moved;
+            moved += state[n];
+        }
+    }
+
+    fn speed_deviation(&self, state: &[f64]) -> f64 {
+        spread(&state[self.pedestrians..2 * self.pedestrians])
+    }
+}

@@ -1,0 +1,131 @@
+//! Gaps and speeds: `[s_0 - s_c .. s_{N-1} - s_c, v_0 .. v_{N-1}, x_0]` with the gap `s_c` at contact (2, or 0 for the
+//! logarithmic law): a gap that closes keeps all its digits.
+
+use super::{Form, closing_rates};
+use crate::laws::Law;
+use crate::observe::spread;
+use crate::ring::{Ring, Start};
+use math::simd::{Kernel, dispatch};
+use ode::{Group, Measure, System};
+use std::ops::Range;
+
+/// The ring as gaps and speeds.
+#[derive(Clone, Copy, Debug)]
+pub struct Gaps<L> {
+    law: L,
+    pedestrians: usize,
+    clearance: f64,
+}
+
+impl<L: Law> Gaps<L> {
+    /// The ring under this law.
+    pub fn new(law: L, ring: Ring) -> Gaps<L> {
+        Gaps { law, pedestrians: ring.pedestrians, clearance: ring.headway() - L::CONTACT }
+    }
+}
+
+impl<L: Law> System for Gaps<L> {
+    fn dimension(&self) -> usize {
+        2 * self.pedestrians + 1
+    }
+
+    fn kinematics(&self, state: &[f64], rates: &mut [f64]) {
+        let n = self.pedestrians;
+        closing_rates(&state[n..2 * n], &mut rates[..n]);
+        rates[2 * n] = state[n];
+    }
+
+    fn dynamics(&self, state: &[f64], rates: &mut [f64]) {
+        let n = self.pedestrians;
+        let (clearances, speeds) = (&state[..n], &state[n..2 * n]);
+        dispatch(Accelerations { law: self.law, clearances, speeds, rates: &mut rates[n..2 * n] });
+    }
+
+    fn positions(&self) -> Vec<Range<usize>> {
+        let n = self.pedestrians;
+        vec![0..n, 2 * n..2 * n + 1]
+    }
+
+    fn groups(&self) -> Vec<Group> {
+        let n = self.pedestrians;
+        // at a wall the smallest clearance decides, and the force on it needs its digits
+        let clearances = if L::SINGULAR {
+            Group { range: 0..n, measure: Measure::Smallest, floor: f64::MIN_POSITIVE }
+        } else {
+            Group { range: 0..n, measure: Measure::Largest, floor: 1.0 }
+        };
+        vec![
+            clearances,
+            Group { range: n..2 * n, measure: Measure::Largest, floor: 1.0 },
+            Group { range: 2 * n..2 * n + 1, measure: Measure::Largest, floor: 1.0 },
+        ]
+    }
+
+    fn in_domain(&self, state: &[f64]) -> bool {
+        let n = self.pedestrians;
+        let (gaps, speeds) = (&state[..n], &state[n..2 * n]);
+        !L::SINGULAR || (0..n).all(|i| self.law.room(gaps[i], speeds[i], speeds[(i + 1) % n]) > 0.0)
+    }
+}
+
+/// The accelerations of all pedestrians.
+pub(super) struct Accelerations<'a, L: Law> {
+    pub(super) law: L,
+    pub(super) clearances: &'a [f64],
+    pub(super) speeds: &'a [f64],
+    pub(super) rates: &'a mut [f64],
+}
+
+impl<L: Law> Kernel for Accelerations<'_, L> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let last = self.clearances.len() - 1;
+        let ahead = &self.speeds[1..];
+        for (((rate, clearance), speed), ahead) in
+            self.rates.iter_mut().zip(self.clearances).zip(self.speeds).zip(ahead)
+        {
+            *rate = self.law.acceleration(*clearance, *speed, *ahead);
+        }
+        self.rates[last] = self.law.acceleration(self.clearances[last], self.speeds[last], self.speeds[0]);
+    }
+}
+
+impl<L: Law> Form for Gaps<L> {
+    fn start(&self, start: Start) -> Vec<f64> {
+        let n = self.pedestrians;
+        let mut state = vec![0.0; self.dimension()];
+        state[..n].fill(self.clearance);
+        state[0] -= start.shift;
+        state[n - 1] += start.shift;
+        state[2 * n] = start.shift;
+        state
+    }
+
+    fn read(&self, state: &[f64], gaps: &mut [f64], speeds: &mut [f64]) {
+        let n = self.pedestrians;
+        for (gap, clearance) in gaps.iter_mut().zip(&state[..n]) {
+            *gap = clearance + L::CONTACT;
+        }
+        speeds.copy_from_slice(&state[n..2 * n]);
+    }
+
+    fn read_rates(&self, rates: &[f64], gaps: &mut [f64], speeds: &mut [f64]) {
+        let n = self.pedestrians;
+        gaps.copy_from_slice(&rates[..n]);
+        speeds.copy_from_slice(&rates[n..2 * n]);
+    }
+
+    fn write_positions(&self, state: &[f64], positions: &mut [f64]) {
+        let mut position = state[2 * self.pedestrians];
+        for (gap, own) in state.iter().zip(positions) {
+            *own = position;
+            position += gap + L::CONTACT;
+        }
+    }
+
+    fn speed_deviation(&self, state: &[f64]) -> f64 {
+        spread(&state[self.pedestrians..2 * self.pedestrians])
+    }
+}
