@@ -1,0 +1,12 @@
+//! From a scene file to tables: validated scenes ([`law`], [`run`], [`map`], [`curve`]) and their numbers, in memory.
+//! No file is opened here, so that the tables can be computed wherever Rust runs.
+
+pub mod curve;
+pub mod law;
+pub mod map;
+pub mod overrides;
+pub mod run;
+pub mod simulation;
+
+pub use files::reader::RecipeError;
+pub use overrides::Overrides;

@@ -1,0 +1,277 @@
+//! Stability over two parameters: `[map]` with `[law]` and `[uniform]`.
+
+use crate::law;
+use files::reader::{FINITE, POSITIVE, Reader, RecipeError, Section};
+use files::table::Table;
+use jam::criteria;
+use jam::laws::Model;
+use jam::stability::Linear;
+use jam::uniform::steady_speed;
+
+/// What an axis can run over.
+const PARAMETERS: [&str; 11] = ["mu", "delta", "q", "a", "b", "c", "a_v", "v0", "d_gap", "headway", "k"];
+
+/// One axis: cells of equal width, values at their centres.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// The parameter it runs over.
+    pub parameter: &'static str,
+    /// Its lower end.
+    pub from: f64,
+    /// Its upper end.
+    pub to: f64,
+    /// The number of cells.
+    pub cells: usize,
+}
+
+impl Axis {
+    /// The centre of cell `i`.
+    pub fn centre(&self, i: usize) -> f64 {
+        self.from + (self.to - self.from) * ((i as f64 + 0.5) / self.cells as f64)
+    }
+}
+
+/// Which number a map shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Value {
+    /// The paper's criterion, negative where the uniform flow is stable.
+    Criterion,
+    /// `Re z^+`.
+    GrowthRate,
+}
+
+/// A map that can be computed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Map {
+    /// The law; parameters that are an axis are replaced cell by cell.
+    pub model: Model,
+    /// What is shown.
+    pub value: Value,
+    /// The horizontal axis.
+    pub x: Axis,
+    /// The vertical axis.
+    pub y: Axis,
+    point: Point,
+}
+
+/// A point of parameter space besides the law: wave number and uniform flow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Point {
+    headway: Option<f64>,
+    gap: Option<f64>,
+    wave_number: Option<f64>,
+}
+
+/// The numbers of a map and how exact they are.
+#[derive(Clone, Debug)]
+pub struct Computed {
+    /// One row a cell: the two parameters and the value.
+    pub table: Table,
+    /// The largest difference from the same value found another way.
+    pub error: f64,
+}
+
+/// Reads a map from the tables of a panel.
+///
+/// # Errors
+/// What is missing, unknown or out of range, with file and line.
+pub fn read(file: &str, tables: &Section) -> Result<Map, RecipeError> {
+    let mut top = Reader::new(file, "scene", tables);
+    let mut map = Reader::new(file, "map", top.section("map")?);
+    let value = match map.choice("value", &["criterion", "growth_rate"])? {
+        "criterion" => Value::Criterion,
+        _ => Value::GrowthRate,
+    };
+    let (x, y) = (axis(file, "map.x", map.section("x")?)?, axis(file, "map.y", map.section("y")?)?);
+    map.finish()?;
+    let mut law_tables = top.section("law")?.clone();
+    for axis in [&x, &y] {
+        place_holder(&mut law_tables, axis);
+    }
+    let model = law::read(file, &law_tables)?;
+    let point = if top.has("uniform") { uniform(file, top.section("uniform")?)? } else { EMPTY };
+    top.finish()?;
+    let map = Map { model, value, x, y, point };
+    match map.complaint() {
+        None => Ok(map),
+        Some(problem) => Err(Reader::new(file, "scene", tables).complaint("map", &problem)),
+    }
+}
+
+const EMPTY: Point = Point { headway: None, gap: None, wave_number: None };
+
+fn uniform(file: &str, section: &Section) -> Result<Point, RecipeError> {
+    let mut reader = Reader::new(file, "uniform", section);
+    let point = Point {
+        headway: reader.optional_number("headway", POSITIVE)?,
+        gap: reader.optional_number("d_gap", POSITIVE)?,
+        wave_number: reader.optional_number("k", POSITIVE)?,
+    };
+    reader.finish()?;
+    Ok(point)
+}
+
+fn axis(file: &str, name: &'static str, section: &Section) -> Result<Axis, RecipeError> {
+    let mut reader = Reader::new(file, name, section);
+    let axis = Axis {
+        parameter: reader.choice("parameter", &PARAMETERS)?,
+        from: reader.number("from", 0.0..)?,
+        to: reader.number("to", FINITE)?,
+        cells: reader.count("cells", 1, 10_000)?,
+    };
+    if axis.to <= axis.from {
+        return Err(reader.complaint("to", &format!("must be above from = {:?}", axis.from)));
+    }
+    reader.finish()?;
+    Ok(axis)
+}
+
+/// A parameter of the law that is an axis need not be named: any value stands for it until the cells set it.
+fn place_holder(law: &mut Section, axis: &Axis) {
+    use files::reader::{Entry, Value};
+    if !["d_gap", "headway", "k"].contains(&axis.parameter) {
+        let entry = Entry { line: law.line, value: Value::Number(axis.centre(0)) };
+        law.entries.insert(axis.parameter.to_owned(), entry);
+    }
+}
+
+impl Map {
+    /// What keeps the map from being computed, if anything.
+    fn complaint(&self) -> Option<String> {
+        let has = |name| self.x.parameter == name || self.y.parameter == name;
+        if self.value == Value::GrowthRate && !has("k") && self.point.wave_number.is_none() {
+            return Some("growth_rate needs a wave number: an axis k, or uniform.k".to_owned());
+        }
+        let gaps = [has("d_gap") || self.point.gap.is_some(), has("headway") || self.point.headway.is_some()];
+        match (gaps, &self.model) {
+            ([false, false], _) => {
+                Some("needs the uniform flow: uniform.headway or uniform.d_gap, or an axis of it".to_owned())
+            }
+            ([true, true], _) => Some("headway and d_gap determine each other: give one of them".to_owned()),
+            ([true, _], Model::Logarithmic(_)) => Some("the logarithmic law needs the headway, not d_gap".to_owned()),
+            _ => None,
+        }
+    }
+
+    /// The columns of its table.
+    pub fn columns(&self) -> [&'static str; 3] {
+        let value = match self.value {
+            Value::Criterion => "phi",
+            Value::GrowthRate => "re_z",
+        };
+        [self.x.parameter, self.y.parameter, value]
+    }
+
+    /// Computes the map, column of cells by column of cells.
+    ///
+    /// # Errors
+    /// A cell without a uniform flow: its parameters.
+    pub fn compute(&self) -> Result<Computed, String> {
+        let mut table = Table::new(&self.columns());
+        let mut error: f64 = 0.0;
+        for i in 0..self.x.cells {
+            for j in 0..self.y.cells {
+                let (x, y) = (self.x.centre(i), self.y.centre(j));
+                let (value, other) = self
+                    .cell(x, y)
+                    .map_err(|why| format!("at {} = {x:?}, {} = {y:?}: {why}", self.x.parameter, self.y.parameter))?;
+                let difference = (value - other).abs();
+                error = if difference > error || difference.is_nan() { difference } else { error };
+                table.push(&[x, y, value]);
+            }
+        }
+        Ok(Computed { table, error })
+    }
+
+    /// The value of a cell, and the same found another way.
+    fn cell(&self, x: f64, y: f64) -> Result<(f64, f64), String> {
+        let (mut model, mut point) = (self.model, self.point);
+        for (parameter, value) in [(self.x.parameter, x), (self.y.parameter, y)] {
+            match parameter {
+                "d_gap" => point.gap = Some(value),
+                "headway" => point.headway = Some(value),
+                "k" => point.wave_number = Some(value),
+                _ => set(&mut model, parameter, value)?,
+            }
+        }
+        let flow = flow(&model, &point)?;
+        Ok(match self.value {
+            Value::Criterion => (criterion(&model, flow), criterion_again(&model, flow)),
+            Value::GrowthRate => {
+                let k = point.wave_number.unwrap_or(0.0);
+                let linear = linear(&model, flow);
+                (linear.growth_rate(k), linear.refined_growth_rate(k))
+            }
+        })
+    }
+}
+
+/// Replaces one parameter of a law.
+fn set(model: &mut Model, parameter: &str, value: f64) -> Result<(), String> {
+    let place = match (&mut *model, parameter) {
+        (Model::Algebraic(law), "mu") => &mut law.strength,
+        (Model::Algebraic(law), "delta") => &mut law.relative,
+        (Model::Algebraic(law), "q") => &mut law.power,
+        (Model::Algebraic(law), "a_v") => &mut law.widening,
+        (Model::Algebraic(law), "v0") => &mut law.desired_speed,
+        (Model::Exponential(law), "a") => &mut law.strength,
+        (Model::Exponential(law), "b") => &mut law.range,
+        (Model::Exponential(law), "c") => &mut law.contact,
+        (Model::Exponential(law), "a_v") => &mut law.widening,
+        (Model::Exponential(law), "v0") => &mut law.desired_speed,
+        (Model::Logarithmic(law), "a_v") => &mut law.widening,
+        (Model::Logarithmic(law), "v0") => &mut law.desired_speed,
+        _ => return Err(format!("the {} law has no parameter {parameter}", model.name())),
+    };
+    *place = value;
+    Ok(())
+}
+
+/// The uniform flow of a cell: `d'` for the two first laws, headway and speed for the logarithmic one.
+#[derive(Clone, Copy)]
+enum Flow {
+    Gap(f64),
+    Headway(f64, f64),
+}
+
+fn flow(model: &Model, point: &Point) -> Result<Flow, String> {
+    if let Some(gap) = point.gap {
+        return Ok(Flow::Gap(gap));
+    }
+    let headway = point.headway.unwrap_or(0.0);
+    let speed = steady_speed(model, headway).map_err(|error| error.to_string())?;
+    Ok(match model {
+        Model::Algebraic(law) => Flow::Gap(law.gap(headway, speed)),
+        Model::Exponential(law) => Flow::Gap(law.gap(headway, speed)),
+        Model::Logarithmic(_) => Flow::Headway(headway, speed),
+    })
+}
+
+fn criterion(model: &Model, flow: Flow) -> f64 {
+    match (model, flow) {
+        (Model::Algebraic(law), Flow::Gap(gap)) => criteria::algebraic(law, gap),
+        (Model::Exponential(law), Flow::Gap(gap)) => criteria::exponential(law, gap),
+        (Model::Logarithmic(law), Flow::Headway(headway, speed)) => criteria::logarithmic(law, headway, speed),
+        _ => f64::NAN,
+    }
+}
+
+/// The criterion through the coefficients of the linearised law: `phi / (1 + 2 beta) - kappa - 1/2`, which for the
+/// logarithmic law the paper divides once more by `1 + 2 beta`.
+fn criterion_again(model: &Model, flow: Flow) -> f64 {
+    let Linear { phi, beta, kappa } = linear(model, flow);
+    let widened = 1.0 + 2.0 * beta;
+    match model {
+        Model::Logarithmic(_) => (phi / widened - 0.5) / widened,
+        _ => phi / widened - kappa - 0.5,
+    }
+}
+
+fn linear(model: &Model, flow: Flow) -> Linear {
+    match (model, flow) {
+        (Model::Algebraic(law), Flow::Gap(gap)) => law.linearise(gap),
+        (Model::Exponential(law), Flow::Gap(gap)) => law.linearise(gap),
+        (_, Flow::Headway(headway, speed)) => model.linearise(headway, speed),
+        (Model::Logarithmic(_), Flow::Gap(_)) => Linear { phi: f64::NAN, beta: f64::NAN, kappa: f64::NAN },
+    }
+}

@@ -1,0 +1,118 @@
+//! A scene in time, validated: `[law]`, `[ring]`, `[start]`, `[run]`.
+
+use crate::law;
+use files::reader::{FINITE, POSITIVE, Reader, RecipeError, Section};
+use jam::laws::Model;
+use jam::ring::{Ring, Start};
+use jam::states::FormKind;
+use jam::uniform::steady_speed;
+use ode::{Control, Method};
+
+/// A simulation that can be run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// The law of motion.
+    pub model: Model,
+    /// The ring.
+    pub ring: Ring,
+    /// The initial state.
+    pub start: Start,
+    /// The time at which it ends.
+    pub t_end: f64,
+    /// The time between samples; the first is taken at 0.
+    pub sample: f64,
+    /// The method of integration.
+    pub method: Method,
+    /// The rule for the steps.
+    pub control: Control,
+    /// The form of the state.
+    pub form: FormKind,
+    /// Whether positions and speeds of all pedestrians are kept at every sample.
+    pub keeps_trajectories: bool,
+    /// The speed `v'` of the uniform flow.
+    pub steady_speed: f64,
+}
+
+/// As many samples as a run may take, so that a slip in `sample` does not fill the memory.
+const MOST_SAMPLES: f64 = 1e7;
+
+/// Reads a scene from the tables of a panel.
+///
+/// # Errors
+/// What is missing, unknown or out of range, with file and line; gaps that are closed at the start; no uniform flow.
+pub fn read(file: &str, tables: &Section) -> Result<Scene, RecipeError> {
+    let mut top = Reader::new(file, "scene", tables);
+    let model = law::read(file, top.section("law")?)?;
+    let (ring, start) = ring(file, top.section("ring")?, top.section("start")?, &model)?;
+    let mut ring_reader = Reader::new(file, "ring", top.section("ring")?);
+    ring_reader.number("length", POSITIVE)?;
+    let steady_speed =
+        steady_speed(&model, ring.headway()).map_err(|error| ring_reader.complaint("length", &error.to_string()))?;
+    let mut run = Reader::new(file, "run", top.section("run")?);
+    top.finish()?;
+
+    let t_end = run.number("t_end", POSITIVE)?;
+    let sample = run.number("sample", POSITIVE)?;
+    if t_end / sample > MOST_SAMPLES {
+        return Err(run.complaint("sample", &format!("gives {:e} samples; at most {MOST_SAMPLES:e}", t_end / sample)));
+    }
+    let method = method(&mut run)?;
+    let control = control(&mut run, method)?;
+    let form = match run.has("state") {
+        false => FormKind::Deviations,
+        true => match run.choice("state", &["deviations", "gaps", "positions"])? {
+            "gaps" => FormKind::Gaps,
+            "positions" => FormKind::Positions,
+            _ => FormKind::Deviations,
+        },
+    };
+    let keeps_trajectories = !run.has("record") || run.choice("record", &["std", "trajectories"])? == "trajectories";
+    run.finish()?;
+    Ok(Scene { model, ring, start, t_end, sample, method, control, form, keeps_trajectories, steady_speed })
+}
+
+fn ring(file: &str, ring: &Section, start: &Section, model: &Model) -> Result<(Ring, Start), RecipeError> {
+    let mut reader = Reader::new(file, "ring", ring);
+    let ring =
+        Ring { pedestrians: reader.count("pedestrians", 2, 10_000_000)?, length: reader.number("length", POSITIVE)? };
+    let room = model.room(ring.headway(), 0.0, 0.0);
+    if room <= 0.0 {
+        let problem = format!(
+            "the gaps are closed at the start: L/N = {:?} leaves {room:?}; the length must be above {:?}",
+            ring.headway(),
+            (ring.headway() - room) * ring.pedestrians as f64
+        );
+        return Err(reader.complaint("length", &problem));
+    }
+    reader.finish()?;
+    let mut reader = Reader::new(file, "start", start);
+    let shift = reader.number("shift", FINITE)?;
+    if shift.abs() >= room {
+        return Err(
+            reader.complaint("shift", &format!("closes a gap at the start; must be between {:?} and {room:?}", -room))
+        );
+    }
+    reader.finish()?;
+    Ok((ring, Start { shift }))
+}
+
+fn method(run: &mut Reader<'_>) -> Result<Method, RecipeError> {
+    let name = run.choice("method", &Method::ALL.map(Method::name))?;
+    Ok(Method::ALL.into_iter().find(|method| method.name() == name).unwrap_or(Method::Dop853))
+}
+
+/// `tolerance` for methods that choose their steps, `dt` for any.
+fn control(run: &mut Reader<'_>, method: Method) -> Result<Control, RecipeError> {
+    let tolerance = run.optional_number("tolerance", 1e-15..=1e-2)?;
+    let step = run.optional_number("dt", POSITIVE)?;
+    match (tolerance, step) {
+        (None, Some(step)) => Ok(Control::Fixed { step }),
+        (Some(tolerance), None) if method.is_adaptive() => Ok(Control::Adaptive { tolerance }),
+        (Some(_), None) => {
+            let problem = format!("{} has no error estimate and needs dt, the length of its steps", method.name());
+            Err(run.complaint("tolerance", &problem))
+        }
+        (Some(_), Some(_)) => Err(run.complaint("dt", "give either dt or tolerance, not both")),
+        (None, None) => Err(run.complaint("method", "needs tolerance (adaptive methods) or dt (fixed steps)")),
+    }
+}

@@ -1,0 +1,199 @@
+//! Running a scene: the tables of its standard deviation and trajectories, its events, its statistics.
+
+use crate::run::Scene;
+use files::table::Table;
+use jam::events::{Event, Happening, Watch};
+use jam::jams;
+use jam::states::{Form, FormKind, gaps_state};
+use ode::{Control, Failure, Observer, Problem, Sampler, Statistics, Step, integrate};
+use std::ops::ControlFlow;
+
+/// What a run gives.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// `t, std`: up to the first stop.
+    pub std: Table,
+    /// `t, n, x, v`: up to the first stop; empty when the scene does not keep them.
+    pub trajectories: Table,
+    /// The first event of each kind, in order of time; those after a stop belong to the continued run.
+    pub events: Vec<Happening>,
+    /// Steps, evaluations, the time reached.
+    pub statistics: Statistics,
+    /// Positions and speeds at the time reached.
+    pub positions: Vec<f64>,
+    /// See `positions`.
+    pub speeds: Vec<f64>,
+    /// Jams at the last sample before the end or the first stop.
+    pub jams: Vec<jams::Jam>,
+    /// Mean speed of the jams between the last two samples.
+    pub jam_speed: Option<f64>,
+}
+
+impl Outcome {
+    /// The first event that ends the drawn part of the run.
+    pub fn stop(&self) -> Option<&Happening> {
+        self.events.iter().find(|happening| happening.event.is_stop())
+    }
+}
+
+/// Runs a scene to its end, or to the event that ends it.
+///
+/// # Errors
+/// The integration failed before anything stopped it, with the time it reached.
+pub fn run(scene: &Scene) -> Result<Outcome, Failure> {
+    let form = scene.form.build(&scene.model, scene.ring);
+    let near_walls = FormKind::Gaps.build(&scene.model, scene.ring);
+    let mut recorder = Recorder::new(scene, &*form);
+    let start = form.start(scene.start);
+    recorder.record.take(0.0, &start);
+    let mut statistics = recorder.leg(&*form, 0.0, &start)?;
+    let mut last: &dyn Form = &*form;
+    let count = scene.ring.pedestrians;
+    let (mut positions, mut gaps, mut speeds) = (vec![0.0; count], vec![0.0; count], vec![0.0; count]);
+    if recorder.is_near_walls {
+        form.write_positions(&statistics.state, &mut positions);
+        form.read(&statistics.state, &mut gaps, &mut speeds);
+        let state = gaps_state(&scene.model, &gaps, &speeds, positions[0]);
+        recorder.change_form(&*near_walls);
+        let first_leg = statistics;
+        statistics = recorder.leg(&*near_walls, first_leg.time, &state)?;
+        statistics.steps += first_leg.steps;
+        statistics.rejected += first_leg.rejected;
+        statistics.evaluations += first_leg.evaluations;
+        last = &*near_walls;
+    }
+    last.write_positions(&statistics.state, &mut positions);
+    last.read(&statistics.state, &mut gaps, &mut speeds);
+    let Recorder { watch, record, .. } = recorder;
+    let events = watch.found().to_vec();
+    Ok(Outcome {
+        std: record.std,
+        trajectories: record.trajectories,
+        events,
+        statistics,
+        positions,
+        speeds,
+        jam_speed: jams::drift(&record.earlier_jams, &record.jams, scene.ring.length, scene.sample),
+        jams: record.jams,
+    })
+}
+
+/// A pedestrian faster than this many desired speeds was thrown back from a wall, to within less than 1e-3 of it for
+/// the paper's parameters. From there on the clearances are the state, which keep all digits however small they become;
+/// deviations from the uniform flow do not.
+const NEAR_WALLS: f64 = 10.0;
+
+/// Takes samples and looks for events, step by step.
+struct Recorder<'a> {
+    scene: &'a Scene,
+    sampler: Sampler,
+    watch: Watch<'a>,
+    record: Record<'a>,
+    is_stopped: bool,
+    is_near_walls: bool,
+}
+
+impl<'a> Recorder<'a> {
+    fn new(scene: &'a Scene, form: &'a dyn Form) -> Recorder<'a> {
+        Recorder {
+            scene,
+            sampler: Sampler::new(scene.sample, form.dimension()),
+            watch: Watch::new(scene.model, form, scene.ring.pedestrians),
+            record: Record::new(scene, form),
+            is_stopped: false,
+            is_near_walls: false,
+        }
+    }
+
+    /// Integrates from this time and state to the end of the run, or until an event or the walls break it off.
+    fn leg(&mut self, form: &dyn Form, begin: f64, state: &[f64]) -> Result<Statistics, Failure> {
+        let Scene { t_end: end, method, control, .. } = *self.scene;
+        integrate(&Problem { system: form, start: state, begin, end, method, control }, self)
+    }
+
+    /// Goes on in another form of the same state.
+    fn change_form(&mut self, form: &'a dyn Form) {
+        self.watch.change_form(form);
+        self.record.form = form;
+        self.sampler.change_dimension(form.dimension());
+    }
+
+    /// Whether the leg in deviations ends here. Fixed steps stay in the form they were asked for.
+    fn comes_near_walls(&self) -> bool {
+        let scene = self.scene;
+        let is_open = !self.is_near_walls && scene.form == FormKind::Deviations && scene.model.is_singular();
+        let fast = NEAR_WALLS * scene.model.desired_speed();
+        is_open
+            && matches!(scene.control, Control::Adaptive { .. })
+            && self.watch.speeds().iter().any(|v| v.abs() > fast)
+    }
+}
+
+impl Observer for Recorder<'_> {
+    fn after(&mut self, step: &mut Step<'_>) -> ControlFlow<()> {
+        let new = self.watch.look(step);
+        if !self.is_stopped {
+            let stop = new.iter().find(|happening| happening.event.is_stop());
+            let until = stop.map_or(self.scene.t_end, |happening| happening.time);
+            let record = &mut self.record;
+            self.sampler.within(step, until, &mut |t, state| record.take(t, state));
+            self.is_stopped = stop.is_some();
+        }
+        if self.comes_near_walls() {
+            self.is_near_walls = true;
+            return ControlFlow::Break(());
+        }
+        let happened = |event: Event| self.watch.found().iter().any(|happening| happening.event == event);
+        let continues = !self.scene.model.is_singular();
+        let is_over = happened(Event::BlowUp)
+            || self.is_stopped
+                && (!continues || happened(Event::NegativeSpeed) && happened(Event::Exchange));
+        if is_over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}
+
+/// The tables under way.
+struct Record<'a> {
+    scene: &'a Scene,
+    form: &'a dyn Form,
+    std: Table,
+    trajectories: Table,
+    positions: Vec<f64>,
+    gaps: Vec<f64>,
+    speeds: Vec<f64>,
+    jams: Vec<jams::Jam>,
+    earlier_jams: Vec<jams::Jam>,
+}
+
+impl<'a> Record<'a> {
+    fn new(scene: &'a Scene, form: &'a dyn Form) -> Record<'a> {
+        let zeros = || vec![0.0; scene.ring.pedestrians];
+        Record {
+            scene,
+            form,
+            std: Table::new(&["t", "std"]),
+            trajectories: Table::new(&["t", "n", "x", "v"]),
+            positions: zeros(),
+            gaps: zeros(),
+            speeds: zeros(),
+            jams: Vec::new(),
+            earlier_jams: Vec::new(),
+        }
+    }
+
+    fn take(&mut self, t: f64, state: &[f64]) {
+        self.std.push(&[t, self.form.speed_deviation(state)]);
+        self.form.write_positions(state, &mut self.positions);
+        self.form.read(state, &mut self.gaps, &mut self.speeds);
+        if self.scene.keeps_trajectories {
+            for (n, (x, v)) in self.positions.iter().zip(&self.speeds).enumerate() {
+                self.trajectories.push(&[t, n as f64, *x, *v]);
+            }
+        }
+        self.earlier_jams = std::mem::take(&mut self.jams);
+        let desired = self.scene.model.desired_speed();
+        if let Some(threshold) = jams::threshold(&self.speeds, desired) {
+            self.jams = jams::find(&self.positions, &self.speeds, self.scene.ring.length, threshold);
+        }
+    }
+}
