@@ -54,13 +54,53 @@ pub struct Happening {
     pub pedestrian: usize,
 }
 
-/// Gaps and speeds with their rates at one instant.
+/// Gaps, speeds and rooms with their rates at one instant.
 #[derive(Clone, Debug)]
 struct Instant {
     gaps: Vec<f64>,
     speeds: Vec<f64>,
+    rooms: Vec<f64>,
     gap_rates: Vec<f64>,
     speed_rates: Vec<f64>,
+    room_rates: Vec<f64>,
+}
+
+impl Instant {
+    fn new(pedestrians: usize) -> Instant {
+        let zeros = || vec![0.0; pedestrians];
+        Instant {
+            gaps: zeros(),
+            speeds: zeros(),
+            rooms: zeros(),
+            gap_rates: zeros(),
+            speed_rates: zeros(),
+            room_rates: zeros(),
+        }
+    }
+
+    fn read(&mut self, form: &dyn Form, model: &Model, state: &[f64], rates: &[f64]) {
+        form.read(state, &mut self.gaps, &mut self.speeds);
+        form.read_rates(rates, &mut self.gap_rates, &mut self.speed_rates);
+        // the room is linear in gap and speeds, and so are its rates in theirs
+        let a_v = model.room_per_speed();
+        combine(&self.gaps, &self.speeds, a_v, model.contact(), &mut self.rooms);
+        combine(&self.gap_rates, &self.speed_rates, a_v, 0.0, &mut self.room_rates);
+    }
+}
+
+/// Writes `gap - a_v (speed + speed ahead) - offset`.
+fn combine(gaps: &[f64], speeds: &[f64], a_v: f64, offset: f64, rooms: &mut [f64]) {
+    for (room, gap) in rooms.iter_mut().zip(gaps) {
+        *room = gap - offset;
+    }
+    if a_v == 0.0 {
+        return;
+    }
+    let last = gaps.len() - 1;
+    for (room, pair) in rooms.iter_mut().zip(speeds.windows(2)) {
+        *room -= a_v * (pair[0] + pair[1]);
+    }
+    rooms[last] -= a_v * (speeds[last] + speeds[0]);
 }
 
 /// Watches the steps of a run for the first event of each kind.
@@ -70,6 +110,7 @@ pub struct Watch<'a> {
     found: Vec<Happening>,
     before: Instant,
     after: Instant,
+    is_under_way: bool,
 }
 
 /// A step in which an event may lie is searched in this many parts.
@@ -78,14 +119,14 @@ const PARTS: u32 = 16;
 impl<'a> Watch<'a> {
     /// A watch over a ring of `pedestrians` in this form.
     pub fn new(model: Model, form: &'a dyn Form, pedestrians: usize) -> Watch<'a> {
-        let zeros = || vec![0.0; pedestrians];
-        let instant = Instant { gaps: zeros(), speeds: zeros(), gap_rates: zeros(), speed_rates: zeros() };
-        Watch { model, form, found: Vec::new(), before: instant.clone(), after: instant }
+        let instant = Instant::new(pedestrians);
+        Watch { model, form, found: Vec::new(), before: instant.clone(), after: instant, is_under_way: false }
     }
 
     /// Goes on with the same ring in another form.
     pub fn change_form(&mut self, form: &'a dyn Form) {
         self.form = form;
+        self.is_under_way = false;
     }
 
     /// The speeds at the end of the step looked at last.
@@ -100,8 +141,12 @@ impl<'a> Watch<'a> {
 
     /// Looks for events in a step; returns those that are new, in order of time.
     pub fn look(&mut self, step: &mut Step<'_>) -> Vec<Happening> {
-        read(self.form, step.before(), step.rates_before(), &mut self.before);
-        read(self.form, step.after(), step.rates_after(), &mut self.after);
+        std::mem::swap(&mut self.before, &mut self.after);
+        if !self.is_under_way {
+            self.before.read(self.form, &self.model, step.before(), step.rates_before());
+            self.is_under_way = true;
+        }
+        self.after.read(self.form, &self.model, step.after(), step.rates_after());
         let mut new = Vec::new();
         for event in Event::ALL {
             let is_known = self.found.iter().any(|happening| happening.event == event);
@@ -114,20 +159,19 @@ impl<'a> Watch<'a> {
         new
     }
 
-    /// Whether the event's value can be negative within the step. The control points of the cubic through both ends
-    /// (its Bernstein coefficients) bound it from below, so this costs no interpolation.
+    /// Whether the event's value can be negative within the step.
     fn may_lie_within(&self, event: Event, h: f64) -> bool {
-        let count = self.before.gaps.len();
-        let value = |n: usize, at: &Instant| self.value(event, at.gaps[n], at.speeds[n], at.speeds[(n + 1) % count]);
-        let rate = |n: usize, at: &Instant| {
-            self.rate(event, at.speeds[n], at.gap_rates[n], at.speed_rates[n], at.speed_rates[(n + 1) % count])
-        };
-        (0..count).any(|n| {
-            let (before, after) = (value(n, &self.before), value(n, &self.after));
-            let third = h / 3.0;
-            let (leaving, arriving) = (before + third * rate(n, &self.before), after - third * rate(n, &self.after));
-            after < 0.0 || before < 0.0 || leaving < 0.0 || arriving < 0.0
-        })
+        let (before, after) = (&self.before, &self.after);
+        match event {
+            Event::Overlap => {
+                may_be_negative((&before.rooms, &before.room_rates), (&after.rooms, &after.room_rates), h)
+            }
+            Event::NegativeSpeed => {
+                may_be_negative((&before.speeds, &before.speed_rates), (&after.speeds, &after.speed_rates), h)
+            }
+            Event::Exchange => may_be_negative((&before.gaps, &before.gap_rates), (&after.gaps, &after.gap_rates), h),
+            Event::BlowUp => after.speeds.iter().any(|speed| speed.abs() > self.bound()),
+        }
     }
 
     fn locate(&self, event: Event, step: &mut Step<'_>) -> Option<Happening> {
@@ -155,22 +199,26 @@ impl<'a> Watch<'a> {
         }
     }
 
-    fn rate(&self, event: Event, speed: f64, gap_rate: f64, speed_rate: f64, ahead_rate: f64) -> f64 {
-        match event {
-            Event::Overlap => gap_rate - self.model.room_per_speed() * (speed_rate + ahead_rate),
-            Event::NegativeSpeed => speed_rate,
-            Event::Exchange => gap_rate,
-            Event::BlowUp => -speed_rate * speed.signum(),
-        }
-    }
-
     fn bound(&self) -> f64 {
         let desired = self.model.desired_speed();
         BLOW_UP * if desired > 1.0 { desired } else { 1.0 }
     }
 }
 
-fn read(form: &dyn Form, state: &[f64], rates: &[f64], instant: &mut Instant) {
-    form.read(state, &mut instant.gaps, &mut instant.speeds);
-    form.read_rates(rates, &mut instant.gap_rates, &mut instant.speed_rates);
+/// Whether any of the cubics with these values and rates at both ends of a step of length `h` can be negative within it:
+/// the control points of a cubic (its Bernstein coefficients) bound it from below, so no interpolation is needed.
+fn may_be_negative(before: (&[f64], &[f64]), after: (&[f64], &[f64]), h: f64) -> bool {
+    let third = h / 3.0;
+    let starts = before.0.iter().zip(before.1);
+    let ends = after.0.iter().zip(after.1);
+    // counted, not searched: a loop without an exit runs several pedestrians at a time
+    let count: u64 = starts
+        .zip(ends)
+        .map(|((start, leaving), (end, arriving))| {
+            let negative =
+                (*start < 0.0) | (*end < 0.0) | (start + third * leaving < 0.0) | (end - third * arriving < 0.0);
+            u64::from(negative)
+        })
+        .sum();
+    count > 0
 }

@@ -1,0 +1,32 @@
+//! Figure 13 (fig:std_vel_log): standard deviation of the speeds, logarithmic force.
+
+use figures::panels::points;
+use figures::{Failure, Job, figure};
+use plot::style::COLUMN_WIDTH;
+use plot::{Axis, Corner, Legend, Lines, Marker, Picture, Series};
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    figure(env!("CARGO_BIN_NAME"), tables, picture)
+}
+
+fn tables(job: &mut Job) -> Result<(), Failure> {
+    job.take("std", "std", "std")?;
+    job.take("std_small_shift", "std", "std_small_shift")
+}
+
+fn picture(job: &Job) -> Result<Picture, Failure> {
+    let published = points(&job.reference("published_std_log")?, "t", "std")?;
+    let panel = Lines::new(Axis::linear("$t$", 0.0, 3000.0).steps(3), Axis::linear("std of speeds", 0.0, 0.4).steps(4))
+        .legend(Legend::Corner(Corner::BottomRight))
+        .series(Series::line("$\\epsilon_1 = 0.1$", points(&job.read("std")?, "t", "std")?))
+        .series(Series::points("published", Marker::Circle, published).every(4))
+        .series(
+            Series::line(
+                "$\\epsilon_1 = 10^{-4}$, as the text says",
+                points(&job.read("std_small_shift")?, "t", "std")?,
+            )
+            .look(1),
+        );
+    Ok(Picture::new(COLUMN_WIDTH, 62.0).panel(panel))
+}

@@ -1,0 +1,53 @@
+//! Failures of a binary, and the exit codes that tell them apart.
+
+use std::process::ExitCode;
+
+/// Why a binary could not do its work: the message for the user, and the exit code.
+#[derive(Debug)]
+pub struct Failure {
+    /// One clear message: what, where, and what would be valid.
+    pub message: String,
+    /// 2: bad input; 4: the work itself failed (disk full, integration impossible).
+    pub code: u8,
+}
+
+impl Failure {
+    /// Bad input.
+    pub fn input(problem: impl std::fmt::Display) -> Failure {
+        Failure { message: problem.to_string(), code: 2 }
+    }
+
+    /// The work failed.
+    pub fn work(problem: impl std::fmt::Display) -> Failure {
+        Failure { message: problem.to_string(), code: 4 }
+    }
+}
+
+impl From<scene::RecipeError> for Failure {
+    fn from(error: scene::RecipeError) -> Failure {
+        Failure::input(error)
+    }
+}
+
+impl From<std::io::Error> for Failure {
+    fn from(error: std::io::Error) -> Failure {
+        Failure::work(error)
+    }
+}
+
+impl From<files::table::TableError> for Failure {
+    fn from(error: files::table::TableError) -> Failure {
+        Failure::work(error)
+    }
+}
+
+/// Prints a failure and turns the result into the exit code of the process.
+pub fn exit(result: Result<(), Failure>) -> ExitCode {
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("error: {}", failure.message);
+            ExitCode::from(failure.code)
+        }
+    }
+}

@@ -1,0 +1,174 @@
+//! A figure's binary: tables first, from runs and laws; then the picture, from the tables alone.
+
+use crate::failure::{Failure, exit};
+use clap::Parser;
+use files::recipe::{self, Kind, Panel, Recipe};
+use files::table::Table;
+use files::write::{atomic, with_path};
+use plot::Picture;
+use serde_json::{Map, Value, json};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// The command line of every figure.
+#[derive(Debug, Parser)]
+#[command(about = "Makes the tables and the picture of one figure")]
+struct Arguments {
+    /// The scene file
+    #[arg(long)]
+    scene: PathBuf,
+    /// PANEL=DIR: where the run of a panel lies
+    #[arg(long = "run", value_parser = run_folder)]
+    runs: Vec<(String, PathBuf)>,
+    /// Folder of the tables
+    #[arg(long)]
+    tables: PathBuf,
+    /// Folder of the pictures
+    #[arg(long)]
+    pictures: PathBuf,
+    /// Folder of values from outside
+    #[arg(long, default_value = "data/reference")]
+    reference: PathBuf,
+    /// File for what is known of the tables' accuracy
+    #[arg(long)]
+    report: Option<PathBuf>,
+    /// Draw from the tables that are there
+    #[arg(long)]
+    draw_only: bool,
+}
+
+fn run_folder(text: &str) -> Result<(String, PathBuf), String> {
+    let (panel, folder) = text.split_once('=').ok_or_else(|| format!("{text}: must be PANEL=DIR"))?;
+    Ok((panel.to_owned(), PathBuf::from(folder)))
+}
+
+/// The figure at work.
+#[derive(Debug)]
+pub struct Job {
+    /// Its scene file.
+    pub recipe: Recipe,
+    arguments: Arguments,
+    report: Map<String, Value>,
+}
+
+/// Runs a figure's binary: `tables` writes its tables, `picture` draws from them. `name` is that of the binary.
+pub fn figure(
+    name: &str,
+    tables: fn(&mut Job) -> Result<(), Failure>,
+    picture: fn(&Job) -> Result<Picture, Failure>,
+) -> ExitCode {
+    exit(run(name, tables, picture))
+}
+
+fn run(
+    name: &str,
+    tables: fn(&mut Job) -> Result<(), Failure>,
+    picture: fn(&Job) -> Result<Picture, Failure>,
+) -> Result<(), Failure> {
+    let arguments = Arguments::parse();
+    let recipe = recipe::read(&arguments.scene)?;
+    let mut job = Job { recipe, arguments, report: Map::new() };
+    for folder in [&job.arguments.tables, &job.arguments.pictures] {
+        std::fs::create_dir_all(folder).map_err(|error| with_path(error, folder))?;
+    }
+    if !job.arguments.draw_only {
+        tables(&mut job)?;
+    }
+    let rendered = picture(&job)?.render().map_err(Failure::work)?;
+    let id = name.split('-').next().unwrap_or(name);
+    atomic(&job.arguments.pictures.join(format!("{id}.svg")), &rendered.svg)?;
+    atomic(&job.arguments.pictures.join(format!("{id}.png")), &rendered.png)?;
+    if let Some(file) = &job.arguments.report {
+        let report = json!({ "schema_version": 1, "tables": job.report });
+        atomic(file, format!("{report:#}\n").as_bytes())?;
+    }
+    Ok(())
+}
+
+impl Job {
+    /// Writes a table under this name.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write(&self, name: &str, table: &Table) -> Result<(), Failure> {
+        Ok(atomic(&self.arguments.tables.join(format!("{name}.csv")), &table.to_csv())?)
+    }
+
+    /// Reads a table of this figure.
+    ///
+    /// # Errors
+    /// It is missing or damaged.
+    pub fn read(&self, name: &str) -> Result<Table, Failure> {
+        Ok(Table::read(&self.arguments.tables.join(format!("{name}.csv")))?)
+    }
+
+    /// Reads a table of the run of a panel: `std` or `trajectories`.
+    ///
+    /// # Errors
+    /// No `--run` for this panel, or the table is missing or damaged.
+    pub fn run_table(&self, panel: &str, name: &str) -> Result<Table, Failure> {
+        Ok(Table::read(&self.run_file(panel, name)?)?)
+    }
+
+    /// Takes a table of the run of a panel as it is.
+    ///
+    /// # Errors
+    /// As [`Job::run_table`], or the copy cannot be written.
+    pub fn take(&self, panel: &str, name: &str, target: &str) -> Result<(), Failure> {
+        let file = self.run_file(panel, name)?;
+        let bytes = std::fs::read(&file).map_err(|error| with_path(error, &file))?;
+        Ok(atomic(&self.arguments.tables.join(format!("{target}.csv")), &bytes)?)
+    }
+
+    fn run_file(&self, panel: &str, name: &str) -> Result<PathBuf, Failure> {
+        let known = self.arguments.runs.iter().find(|(given, _)| given == panel);
+        let (_, folder) = known.ok_or_else(|| Failure::input(format!("no --run {panel}=DIR was given")))?;
+        Ok(folder.join(format!("{name}.csv")))
+    }
+
+    /// Reads a table of values from outside.
+    ///
+    /// # Errors
+    /// It is missing or damaged.
+    pub fn reference(&self, name: &str) -> Result<Table, Failure> {
+        Ok(Table::read(&self.arguments.reference.join(format!("{name}.csv")))?)
+    }
+
+    /// The panel of this name.
+    ///
+    /// # Errors
+    /// The scene has none.
+    pub fn panel(&self, name: &str) -> Result<&Panel, Failure> {
+        Ok(self.recipe.panel(name)?)
+    }
+
+    /// Computes the tables of all maps and curves of the scene, each under the name of its panel.
+    ///
+    /// # Errors
+    /// The scene is invalid, or a table cannot be written.
+    pub fn compute_panels(&mut self) -> Result<(), Failure> {
+        for panel in self.recipe.panels.clone() {
+            self.compute(&panel, &panel.name)?;
+        }
+        Ok(())
+    }
+
+    /// Computes the table of one map or curve under the given name.
+    ///
+    /// # Errors
+    /// As [`Job::compute_panels`].
+    pub fn compute(&mut self, panel: &Panel, name: &str) -> Result<(), Failure> {
+        let table = match panel.kind {
+            Kind::Map => {
+                let map = scene::map::read(&self.recipe.file, &panel.tables)?;
+                let computed = map.compute().map_err(Failure::input)?;
+                let error = json!({ map.columns()[2]: computed.error });
+                self.report.insert(name.to_owned(), json!({ "method": "closed form", "error": error }));
+                computed.table
+            }
+            Kind::Curve => scene::curve::table(&self.recipe.file, &panel.tables)?,
+            Kind::Run | Kind::Drawing => return Ok(()),
+        };
+        self.write(name, &table)
+    }
+}

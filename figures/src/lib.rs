@@ -1,0 +1,12 @@
+//! What the figures' binaries share: the command line and where tables and pictures go ([`job`]), panels that several
+//! figures draw ([`panels`]), exit codes ([`failure`]); and the two programs for scenes of one's own ([`simulate`],
+//! [`map`]).
+
+pub mod failure;
+pub mod job;
+pub mod map;
+pub mod panels;
+pub mod simulate;
+
+pub use failure::Failure;
+pub use job::{Job, figure};

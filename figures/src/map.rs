@@ -1,0 +1,76 @@
+//! A stability map of one's own: table and picture.
+
+use crate::failure::Failure;
+use crate::panels::map_panel;
+use clap::Parser;
+use files::recipe::{self, Kind};
+use files::write::{atomic, with_path};
+use plot::style::COLUMN_WIDTH;
+use plot::{ColorScale, Picture};
+use serde_json::json;
+use std::path::PathBuf;
+
+/// What the command line asks for.
+#[derive(Debug, Parser)]
+#[command(name = "map", about = "Computes the stability maps of a scene and writes tables and pictures")]
+pub struct Arguments {
+    /// The scene file
+    scene: PathBuf,
+    /// Folder for PANEL.csv, PANEL.png, PANEL.svg; made if missing
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Tables only, no pictures
+    #[arg(long)]
+    tables_only: bool,
+    /// Print a summary as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Values are shown up to this size unless the map stays below.
+const LARGEST_SHOWN: f64 = 0.5;
+
+/// Computes the maps and writes what was asked for.
+///
+/// # Errors
+/// A bad scene (nothing is written), or a file that cannot be written.
+pub fn main(arguments: &Arguments) -> Result<(), Failure> {
+    let recipe = recipe::read(&arguments.scene)?;
+    let panels: Vec<_> = recipe.panels.iter().filter(|panel| panel.kind == Kind::Map).collect();
+    if panels.is_empty() {
+        return Err(Failure::input(format!("{}: has no [map]; a run is made with `simulate`", recipe.file)));
+    }
+    let mut computed = Vec::new();
+    for panel in panels {
+        let map = scene::map::read(&recipe.file, &panel.tables)?;
+        let numbers = map.compute().map_err(|problem| Failure::input(format!("{}: {problem}", recipe.file)))?;
+        computed.push((panel.name.as_str(), map, numbers));
+    }
+    let mut summary = Vec::new();
+    for (name, map, numbers) in &computed {
+        let [_, _, value] = map.columns();
+        let values = numbers.table.column(value)?;
+        let unstable = values.iter().filter(|&&value| value > 0.0).count() as f64 / values.len() as f64;
+        summary.push(json!({ "panel": name, "value": value, "cells": values.len(), "unstable_share": unstable, "error": numbers.error }));
+        if !arguments.json {
+            println!("{name}: {} cells, {:.1} % unstable, error {:.1e}", values.len(), 100.0 * unstable, numbers.error);
+        }
+        let Some(folder) = &arguments.out else { continue };
+        std::fs::create_dir_all(folder).map_err(|error| with_path(error, folder))?;
+        atomic(&folder.join(format!("{name}.csv")), &numbers.table.to_csv())?;
+        if !arguments.tables_only {
+            let largest =
+                values.iter().fold(0.0, |most: f64, value| if value.abs() > most { value.abs() } else { most });
+            let limit = if largest > 0.0 && largest < LARGEST_SHOWN { largest } else { LARGEST_SHOWN };
+            let scale = ColorScale::diverging(if value == "phi" { "$\\Phi$" } else { "$\\mathrm{Re}\\,z^+$" }, limit);
+            let picture = Picture::new(COLUMN_WIDTH, 70.0).scale(scale).panel(map_panel(map, &numbers.table)?);
+            let rendered = picture.render().map_err(Failure::work)?;
+            atomic(&folder.join(format!("{name}.svg")), &rendered.svg)?;
+            atomic(&folder.join(format!("{name}.png")), &rendered.png)?;
+        }
+    }
+    if arguments.json {
+        println!("{}", json!({ "schema_version": 1, "maps": summary }));
+    }
+    Ok(())
+}

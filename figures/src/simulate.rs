@@ -1,0 +1,208 @@
+//! Running a scene from the command line: tables, events and a summary.
+
+use crate::failure::Failure;
+use cpu_time::ProcessTime;
+use files::recipe::{self, Kind};
+use files::table::Table;
+use files::write::atomic;
+use ode::Control;
+use scene::Overrides;
+use scene::run::Scene;
+use scene::simulation::{Outcome, run};
+use serde_json::{Value, json};
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+/// What the command line asks for.
+#[derive(Debug, clap::Parser)]
+#[command(name = "simulate", about = "Runs a scene and writes its tables, events, summary and pictures")]
+pub struct Arguments {
+    /// The scene file
+    scene: PathBuf,
+    /// The panel of a scene that has several
+    #[arg(long)]
+    panel: Option<String>,
+    /// Folder for std.csv, trajectories.csv, events.csv, summary.json and pictures; made if missing
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Tables and summary only, no pictures
+    #[arg(long)]
+    tables_only: bool,
+    /// euler, ballistic, heun, rk4 (with --dt), dop853, extrapolation (with --tol or --dt)
+    #[arg(long)]
+    method: Option<String>,
+    /// Largest local error, relative to the perturbation: 1e-15 to 1e-2
+    #[arg(long, value_name = "X", conflicts_with = "dt")]
+    tol: Option<f64>,
+    /// Length of every step, in units of tau
+    #[arg(long, value_name = "X")]
+    dt: Option<f64>,
+    /// Time at which the run ends
+    #[arg(long, value_name = "T")]
+    t_end: Option<f64>,
+    /// Time between samples
+    #[arg(long, value_name = "DT")]
+    sample: Option<f64>,
+    /// File for the final state: n, x, v
+    #[arg(long, value_name = "FILE")]
+    state: Option<PathBuf>,
+    /// The scheme: as the scene says, or the paper's (Heun, steps of 1e-5, positions)
+    #[arg(long, value_parser = ["adaptive", "paper"], default_value = "adaptive")]
+    scheme: String,
+    /// The independent run that estimates the error: another method at a tighter tolerance
+    #[arg(long, conflicts_with_all = ["method", "tol", "dt"])]
+    check: bool,
+    /// Print the summary as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the scene and writes what was asked for.
+///
+/// # Errors
+/// A bad scene or option (nothing is written), a failed integration, a file that cannot be written.
+pub fn main(arguments: &Arguments) -> Result<(), Failure> {
+    let scene = read_scene(arguments)?;
+    let clock = ProcessTime::now();
+    let outcome = run(&scene).map_err(Failure::work)?;
+    let seconds = clock.elapsed().as_secs_f64();
+    let summary = summary(&scene, &outcome, seconds);
+    if let Some(folder) = &arguments.out {
+        std::fs::create_dir_all(folder).map_err(|error| files::write::with_path(error, folder))?;
+        write_tables(folder, &scene, &outcome)?;
+        atomic(&folder.join("summary.json"), pretty(&summary).as_bytes())?;
+    }
+    if let Some(file) = &arguments.state {
+        atomic(file, &state(&outcome).to_csv())?;
+    }
+    if arguments.json {
+        println!("{summary}");
+    } else {
+        println!("{}", in_words(&scene, &outcome, seconds));
+    }
+    Ok(())
+}
+
+fn read_scene(arguments: &Arguments) -> Result<Scene, Failure> {
+    let recipe = recipe::read(&arguments.scene)?;
+    let panel = match &arguments.panel {
+        Some(name) => recipe.panel(name)?,
+        None if recipe.panels.len() == 1 => &recipe.panels[0],
+        None => {
+            let names: Vec<&str> = recipe.panels.iter().map(|panel| panel.name.as_str()).collect();
+            return Err(Failure::input(format!("{}: choose one with --panel: {}", recipe.file, names.join(", "))));
+        }
+    };
+    if panel.kind != Kind::Run {
+        return Err(Failure::input(format!("{}: has no [run]; a map is computed with `map`", recipe.file)));
+    }
+    let tables = match arguments.scheme.as_str() {
+        "paper" => Overrides::paper().apply(&panel.tables),
+        _ => panel.tables.clone(),
+    };
+    let overrides = Overrides {
+        method: arguments.method.clone(),
+        tolerance: arguments.tol,
+        dt: arguments.dt,
+        t_end: arguments.t_end,
+        sample: arguments.sample,
+        state: None,
+    };
+    let tables = overrides.apply(&tables);
+    let scene = scene::run::read(&recipe.file, &tables)?;
+    match scene.control {
+        Control::Adaptive { tolerance } if arguments.check => {
+            Ok(scene::run::read(&recipe.file, &Overrides::check(tolerance).apply(&tables))?)
+        }
+        _ => Ok(scene),
+    }
+}
+
+fn write_tables(folder: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), Failure> {
+    atomic(&folder.join("std.csv"), &outcome.std.to_csv())?;
+    if scene.keeps_trajectories {
+        atomic(&folder.join("trajectories.csv"), &outcome.trajectories.to_csv())?;
+    }
+    atomic(&folder.join("events.csv"), events(outcome).as_bytes())?;
+    Ok(())
+}
+
+/// `event,t,n`: the first event of each kind.
+fn events(outcome: &Outcome) -> String {
+    let mut text = "event,t,n\n".to_owned();
+    for happening in &outcome.events {
+        // writing to a String cannot fail
+        let _ = writeln!(text, "{},{:?},{}", happening.event.name(), happening.time, happening.pedestrian);
+    }
+    text
+}
+
+fn state(outcome: &Outcome) -> Table {
+    let mut table = Table::new(&["n", "x", "v"]);
+    for (n, (x, v)) in outcome.positions.iter().zip(&outcome.speeds).enumerate() {
+        table.push(&[n as f64, *x, *v]);
+    }
+    table
+}
+
+fn pretty(summary: &Value) -> String {
+    format!("{summary:#}\n")
+}
+
+fn summary(scene: &Scene, outcome: &Outcome, seconds: f64) -> Value {
+    let control = match scene.control {
+        Control::Fixed { step } => json!({ "dt": step }),
+        Control::Adaptive { tolerance } => json!({ "tolerance": tolerance }),
+    };
+    let events: Vec<Value> = outcome
+        .events
+        .iter()
+        .map(|happening| json!({ "event": happening.event.name(), "t": happening.time, "n": happening.pedestrian }))
+        .collect();
+    let extents: Vec<f64> = outcome.jams.iter().map(|jam| jam.extent).collect();
+    json!({
+        "schema_version": 1,
+        "law": scene.model.name(),
+        "pedestrians": scene.ring.pedestrians,
+        "length": scene.ring.length,
+        "steady_speed": scene.steady_speed,
+        "method": scene.method.name(),
+        "control": control,
+        "steps": outcome.statistics.steps,
+        "rejected": outcome.statistics.rejected,
+        "right_hand_sides": outcome.statistics.evaluations,
+        "seconds": seconds,
+        "t": outcome.statistics.time,
+        "stop": outcome.stop().map_or("t_end", |happening| happening.event.name()),
+        "events": events,
+        "jams": { "number": outcome.jams.len(), "extents": extents, "speed": outcome.jam_speed },
+    })
+}
+
+fn in_words(scene: &Scene, outcome: &Outcome, seconds: f64) -> String {
+    let statistics = &outcome.statistics;
+    let mut text = format!(
+        "{} law, {} pedestrians on {}: {} to t = {:?}\n{} steps ({} rejected), {} right-hand sides, {seconds:.3} s",
+        scene.model.name(),
+        scene.ring.pedestrians,
+        scene.ring.length,
+        scene.method.name(),
+        statistics.time,
+        statistics.steps,
+        statistics.rejected,
+        statistics.evaluations,
+    );
+    for happening in &outcome.events {
+        let _ = write!(
+            text,
+            "\n{} at t = {:?}, pedestrian {}",
+            happening.event.name(),
+            happening.time,
+            happening.pedestrian
+        );
+    }
+    if let (false, Some(speed)) = (outcome.jams.is_empty(), outcome.jam_speed) {
+        let _ = write!(text, "\n{} jams, travelling at {speed:.4}", outcome.jams.len());
+    }
+    text
+}
