@@ -1,0 +1,127 @@
+//! The softplus function ln(1 + e^x), its differences, and its slope.
+
+use super::exponential::{LOWEST, Reduced};
+use super::logarithm::{ln_1p_short, ln_1p_unit};
+
+/// ln(1 + e^x) for every finite x, with full relative precision for x << 0 as well
+/// (at x = -708 it stops decreasing). Error below 2 units in the last place.
+#[inline(always)]
+pub fn softplus(x: f64) -> f64 {
+    softplus_of_decay(x, decay(x))
+}
+
+/// 1 / (1 + e^-x), the slope of the softplus function. Error below 2.5 units in the
+/// last place; at x = -708 it stops decreasing.
+#[inline(always)]
+pub fn sigmoid(x: f64) -> f64 {
+    sigmoid_of_decay(x, decay(x))
+}
+
+/// e^-|x|, from which [`softplus_of_decay`] and [`sigmoid_of_decay`] continue; e^-708
+/// beyond |x| = 708.
+#[inline(always)]
+pub fn decay(x: f64) -> f64 {
+    reduced_decay(x.abs()).exp()
+}
+
+/// The argument -size, but not below -708.
+#[inline(always)]
+fn reduced_decay(size: f64) -> Reduced {
+    Reduced::new(if size > -LOWEST { LOWEST } else { -size })
+}
+
+/// ln(1 + e^x) where `decay` is [`decay`] of x.
+#[inline(always)]
+pub fn softplus_of_decay(x: f64, decay: f64) -> f64 {
+    let positive_part = if x > 0.0 { x } else { 0.0 };
+    positive_part + ln_1p_unit(decay)
+}
+
+/// 1 / (1 + e^-x) where `decay` is [`decay`] of x.
+#[inline(always)]
+pub fn sigmoid_of_decay(x: f64, decay: f64) -> f64 {
+    let numerator = if x < 0.0 { decay } else { 1.0 };
+    numerator / (1.0 + decay)
+}
+
+/// A point from which differences of the softplus function are taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SoftplusBase {
+    /// The point y0.
+    point: f64,
+    /// 1 for y0 >= 0, else -1.
+    sign: f64,
+    /// 1 for y0 >= 0, else 0: the slope of max(y, 0).
+    above: f64,
+    /// 1 - above.
+    below: f64,
+    /// Up to this |y0| - |y| a change on one side of 0 is computed from the share.
+    reach: f64,
+    /// a = e^-|y0|, but not below e^-708.
+    decay: f64,
+    /// 1 / (1 + a).
+    inverse: f64,
+    /// a / (1 + a), or 0 where |y0| is beyond 708.
+    share: f64,
+}
+
+impl SoftplusBase {
+    /// The base at a finite point.
+    pub fn new(point: f64) -> SoftplusBase {
+        let (sign, above, below) = if point >= 0.0 { (1.0, 1.0, 0.0) } else { (-1.0, 0.0, 1.0) };
+        let size = point.abs();
+        // tiny differences are as precise as the share, so that is rounded once only
+        let decay = reduced_decay(size).exp_with_tail();
+        let share = (decay / (decay + 1.0)).hi;
+        let (reach, share) = if size > -LOWEST { (0.0, 0.0) } else { (-LOWEST, share) };
+        SoftplusBase { point, sign, above, below, reach, decay: decay.hi, inverse: 1.0 - share, share }
+    }
+
+    /// The point y0.
+    pub fn point(&self) -> f64 {
+        self.point
+    }
+}
+
+/// softplus(y0 + d) - softplus(y0), with an error relative to this difference, however
+/// small d: below 3 units in the last place while |y0| <= 708. Beyond, the rounding of
+/// y = y0 + d adds up to |y| units.
+///
+/// The softplus function is max(y, 0) + h(|y|), h(p) = ln(1 + e^-p). The difference of
+/// the first terms is d, 0 or one of the points, by the signs. That of the second is
+/// ln(1 + u), with u from [`softplus_change`].
+#[inline(always)]
+pub fn softplus_difference(base: &SoftplusBase, d: f64) -> f64 {
+    softplus_difference_of_change(base, d, softplus_change(base, d))
+}
+
+/// u = (e^-|y| - a) / (1 + a) for y = y0 + d and a = e^-|y0|, from which
+/// [`softplus_difference_of_change`] continues; between -1/2 and 1.
+///
+/// On one side of 0, where |y0| - |y| is d or -d without rounding, it is computed as
+/// a / (1 + a) (e^(|y0| - |y|) - 1), and so it is where |y| is not much smaller than |y0|.
+#[inline(always)]
+pub fn softplus_change(base: &SoftplusBase, d: f64) -> f64 {
+    let SoftplusBase { point, sign, reach, decay, inverse, share, .. } = *base;
+    let y = point + d;
+    let oriented = y * sign;
+    let same_side = oriented >= 0.0;
+    let approach = if same_side { -d * sign } else { point * sign + oriented };
+    let near = approach <= if same_side { reach } else { 1.0 };
+    let argument = if near { approach } else { -y.abs() };
+    let argument = if argument < LOWEST { LOWEST } else { argument };
+    let exponential = Reduced::new(argument).exp_less(if near { 1.0 } else { 0.0 });
+    let close = share * exponential;
+    let far = (exponential - decay) * inverse;
+    if near { close } else { far }
+}
+
+/// softplus(y0 + d) - softplus(y0) where `change` is [`softplus_change`] of both.
+#[inline(always)]
+pub fn softplus_difference_of_change(base: &SoftplusBase, d: f64, change: f64) -> f64 {
+    let SoftplusBase { point, sign, above, below, .. } = *base;
+    let y = point + d;
+    let crossed = below * y - above * point;
+    let linear = if y * sign >= 0.0 { above * d } else { crossed };
+    linear + ln_1p_short(change)
+}

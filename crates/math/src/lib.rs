@@ -1,0 +1,27 @@
+//! Elementary functions whose bits are the same on every machine.
+//!
+//! The standard library leaves the last bits of `exp`, `ln`, `powf` and their
+//! kin to the platform. Here every function is a fixed sequence of IEEE 754
+//! additions, multiplications, divisions and square roots (and of integer
+//! operations), each of which has one right answer; so a result depends on its
+//! arguments alone: not on the processor, the operating system, the compiler's
+//! flags or how many values share a vector register. No fused multiply-add is
+//! used, which WebAssembly and older processors lack.
+//!
+//! | module | for | error |
+//! |---|---|---|
+//! | [`scalar`] (re-exported) | one value at a time, full domain | correctly rounded but for rare cases |
+//! | [`lane`] | the body of a loop that the compiler vectorises | at most 2 units in the last place |
+//! | [`mod@slice`] | whole slices, built of lanes | as its lane |
+//! | [`simd`] | runs a loop with the widest registers the processor has | none: the same bits |
+//! | [`twofold`] | numbers of 106 bits as pairs of doubles | about 2^-104 |
+
+pub mod complex;
+pub mod lane;
+pub mod scalar;
+pub mod simd;
+pub mod slice;
+pub mod twofold;
+
+pub use complex::complex_sqrt;
+pub use scalar::{cos, exp, exp_m1, ln, ln_1p, log10, pow, sin};

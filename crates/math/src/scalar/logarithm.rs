@@ -1,0 +1,81 @@
+//! Logarithms.
+
+use super::power_of_two;
+use super::series::{ODD_INVERSES, sum};
+use crate::twofold::Twofold;
+
+/// The natural logarithm; -infinity at zero, NaN below.
+pub fn ln(x: f64) -> f64 {
+    if !(x > 0.0 && x < f64::INFINITY) {
+        return beyond(x);
+    }
+    Twofold::from(x).ln().into()
+}
+
+/// ln(1 + x), with full relative precision near 0; -infinity at -1, NaN below.
+pub fn ln_1p(x: f64) -> f64 {
+    if x.abs() < 1.0 / (1u64 << 54) as f64 {
+        return x; // the next term, x^2/2, is below half a unit
+    }
+    if !(x > -1.0 && x < f64::INFINITY) {
+        return beyond(1.0 + x);
+    }
+    Twofold::from(x).ln_1p().into()
+}
+
+/// The logarithm to base 10; -infinity at zero, NaN below.
+pub fn log10(x: f64) -> f64 {
+    if !(x > 0.0 && x < f64::INFINITY) {
+        return beyond(x);
+    }
+    (Twofold::from(x).ln() * Twofold::INVERSE_LN_10).into()
+}
+
+/// The logarithm of an argument that is zero, negative, infinite or not a number.
+fn beyond(x: f64) -> f64 {
+    if x == 0.0 {
+        f64::NEG_INFINITY
+    } else if x < 0.0 {
+        f64::NAN
+    } else {
+        x
+    }
+}
+
+impl Twofold {
+    /// ln x with a relative error of about 2^-80, for a finite x > 0; NaN for others.
+    pub fn ln(self) -> Twofold {
+        if !(self.hi > 0.0 && self.hi < f64::INFINITY) {
+            return Twofold::from(f64::NAN);
+        }
+        let (e, m) = halved(self);
+        Twofold::LN_2 * f64::from(e) + twice_artanh((m - 1.0) / (m + 1.0))
+    }
+
+    /// ln(1 + x) with a relative error of about 2^-80, for a finite x > -1; NaN for others.
+    pub fn ln_1p(self) -> Twofold {
+        if self.hi > -0.25 && self.hi < 0.4 {
+            return twice_artanh(self / (self + 2.0));
+        }
+        (self + 1.0).ln()
+    }
+}
+
+/// ln((1 + s) / (1 - s)) for |s| <= 0.172, by its Taylor series to s^35 / 35.
+fn twice_artanh(s: Twofold) -> Twofold {
+    sum(&ODD_INVERSES, 6, s * s) * s
+}
+
+/// The whole number e and m = x 2^-e, for a finite x > 0, with m near or between sqrt(1/2) and sqrt(2).
+fn halved(x: Twofold) -> (i32, Twofold) {
+    if x.hi < f64::MIN_POSITIVE {
+        let (e, m) = halved(Twofold::from(x.hi * power_of_two(64)));
+        return (e - 64, m);
+    }
+    const ROOT_HALF: i64 = std::f64::consts::FRAC_1_SQRT_2.to_bits() as i64;
+    let e = ((x.hi.to_bits() as i64 - ROOT_HALF) >> 52) as i32;
+    // in two factors, as 2^-1024 is no normal number
+    let half = power_of_two(-e / 2);
+    let rest = power_of_two(-e - -e / 2);
+    (e, x.times(half).times(rest))
+}

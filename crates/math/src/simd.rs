@@ -1,0 +1,85 @@
+//! Runs a loop with the widest vector registers that the processor has.
+//!
+//! The compiler turns a plain loop over [`lane`](crate::lane) functions into vector
+//! instructions, for the instruction set it may assume: on x86-64 two doubles at a
+//! time. [`dispatch`] holds further copies of such a loop, compiled for AVX2 and
+//! AVX-512 (four and eight doubles at a time), and takes the widest the processor
+//! allows. All copies give the same bits, as each operation is an IEEE one and none
+//! is fused or reordered. Elsewhere (ARM, WebAssembly) there is one copy only.
+#![allow(unsafe_code)] // the only module that needs it: see `dispatch_up_to`
+
+/// A computation that is worth compiling for several widths: its arguments.
+pub trait Kernel {
+    /// What the computation returns; `()` if it writes to slices it holds.
+    type Output;
+
+    /// Does the computation. Implementations must be marked `#[inline(always)]`, as
+    /// must all that they call in their loops: what is not inlined is compiled once,
+    /// for the narrow registers.
+    fn run(self) -> Self::Output;
+}
+
+/// How many doubles a register holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Width {
+    /// What every processor of the family has: two doubles on x86-64.
+    Baseline,
+    /// Four doubles: AVX2.
+    Four,
+    /// Eight doubles: AVX-512 with its F, DQ and VL parts.
+    Eight,
+}
+
+/// Runs the kernel with the widest registers the processor has.
+#[inline]
+pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
+    dispatch_up_to(Width::Eight, kernel)
+}
+
+/// Runs the kernel with the widest registers the processor has, but none wider than
+/// `limit`. For tests, which compare the bits of the widths.
+#[inline]
+pub fn dispatch_up_to<K: Kernel>(limit: Width, kernel: K) -> K::Output {
+    #[cfg(target_arch = "x86_64")]
+    match available().min(limit) {
+        // SAFETY: a function compiled for an instruction set must not be called without
+        // it; `available` has asked the processor.
+        Width::Eight => return unsafe { x86::eight(kernel) },
+        // SAFETY: as above.
+        Width::Four => return unsafe { x86::four(kernel) },
+        Width::Baseline => {}
+    }
+    let _ = limit;
+    kernel.run()
+}
+
+/// The widest registers of this processor. The standard library asks it once.
+#[inline]
+pub fn available() -> Width {
+    #[cfg(target_arch = "x86_64")]
+    {
+        use std::arch::is_x86_feature_detected as has;
+        if has!("avx512f") && has!("avx512dq") && has!("avx512vl") {
+            return Width::Eight;
+        }
+        if has!("avx2") {
+            return Width::Four;
+        }
+    }
+    Width::Baseline
+}
+
+#[cfg(target_arch = "x86_64")]
+mod x86 {
+    use super::Kernel;
+
+    #[target_feature(enable = "avx2")]
+    pub(super) fn four<K: Kernel>(kernel: K) -> K::Output {
+        kernel.run()
+    }
+
+    #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+    pub(super) fn eight<K: Kernel>(kernel: K) -> K::Output {
+        kernel.run()
+    }
+}

@@ -1,0 +1,12 @@
+//! Tests of the elementary functions: how near they come to the true values, and
+//! that their bits are the same everywhere.
+
+mod complex;
+mod difference;
+mod lane;
+mod pinned;
+mod sample;
+mod scalar;
+mod special;
+mod twofold;
+mod widths;

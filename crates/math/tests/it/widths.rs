@@ -1,0 +1,86 @@
+//! Every width of vector registers gives the same bits, and so does a single call.
+
+use crate::sample::{Map, Random};
+use math::lane::{self, SoftplusBase};
+use math::simd::{Kernel, Width, available, dispatch, dispatch_up_to};
+use math::slice;
+
+const WIDTHS: [Width; 3] = [Width::Baseline, Width::Four, Width::Eight];
+
+#[track_caller]
+fn assert_same_bits(name: &str, x: &[f64], f: impl Fn(f64) -> f64 + Copy) {
+    let single: Vec<u64> = x.iter().map(|&x| f(std::hint::black_box(x)).to_bits()).collect();
+    for width in WIDTHS {
+        let mut out = vec![0.0; x.len()];
+        dispatch_up_to(width, Map { f, x, out: &mut out });
+        let first = (0..x.len()).find(|&i| out[i].to_bits() != single[i]);
+        assert_eq!(first.map(|i| (x[i], out[i])), None, "{name} at {width:?}");
+    }
+}
+
+/// Arguments of all sizes and signs, the edges of ranges among them; an odd number, so
+/// that single values remain beside the vectors.
+fn arguments() -> Vec<f64> {
+    let mut random = Random(70);
+    let mut x = vec![0.0, -0.0, 709.78, 709.79, -708.0, -708.1, 1e300, -1e300, f64::INFINITY, f64::NEG_INFINITY];
+    x.extend((0..30_000).map(|_| random.signed_spread(1e-300, 1e5)));
+    x.extend((0..30_000).map(|_| random.uniform(-750.0, 750.0)));
+    x.extend((0..30_001).map(|_| random.uniform(-2.0, 2.0)));
+    x
+}
+
+#[test]
+fn lanes_have_the_same_bits_at_every_width() {
+    println!("the widest registers here: {:?}", available());
+    let x = arguments();
+    assert_same_bits("exp", &x, lane::exp);
+    assert_same_bits("exp_m1", &x, lane::exp_m1);
+    assert_same_bits("softplus", &x, lane::softplus);
+    assert_same_bits("sigmoid", &x, lane::sigmoid);
+    for y0 in [-750.0, -25.0, -0.3, 0.0, 0.3, 25.0, 750.0] {
+        let base = SoftplusBase::new(y0);
+        assert_same_bits("softplus_difference", &x, move |d| lane::softplus_difference(&base, d));
+    }
+    let positive: Vec<f64> = x.iter().map(|x| x.abs()).filter(|&x| x > 0.0).collect();
+    assert_same_bits("ln", &positive, lane::ln);
+    assert_same_bits("ln_1p", &positive, lane::ln_1p);
+    assert_same_bits("ln_1p", &x, |x| lane::ln_1p(if x > -1.0 { x } else { 0.5 }));
+    assert_same_bits("pow", &positive, |x| lane::pow(x, -2.5));
+    assert_same_bits("pow_m1", &positive, |x| lane::pow_m1(x, 0.3));
+}
+
+/// Sums are folded in their order at every width.
+struct Sum<'a>(&'a [f64]);
+
+impl Kernel for Sum<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run(self) -> f64 {
+        self.0.iter().fold(0.0, |sum, x| sum + x * 1.1)
+    }
+}
+
+#[test]
+fn kernels_that_return_a_value_have_the_same_bits_at_every_width() {
+    let mut random = Random(71);
+    let x: Vec<f64> = (0..1001).map(|_| random.uniform(-1.0, 1.0)).collect();
+    let sums = WIDTHS.map(|width| dispatch_up_to(width, Sum(&x)).to_bits());
+    assert_eq!(sums, [dispatch(Sum(&x)).to_bits(); 3]);
+}
+
+#[test]
+fn slices_have_the_bits_of_their_lanes() {
+    let mut random = Random(72);
+    let base = SoftplusBase::new(-1.7);
+    for length in 0..40 {
+        let x: Vec<f64> = (0..length).map(|_| random.uniform(-20.0, 20.0)).collect();
+        let mut out = vec![0.0; length];
+        slice::softplus(&x, &mut out);
+        assert_eq!(out, x.iter().map(|&x| lane::softplus(x)).collect::<Vec<_>>());
+        slice::softplus_difference(base, &x, &mut out);
+        assert_eq!(out, x.iter().map(|&x| lane::softplus_difference(&base, x)).collect::<Vec<_>>());
+        slice::ln_1p_scaled(0.04, &x, &mut out);
+        assert_eq!(out, x.iter().map(|&x| lane::ln_1p(0.04 * x)).collect::<Vec<_>>());
+    }
+}
