@@ -3,7 +3,7 @@
 use figures::panels::{points, std_panel};
 use figures::{Failure, Job, figure};
 use plot::Picture;
-use plot::style::FULL_WIDTH;
+use plot::style::COLUMN_WIDTH;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -18,7 +18,8 @@ fn tables(job: &mut Job) -> Result<(), Failure> {
 fn picture(job: &Job) -> Result<Picture, Failure> {
     let stable = points(&job.read("stable")?, "t", "std")?;
     let unstable = points(&job.read("unstable")?, "t", "std")?;
-    Ok(Picture::new(FULL_WIDTH, 66.0)
-        .titled("$\\mu = 0.45$", std_panel(&stable, 2000.0, 5.0, -6, (1e-8, 1e-5), [0.42, 0.36, 0.98, 0.97]))
-        .titled("$\\mu = 0.55$", std_panel(&unstable, 1000.0, 1.0, 0, (1e-7, 1e1), [0.1, 0.36, 0.66, 0.97])))
+    Ok(Picture::new(COLUMN_WIDTH, 100.0)
+        .columns(1)
+        .titled("$\\mu = 0.45$", std_panel(&stable, 2000.0, 5.0, -6, (1e-8, 1e-5), [0.3, 0.26, 0.97, 0.96]))
+        .titled("$\\mu = 0.55$", std_panel(&unstable, 1000.0, 0.4, 0, (1e-6, 1e0), [0.03, 0.26, 0.7, 0.96])))
 }

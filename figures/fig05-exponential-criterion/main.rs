@@ -1,8 +1,8 @@
 //! Figure 5 (fig:sfm): the criterion of the exponential model over strength and range, for three distances.
 
-use figures::panels::map_of;
+use figures::panels::{Labels, map_of};
 use figures::{Failure, Job, figure};
-use plot::style::FULL_WIDTH;
+use plot::style::COLUMN_WIDTH;
 use plot::{ColorScale, Picture};
 use std::process::ExitCode;
 
@@ -11,15 +11,18 @@ fn main() -> ExitCode {
 }
 
 fn picture(job: &Job) -> Result<Picture, Failure> {
-    Ok(Picture::new(FULL_WIDTH, 60.0)
+    Ok(Picture::new(COLUMN_WIDTH, 36.0)
         .scale(ColorScale::diverging("$\\tilde\\Phi$", 0.5))
-        .titled("$d' = 2.5$", map_of(job, "left", "left")?.region("unstable", (6.5, 2.0)).region("stable", (1.5, 4.5)))
+        .titled(
+            "$d' = 2.5$",
+            map_of(job, "left", Labels::Both)?.region("unstable", (5.75, 3.0)).region("stable", (1.5, 5.5)),
+        )
         .titled(
             "$d' = 1.5$",
-            map_of(job, "middle", "middle")?.region("unstable", (6.5, 2.0)).region("stable", (1.5, 4.5)),
+            map_of(job, "middle", Labels::Horizontal)?.region("unstable", (5.75, 3.0)).region("stable", (1.5, 5.5)),
         )
         .titled(
             "$d' = 0.5$",
-            map_of(job, "right", "right")?.region("unstable", (6.5, 2.0)).region("stable", (1.5, 4.5)),
+            map_of(job, "right", Labels::Horizontal)?.region("unstable", (5.75, 3.0)).region("stable", (1.5, 5.5)),
         ))
 }

@@ -7,12 +7,7 @@ use plot::{Axis, Legend, Lines, Picture, Series};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    figure(env!("CARGO_BIN_NAME"), tables, picture)
-}
-
-fn tables(job: &mut Job) -> Result<(), Failure> {
-    let panel = job.panel("main")?.clone();
-    job.compute(&panel, "force")
+    figure(env!("CARGO_BIN_NAME"), Job::compute_panels, picture)
 }
 
 fn picture(job: &Job) -> Result<Picture, Failure> {

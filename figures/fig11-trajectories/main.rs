@@ -2,7 +2,7 @@
 
 use figures::panels::trajectories;
 use figures::{Failure, Job, figure};
-use plot::style::FULL_WIDTH;
+use plot::style::COLUMN_WIDTH;
 use plot::{Axis, ColorScale, Picture, SpaceTime};
 use std::process::ExitCode;
 
@@ -23,8 +23,9 @@ fn picture(job: &Job) -> Result<Picture, Failure> {
     let (times, positions) = WINDOW;
     let whole = SpaceTime::new(axis("$t$", [0.0, 3000.0]), axis("$x'$", [0.0, 200.0]), 200.0, &paths);
     let window = SpaceTime::new(axis("$t$", times), axis("$x'$", positions), 200.0, &paths).line_width(0.25);
-    Ok(Picture::new(FULL_WIDTH, 92.0)
-        .column_shares(&[1.6, 1.0])
+    Ok(Picture::new(COLUMN_WIDTH, 124.0)
+        .columns(1)
+        .row_shares(&[1.5, 1.0])
         .scale(ColorScale::sequential("speed $v_n$", 0.0, 1.0))
         .panel(whole.outline(times, positions))
         .panel(window))

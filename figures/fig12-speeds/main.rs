@@ -3,7 +3,7 @@
 use figures::panels::points;
 use figures::{Failure, Job, figure};
 use files::table::Table;
-use plot::style::FULL_WIDTH;
+use plot::style::COLUMN_WIDTH;
 use plot::{Axis, Corner, Legend, Lines, Marker, Picture, Series};
 use std::process::ExitCode;
 
@@ -22,15 +22,28 @@ fn tables(job: &mut Job) -> Result<(), Failure> {
 }
 
 fn picture(job: &Job) -> Result<Picture, Failure> {
-    let published = points(&job.reference("published_speed_t300")?, "n", "v")?;
-    Ok(Picture::new(FULL_WIDTH, 62.0)
-        .titled("$t = 300$", speeds(job, "t300")?.series(Series::points("published", Marker::Circle, published)))
-        .titled("$t = 2000$", speeds(job, "t2000")?))
+    let published = || {
+        Ok::<_, Failure>(Series::points(
+            "published",
+            Marker::Circle,
+            points(&job.reference("published_speed_t300")?, "n", "v")?,
+        ))
+    };
+    let regenerated = |table: &str| Ok::<_, Failure>(Series::line("regenerated", points(&job.read(table)?, "n", "v")?));
+    // where the first waves are, enlarged
+    let waves = Lines::new(Axis::linear("", 95.0, 135.0).steps(4), Axis::linear("", 0.62, 0.68).steps(3))
+        .legend(Legend::Hidden)
+        .series(regenerated("t300")?)
+        .series(published()?.look(2));
+    let early = panel(Legend::Corner(Corner::TopRight))
+        .series(regenerated("t300")?)
+        .series(published()?.look(2))
+        .inset([0.02, 0.03, 0.66, 0.5], waves);
+    let late = panel(Legend::Hidden).series(regenerated("t2000")?);
+    Ok(Picture::new(COLUMN_WIDTH, 100.0).columns(1).titled("$t = 300$", early).titled("$t = 2000$", late))
 }
 
-fn speeds(job: &Job, table: &str) -> Result<Lines, Failure> {
-    let name = if table == "t300" { "regenerated" } else { "" };
-    Ok(Lines::new(Axis::linear("pedestrian $n$", 0.0, 140.0).steps(4), Axis::linear("speed $v_n$", 0.0, 1.2).steps(4))
-        .legend(Legend::Corner(Corner::TopRight))
-        .series(Series::line(name, points(&job.read(table)?, "n", "v")?)))
+fn panel(legend: Legend) -> Lines {
+    Lines::new(Axis::linear("pedestrian $n$", 0.0, 140.0).steps(4), Axis::linear("speed $v_n$", 0.0, 1.2).steps(4))
+        .legend(legend)
 }

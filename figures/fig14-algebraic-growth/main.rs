@@ -1,7 +1,8 @@
 //! Figure 14 (fig:d-k): growth rates of the algebraic models over distance and wave number.
 
-use figures::panels::map_of;
+use figures::panels::{Labels, map_of};
 use figures::{Failure, Job, figure};
+use plot::style::COLUMN_WIDTH;
 use plot::{ColorScale, Picture};
 use std::process::ExitCode;
 
@@ -10,23 +11,23 @@ fn main() -> ExitCode {
 }
 
 fn picture(job: &Job) -> Result<Picture, Failure> {
-    Ok(Picture::new(140.0, 112.0)
+    Ok(Picture::new(COLUMN_WIDTH, 84.0)
         .columns(2)
         .scale(ColorScale::diverging("$\\mathrm{Re}\\,z^+$", 0.2))
         .titled(
             "$\\langle 0.5, 0, 2, 0\\rangle$",
-            map_of(job, "top_left", "top_left")?.region("unstable", (0.55, 1.2)).region("stable", (1.5, 2.2)),
+            map_of(job, "top_left", Labels::Vertical)?.region("grows", (0.55, 1.2)).region("decays", (1.5, 2.2)),
         )
         .titled(
             "$\\langle 0.5, 0, 1, 0\\rangle$",
-            map_of(job, "top_right", "top_right")?.region("unstable", (0.45, 0.9)).region("stable", (1.5, 2.2)),
+            map_of(job, "top_right", Labels::None)?.region("grows", (0.45, 0.9)).region("decays", (1.5, 2.2)),
         )
         .titled(
             "$\\langle 0.5, 0, 2, 0.1\\rangle$",
-            map_of(job, "bottom_left", "bottom_left")?.region("unstable", (0.5, 1.2)).region("stable", (1.5, 2.2)),
+            map_of(job, "bottom_left", Labels::Both)?.region("grows", (0.5, 1.2)).region("decays", (1.5, 2.2)),
         )
         .titled(
             "$\\langle 0.5, 1, 1, 0.1\\rangle$",
-            map_of(job, "bottom_right", "bottom_right")?.region("stable", (1.1, 1.6)),
+            map_of(job, "bottom_right", Labels::Horizontal)?.region("decays", (1.1, 1.6)),
         ))
 }

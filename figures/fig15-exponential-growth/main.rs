@@ -1,7 +1,8 @@
 //! Figure 15 (fig:d-k-exp): growth rates of the exponential model over distance and wave number.
 
-use figures::panels::map_of;
+use figures::panels::{Labels, map_of};
 use figures::{Failure, Job, figure};
+use plot::style::COLUMN_WIDTH;
 use plot::{ColorScale, Picture};
 use std::process::ExitCode;
 
@@ -10,23 +11,23 @@ fn main() -> ExitCode {
 }
 
 fn picture(job: &Job) -> Result<Picture, Failure> {
-    Ok(Picture::new(140.0, 112.0)
+    Ok(Picture::new(COLUMN_WIDTH, 84.0)
         .columns(2)
         .scale(ColorScale::diverging("$\\mathrm{Re}\\,z^+$", 0.2))
         .titled(
             "$\\langle 12, 1, 0, 0\\rangle$",
-            map_of(job, "top_left", "top_left")?.region("unstable", (1.2, 1.2)).region("stable", (4.5, 2.0)),
+            map_of(job, "top_left", Labels::Vertical)?.region("grows", (1.2, 1.2)).region("decays", (4.5, 2.0)),
         )
         .titled(
             "$\\langle 12, 1, 0, 0.2\\rangle$",
-            map_of(job, "top_right", "top_right")?.region("unstable", (1.2, 1.2)).region("stable", (4.5, 2.0)),
+            map_of(job, "top_right", Labels::None)?.region("grows", (1.2, 1.2)).region("decays", (4.5, 2.0)),
         )
         .titled(
             "$\\langle 12, 2, 0, 0\\rangle$",
-            map_of(job, "bottom_left", "bottom_left")?.region("unstable", (1.2, 1.2)).region("stable", (4.5, 2.6)),
+            map_of(job, "bottom_left", Labels::Both)?.region("grows", (1.2, 1.2)).region("decays", (4.5, 2.6)),
         )
         .titled(
             "$\\langle 12, 2, 0, 0.2\\rangle$",
-            map_of(job, "bottom_right", "bottom_right")?.region("unstable", (1.2, 1.2)).region("stable", (4.5, 2.6)),
+            map_of(job, "bottom_right", Labels::Horizontal)?.region("grows", (1.2, 1.2)).region("decays", (4.5, 2.6)),
         ))
 }

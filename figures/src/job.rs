@@ -148,27 +148,23 @@ impl Job {
     /// The scene is invalid, or a table cannot be written.
     pub fn compute_panels(&mut self) -> Result<(), Failure> {
         for panel in self.recipe.panels.clone() {
-            self.compute(&panel, &panel.name)?;
+            self.compute(&panel)?;
         }
         Ok(())
     }
 
-    /// Computes the table of one map or curve under the given name.
-    ///
-    /// # Errors
-    /// As [`Job::compute_panels`].
-    pub fn compute(&mut self, panel: &Panel, name: &str) -> Result<(), Failure> {
+    fn compute(&mut self, panel: &Panel) -> Result<(), Failure> {
         let table = match panel.kind {
             Kind::Map => {
                 let map = scene::map::read(&self.recipe.file, &panel.tables)?;
                 let computed = map.compute().map_err(Failure::input)?;
                 let error = json!({ map.columns()[2]: computed.error });
-                self.report.insert(name.to_owned(), json!({ "method": "closed form", "error": error }));
+                self.report.insert(panel.name.clone(), json!({ "method": "closed form", "error": error }));
                 computed.table
             }
             Kind::Curve => scene::curve::table(&self.recipe.file, &panel.tables)?,
             Kind::Run | Kind::Drawing => return Ok(()),
         };
-        self.write(name, &table)
+        self.write(&panel.name, &table)
     }
 }

@@ -1,7 +1,7 @@
 //! A stability map of one's own: table and picture.
 
 use crate::failure::Failure;
-use crate::panels::map_panel;
+use crate::panels::{Labels, map_panel};
 use clap::Parser;
 use files::recipe::{self, Kind};
 use files::write::{atomic, with_path};
@@ -27,8 +27,8 @@ pub struct Arguments {
     json: bool,
 }
 
-/// Values are shown up to this size unless the map stays below.
-const LARGEST_SHOWN: f64 = 0.5;
+/// Ends of the colour bar: the smallest that holds all values is taken, or the last.
+const LIMITS: [f64; 6] = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5];
 
 /// Computes the maps and writes what was asked for.
 ///
@@ -61,9 +61,10 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
         if !arguments.tables_only {
             let largest =
                 values.iter().fold(0.0, |most: f64, value| if value.abs() > most { value.abs() } else { most });
-            let limit = if largest > 0.0 && largest < LARGEST_SHOWN { largest } else { LARGEST_SHOWN };
+            let limit = LIMITS.into_iter().find(|&limit| largest <= limit).unwrap_or(0.5);
             let scale = ColorScale::diverging(if value == "phi" { "$\\Phi$" } else { "$\\mathrm{Re}\\,z^+$" }, limit);
-            let picture = Picture::new(COLUMN_WIDTH, 70.0).scale(scale).panel(map_panel(map, &numbers.table)?);
+            let picture =
+                Picture::new(COLUMN_WIDTH, 70.0).scale(scale).panel(map_panel(map, &numbers.table, Labels::Both)?);
             let rendered = picture.render().map_err(Failure::work)?;
             atomic(&folder.join(format!("{name}.svg")), &rendered.svg)?;
             atomic(&folder.join(format!("{name}.png")), &rendered.png)?;

@@ -11,20 +11,33 @@ const WAVE_NUMBERS: [(f64, &str); 5] =
     [(0.0, "0"), (0.25 * PI, "$\\pi/4$"), (0.5 * PI, "$\\pi/2$"), (0.75 * PI, "$3\\pi/4$"), (PI, "$\\pi$")];
 const PI: f64 = std::f64::consts::PI;
 
-/// The map of a panel of the figure's scene, from its table.
+/// Which of its axes a map in a grid labels: neighbours share the others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Labels {
+    /// Both.
+    Both,
+    /// The horizontal one: there is a neighbour at the left.
+    Horizontal,
+    /// The vertical one: there is a neighbour below.
+    Vertical,
+    /// None: neighbours at the left and below.
+    None,
+}
+
+/// The map of a panel of the figure's scene, from the table of the same name.
 ///
 /// # Errors
 /// No such panel, or its table is missing or damaged.
-pub fn map_of(job: &Job, panel: &str, table: &str) -> Result<Map, Failure> {
+pub fn map_of(job: &Job, panel: &str, labels: Labels) -> Result<Map, Failure> {
     let map = scene::map::read(&job.recipe.file, &job.panel(panel)?.tables)?;
-    map_panel(&map, &job.read(table)?)
+    map_panel(&map, &job.read(panel)?, labels)
 }
 
 /// The picture of a map, from its table.
 ///
 /// # Errors
 /// The table is not that of this map.
-pub fn map_panel(map: &scene::map::Map, table: &Table) -> Result<Map, Failure> {
+pub fn map_panel(map: &scene::map::Map, table: &Table, labels: Labels) -> Result<Map, Failure> {
     let (columns, rows) = (map.x.cells, map.y.cells);
     let values = table.column(map.columns()[2])?;
     if values.len() != columns * rows {
@@ -32,12 +45,21 @@ pub fn map_panel(map: &scene::map::Map, table: &Table) -> Result<Map, Failure> {
     }
     // the table runs up the columns of the map, the picture along its rows
     let values = (0..columns * rows).map(|i| values[(i % columns) * rows + i / columns]).collect();
-    Ok(Map::new(axis(&map.x), axis(&map.y), columns, rows, values))
+    let x = axis(&map.x, matches!(labels, Labels::Both | Labels::Horizontal));
+    let y = axis(&map.y, matches!(labels, Labels::Both | Labels::Vertical));
+    Ok(Map::new(x, y, columns, rows, values))
 }
 
-fn axis(axis: &MapAxis) -> Axis {
-    let drawn = Axis::linear(symbol(axis.parameter), axis.from, axis.to).steps(4);
-    if axis.parameter == "k" && axis.to > 0.9 * PI { drawn.ticks(&WAVE_NUMBERS) } else { drawn }
+fn axis(axis: &MapAxis, is_labelled: bool) -> Axis {
+    let name = if is_labelled { symbol(axis.parameter) } else { "" };
+    let drawn = Axis::linear(name, axis.from, axis.to).steps(4);
+    let is_wave_number = axis.parameter == "k" && axis.to > 0.9 * PI;
+    match (is_wave_number, is_labelled) {
+        (true, true) => drawn.ticks(&WAVE_NUMBERS),
+        (true, false) => drawn.ticks(&WAVE_NUMBERS.map(|(k, _)| (k, ""))),
+        (false, true) => drawn,
+        (false, false) => drawn.without_numbers(),
+    }
 }
 
 /// The paper's symbol of a parameter.

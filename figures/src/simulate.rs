@@ -1,11 +1,14 @@
 //! Running a scene from the command line: tables, events and a summary.
 
 use crate::failure::Failure;
+use crate::panels::{points, trajectories};
 use cpu_time::ProcessTime;
 use files::recipe::{self, Kind};
 use files::table::Table;
 use files::write::atomic;
 use ode::Control;
+use plot::style::COLUMN_WIDTH;
+use plot::{Axis, ColorScale, Legend, Lines, Picture, Series, SpaceTime};
 use scene::Overrides;
 use scene::run::Scene;
 use scene::simulation::{Outcome, run};
@@ -71,6 +74,9 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
         std::fs::create_dir_all(folder).map_err(|error| files::write::with_path(error, folder))?;
         write_tables(folder, &scene, &outcome)?;
         atomic(&folder.join("summary.json"), pretty(&summary).as_bytes())?;
+        if !arguments.tables_only {
+            draw(folder, &scene, &outcome)?;
+        }
     }
     if let Some(file) = &arguments.state {
         atomic(file, &state(&outcome).to_csv())?;
@@ -116,6 +122,35 @@ fn read_scene(arguments: &Arguments) -> Result<Scene, Failure> {
         }
         _ => Ok(scene),
     }
+}
+
+/// Pictures of the standard deviation and, if they are kept, of the trajectories.
+fn draw(folder: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), Failure> {
+    let std = points(&outcome.std, "t", "std")?;
+    // a run that a stop ends is drawn up to its last sample
+    let last = std.last().map_or(0.0, |&(t, _)| t);
+    let times = Axis::linear("$t$", 0.0, if last > 0.0 { last } else { scene.t_end }).steps(4);
+    let heights = Axis::around("std of speeds", std.iter().map(|&(_, std)| std));
+    let panel = Lines::new(times.clone(), heights).legend(Legend::Hidden).series(Series::line("", std));
+    save(folder, "std", Picture::new(COLUMN_WIDTH, 60.0).panel(panel))?;
+    if scene.keeps_trajectories {
+        let length = scene.ring.length;
+        let fastest = ColorScale::sequential("speed $v_n$", 0.0, scene.model.desired_speed());
+        let panel = SpaceTime::new(
+            times,
+            Axis::linear("$x'$", 0.0, length).steps(4),
+            length,
+            &trajectories(&outcome.trajectories)?,
+        );
+        save(folder, "trajectories", Picture::new(COLUMN_WIDTH, 80.0).scale(fastest).panel(panel))?;
+    }
+    Ok(())
+}
+
+fn save(folder: &Path, name: &str, picture: Picture) -> Result<(), Failure> {
+    let rendered = picture.render().map_err(Failure::work)?;
+    atomic(&folder.join(format!("{name}.svg")), &rendered.svg)?;
+    Ok(atomic(&folder.join(format!("{name}.png")), &rendered.png)?)
 }
 
 fn write_tables(folder: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), Failure> {

@@ -205,8 +205,10 @@ impl<'a> Watch<'a> {
     }
 }
 
-/// Whether any of the cubics with these values and rates at both ends of a step of length `h` can be negative within it:
-/// the control points of a cubic (its Bernstein coefficients) bound it from below, so no interpolation is needed.
+/// Whether any of the values, given with their rates at both ends of a step of length `h`, may be negative within it.
+///
+/// The control points of the cubic through both ends (its Bernstein coefficients) bound it from below. The solution is
+/// no cubic where the steps are long, so their spread is taken off once more; what passes here costs no interpolation.
 fn may_be_negative(before: (&[f64], &[f64]), after: (&[f64], &[f64]), h: f64) -> bool {
     let third = h / 3.0;
     let starts = before.0.iter().zip(before.1);
@@ -215,10 +217,17 @@ fn may_be_negative(before: (&[f64], &[f64]), after: (&[f64], &[f64]), h: f64) ->
     let count: u64 = starts
         .zip(ends)
         .map(|((start, leaving), (end, arriving))| {
-            let negative =
-                (*start < 0.0) | (*end < 0.0) | (start + third * leaving < 0.0) | (end - third * arriving < 0.0);
-            u64::from(negative)
+            let points = [*start, start + third * leaving, end - third * arriving, *end];
+            let low = lower(lower(points[0], points[1]), lower(points[2], points[3]));
+            let high = -lower(lower(-points[0], -points[1]), lower(-points[2], -points[3]));
+            u64::from(low < high - low)
         })
         .sum();
     count > 0
+}
+
+/// The lower of two numbers, as a selection that vectorises.
+#[inline(always)]
+fn lower(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
 }

@@ -67,7 +67,7 @@ struct Point {
 pub struct Computed {
     /// One row a cell: the two parameters and the value.
     pub table: Table,
-    /// The largest difference from the same value found another way.
+    /// The largest difference from the same value found another way; relative to values above 1.
     pub error: f64,
 }
 
@@ -175,7 +175,9 @@ impl Map {
                 let (value, other) = self
                     .cell(x, y)
                     .map_err(|why| format!("at {} = {x:?}, {} = {y:?}: {why}", self.x.parameter, self.y.parameter))?;
-                let difference = (value - other).abs();
+                // relative where the value is large: there it lies far beyond the colours
+                let size = if value.abs() > 1.0 { value.abs() } else { 1.0 };
+                let difference = (value - other).abs() / size;
                 error = if difference > error || difference.is_nan() { difference } else { error };
                 table.push(&[x, y, value]);
             }
