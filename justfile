@@ -1,0 +1,53 @@
+# Every recipe is a `cargo xtask` verb; `just --list` shows them.
+
+# all figures, or those named
+figures *args:
+    cargo xtask figures {{args}}
+
+# recompute and judge against the committed reference
+verify *args:
+    cargo xtask verify {{args}}
+
+# what is stale and why
+status *args:
+    cargo xtask status {{args}}
+
+# every input of a figure
+explain *args:
+    cargo xtask explain {{args}}
+
+# figures, labels, scenes, outputs
+list *args:
+    cargo xtask list {{args}}
+
+# accept new sums
+bless *args:
+    cargo xtask bless {{args}}
+
+# run a scene of one's own
+simulate *args:
+    cargo xtask simulate {{args}}
+
+# compute a stability map of one's own
+map *args:
+    cargo xtask map {{args}}
+
+# the tests
+test *args:
+    cargo xtask test {{args}}
+
+# what CI runs
+ci *args:
+    cargo xtask ci {{args}}
+
+# the machine and the toolchain
+describe *args:
+    cargo xtask describe {{args}}
+
+# what is missing and how to get it
+doctor *args:
+    cargo xtask doctor {{args}}
+
+# remove what can be made again
+clean *args:
+    cargo xtask clean {{args}}
