@@ -1,0 +1,5 @@
+//! Pictures as a caller gets them.
+
+mod faults;
+mod pages;
+mod samples;
