@@ -15,14 +15,14 @@ fn picture(job: &Job) -> Result<Picture, Failure> {
         .scale(ColorScale::diverging("$\\tilde\\Phi$", 0.5))
         .titled(
             "$d' = 2.5$",
-            map_of(job, "left", Labels::Both)?.region("unstable", (5.75, 3.0)).region("stable", (1.5, 5.5)),
+            map_of(job, "left", Labels::Both)?.region("unstable", (6.0, 3.0)).region("stable", (1.5, 5.5)),
         )
         .titled(
             "$d' = 1.5$",
-            map_of(job, "middle", Labels::Horizontal)?.region("unstable", (5.75, 3.0)).region("stable", (1.5, 5.5)),
+            map_of(job, "middle", Labels::Horizontal)?.region("unstable", (6.0, 3.0)).region("stable", (1.5, 5.5)),
         )
         .titled(
             "$d' = 0.5$",
-            map_of(job, "right", Labels::Horizontal)?.region("unstable", (5.75, 3.0)).region("stable", (1.5, 5.5)),
+            map_of(job, "right", Labels::Horizontal)?.region("unstable", (6.0, 3.0)).region("stable", (1.5, 5.5)),
         ))
 }

@@ -1,4 +1,4 @@
-//! Figure 11 (fig:jams): trajectories of 133 pedestrians, and a window of them enlarged.
+//! Figure 11 (fig:jams): trajectories of 133 pedestrians: speeds and some of them (a), all of them in a window (b).
 
 use figures::panels::trajectories;
 use figures::{Failure, Job, figure};
@@ -17,6 +17,9 @@ fn tables(job: &mut Job) -> Result<(), Failure> {
 /// The window that panel (b) enlarges: times and positions.
 const WINDOW: ([f64; 2], [f64; 2]) = ([2000.0, 2200.0], [0.0, 60.0]);
 
+/// Panel (a) shows the speed of all pedestrians as a field, and the trajectory of every thirty-third.
+const TRACED: usize = 33;
+
 fn picture(job: &Job) -> Result<Picture, Failure> {
     let paths = trajectories(&job.read("trajectories")?)?;
     let axis = |label: &str, [from, to]: [f64; 2]| Axis::linear(label, from, to).steps(4);
@@ -26,7 +29,7 @@ fn picture(job: &Job) -> Result<Picture, Failure> {
     Ok(Picture::new(COLUMN_WIDTH, 124.0)
         .columns(1)
         .row_shares(&[1.5, 1.0])
-        .scale(ColorScale::sequential("speed $v_n$", 0.0, 1.0))
-        .panel(whole.outline(times, positions))
+        .scale(ColorScale::sequential("speed $v_n$", 0.2, 1.0))
+        .panel(whole.field().every(TRACED).line_width(0.12).outline(times, positions))
         .panel(window))
 }

@@ -11,7 +11,7 @@ use crate::font::X_HEIGHT;
 use crate::geometry::{Point, Rect, clip, simplify};
 use crate::label::Label;
 use crate::raster::Raster;
-use crate::style::{AXIS_WIDTH, CONTOUR_WIDTH, INK, MARKER_RADIUS, NOTE, PANEL, PAPER, REFERENCE_DASH};
+use crate::style::{AXIS_WIDTH, CONTOUR_WIDTH, INK, MARKER_RADIUS, PANEL, PAPER, REFERENCE_DASH, REGION};
 
 /// Pixels of the embedded image per cell, in each direction: values are interpolated in between.
 const FINER: usize = 2;
@@ -144,14 +144,14 @@ impl Map {
             canvas.circle(center, MARKER_RADIUS, PAPER, None);
             canvas.circle(center, MARKER_RADIUS, INK, Some(1.4 * AXIS_WIDTH));
             let start = (center.0 + 2.0 * MARKER_RADIUS, center.1);
-            self.write(canvas, &place.rect, &Label::new(name, NOTE)?, start, scale);
+            self.write(canvas, &place.rect, &Label::new(name, REGION)?, start, scale);
         }
         Ok(())
     }
 
     fn draw_regions(&self, canvas: &mut Canvas, place: &Place, scale: &ColorScale) -> Result<(), PlotError> {
         for (name, at) in &self.regions {
-            let (label, (x, y)) = (Label::new(name, NOTE)?, place.at(*at));
+            let (label, (x, y)) = (Label::new(name, REGION)?, place.at(*at));
             let start = x - label.width / 2.0;
             let room = place.rect.right() - TEXT_EDGE - label.width;
             let inside = start.min(room).max(place.rect.left + TEXT_EDGE);
@@ -169,7 +169,7 @@ impl Map {
             is_dark(scale.color(self.value((along - rect.left) / rect.width * self.columns as f64, row)))
         };
         let color = if (0..=10).filter(dark).count() > 5 { PAPER } else { INK };
-        canvas.text(label, (x, y + X_HEIGHT * NOTE / 2.0), Align::Left, color);
+        canvas.text(label, (x, y + X_HEIGHT * REGION / 2.0), Align::Left, color);
     }
 }
 

@@ -78,7 +78,8 @@ impl SpaceTime {
     }
 
     /// Fills the panel with the speed, linear in space between neighbouring trajectories, instead
-    /// of lines: for panels where lines would lie closer than they can be printed.
+    /// of lines: for panels where lines would lie closer than they can be printed. With
+    /// [`SpaceTime::every`], the trajectories it chooses are drawn over the field in white.
     #[must_use]
     pub fn field(mut self) -> Self {
         self.field = true;
@@ -129,6 +130,9 @@ impl SpaceTime {
         let place = self.place(rect);
         if self.field {
             canvas.image(&self.raster(&place, scale), &rect)?;
+            if self.every > 1 {
+                self.draw_traces(canvas, &place, scale);
+            }
         } else {
             self.draw_lines(canvas, &place, scale);
         }
@@ -155,6 +159,18 @@ impl SpaceTime {
         for (pieces, color) in shades.iter().zip(palette).rev() {
             canvas.lines(pieces, &Stroke::solid(color, self.width));
         }
+    }
+
+    /// The chosen trajectories in white.
+    fn draw_traces(&self, canvas: &mut Canvas, place: &Place, scale: &ColorScale) {
+        let mut traces = Vec::new();
+        for trajectory in self.trajectories.iter().step_by(self.every) {
+            for (_, piece) in self.pieces(trajectory, scale) {
+                let clipped = clip(&place.all(&piece), &place.rect);
+                traces.extend(clipped.iter().map(|piece| simplify(piece, TOLERANCE)));
+            }
+        }
+        canvas.lines(&traces, &Stroke::solid(PAPER, self.width));
     }
 
     /// The speed field over the box, one pixel for each 0.1 mm.

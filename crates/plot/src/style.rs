@@ -40,8 +40,10 @@ pub(crate) const INSET: Sizes = Sizes { label: 7.0 * POINT, tick: 6.5 * POINT, t
 pub(crate) const LETTER: f64 = 9.0 * POINT;
 /// Titles beside the letters.
 pub(crate) const TITLE: f64 = 8.5 * POINT;
-/// Notes, region names and legends.
+/// Notes and legends.
 pub(crate) const NOTE: f64 = 7.5 * POINT;
+/// Names of regions: small enough for a third of a column.
+pub(crate) const REGION: f64 = 6.5 * POINT;
 
 /// Space left free along the edge of the page.
 pub(crate) const PAGE_EDGE: f64 = 0.6;
