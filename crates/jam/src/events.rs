@@ -110,7 +110,6 @@ pub struct Watch<'a> {
     found: Vec<Happening>,
     before: Instant,
     after: Instant,
-    is_under_way: bool,
 }
 
 /// A step in which an event may lie is searched in this many parts.
@@ -120,13 +119,12 @@ impl<'a> Watch<'a> {
     /// A watch over a ring of `pedestrians` in this form.
     pub fn new(model: Model, form: &'a dyn Form, pedestrians: usize) -> Watch<'a> {
         let instant = Instant::new(pedestrians);
-        Watch { model, form, found: Vec::new(), before: instant.clone(), after: instant, is_under_way: false }
+        Watch { model, form, found: Vec::new(), before: instant.clone(), after: instant }
     }
 
     /// Goes on with the same ring in another form.
     pub fn change_form(&mut self, form: &'a dyn Form) {
         self.form = form;
-        self.is_under_way = false;
     }
 
     /// The speeds at the end of the step looked at last.
@@ -141,11 +139,7 @@ impl<'a> Watch<'a> {
 
     /// Looks for events in a step; returns those that are new, in order of time.
     pub fn look(&mut self, step: &mut Step<'_>) -> Vec<Happening> {
-        std::mem::swap(&mut self.before, &mut self.after);
-        if !self.is_under_way {
-            self.before.read(self.form, &self.model, step.before(), step.rates_before());
-            self.is_under_way = true;
-        }
+        self.before.read(self.form, &self.model, step.before(), step.rates_before());
         self.after.read(self.form, &self.model, step.after(), step.rates_after());
         let mut new = Vec::new();
         for event in Event::ALL {

@@ -7,7 +7,7 @@ use crate::extrapolation::Extrapolation;
 use crate::methods::Method;
 use crate::observe::Observer;
 use crate::runge_kutta::RungeKutta;
-use crate::system::System;
+use crate::system::{Burst, System};
 use crate::vector::{add, add_compensated};
 
 /// What shall be integrated, and how.
@@ -136,18 +136,32 @@ impl<'a> Run<'a> {
             next: vec![0.0; n],
             next_rates: vec![0.0; n],
             change: vec![0.0; n],
-            statistics: Statistics { evaluations: 1, ..Statistics::default() },
+            statistics: Statistics { evaluations: 1, time: problem.begin, ..Statistics::default() },
         }
     }
 
     /// Step `k` runs from `begin + k h` to `begin + (k + 1) h`: the time is a product, so that it gathers no rounding.
     fn fixed(&mut self, problem: &Problem<'_>, h: f64, observer: &mut dyn Observer) -> Result<(), Failure> {
         let count = (problem.end - problem.begin) / h;
-        let whole = if (count - count.round()).abs() < SAME * count { count.round() } else { count.ceil() } as u64;
-        for k in 0..whole {
+        let is_multiple = (count - count.round()).abs() < SAME * count;
+        let whole = if is_multiple { count.round() } else { count.ceil() } as u64;
+        let (mut k, mut slow_until) = (0, 0);
+        while k < whole {
+            if problem.method == Method::Heun && k >= slow_until {
+                let sample = ((observer.next_sample() - problem.begin) / h) as u64;
+                let count = sample.min(whole).saturating_sub(k + 1).min(LONGEST_BURST);
+                match self.burst(h, count) {
+                    Burst::Quiet => {
+                        k += count;
+                        continue;
+                    }
+                    Burst::Eventful => slow_until = k + count,
+                    Burst::NotOffered => slow_until = whole,
+                }
+            }
             let start = problem.begin + k as f64 * h;
             let end = if k + 1 == whole { problem.end } else { problem.begin + (k + 1) as f64 * h };
-            let length = if k + 1 == whole && count.round() as u64 != whole { end - start } else { h };
+            let length = if k + 1 == whole && !is_multiple { end - start } else { h };
             self.try_step(length, None);
             add(&self.state, &self.change, &mut self.next);
             if !self.next.iter().all(|component| component.is_finite()) {
@@ -156,8 +170,25 @@ impl<'a> Run<'a> {
             if self.accept(start, end, length, observer).is_break() {
                 break;
             }
+            k += 1;
         }
         Ok(())
+    }
+
+    /// Makes `count` steps of Heun's scheme that nobody needs to see, if the system can do so and nothing happens.
+    fn burst(&mut self, h: f64, count: u64) -> Burst {
+        if count == 0 {
+            return Burst::Eventful;
+        }
+        self.next.copy_from_slice(&self.state);
+        let burst = self.system.heun(&mut self.next, h, count);
+        if burst == Burst::Quiet {
+            std::mem::swap(&mut self.state, &mut self.next);
+            self.system.rates(&self.state, &mut self.rates);
+            self.statistics.steps += count;
+            self.statistics.evaluations += 2 * count;
+        }
+        burst
     }
 
     fn adaptive(&mut self, problem: &Problem<'_>, tolerance: f64, observer: &mut dyn Observer) -> Result<(), Failure> {
@@ -233,6 +264,9 @@ impl<'a> Run<'a> {
         guess.min(problem.end - problem.begin)
     }
 }
+
+/// Steps of a burst: enough to make its start cheap, few enough to make again one by one.
+const LONGEST_BURST: u64 = 4096;
 
 /// Shorter steps are taken for a sign that the tolerance cannot be met. The equations do not know the time and its sum
 /// is compensated, so a step may lie far below the rounding of the time: a blow-up needs that.

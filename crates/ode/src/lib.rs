@@ -21,4 +21,4 @@ pub use dense::Step;
 pub use integrate::{Failure, Problem, Statistics, integrate};
 pub use methods::Method;
 pub use observe::{Observer, Sampler, first_crossing};
-pub use system::{Group, Measure, System};
+pub use system::{Burst, Group, Measure, System};

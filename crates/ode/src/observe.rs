@@ -7,6 +7,12 @@ use std::ops::ControlFlow;
 pub trait Observer {
     /// Looks at a step; `Break` ends the integration after it.
     fn after(&mut self, step: &mut Step<'_>) -> ControlFlow<()>;
+
+    /// The time of the next sample: steps that end before it need not be shown unless something happens in them. By
+    /// default every step is shown.
+    fn next_sample(&self) -> f64 {
+        0.0
+    }
 }
 
 impl<F: FnMut(&mut Step<'_>) -> ControlFlow<()>> Observer for F {
@@ -34,11 +40,16 @@ impl Sampler {
         self.state.resize(dimension, 0.0);
     }
 
+    /// The time of the next sample.
+    pub fn next(&self) -> f64 {
+        self.next as f64 * self.interval
+    }
+
     /// Calls `take(t, state)` for every sample time within the step that is not after `until`.
     pub fn within(&mut self, step: &mut Step<'_>, until: f64, take: &mut dyn FnMut(f64, &[f64])) {
         let end = if until < step.end { until } else { step.end + SAME * step.length() };
         loop {
-            let t = self.next as f64 * self.interval;
+            let t = self.next();
             if t > end {
                 return;
             }

@@ -3,7 +3,7 @@
 use crate::control::Norm;
 use crate::dense::{Ends, Stepper, Trial, cubic};
 use crate::system::System;
-use crate::tableau::{Interpolant, Tableau};
+use crate::tableau::{Interpolant, Row, Tableau};
 use crate::vector::{add, weighted_sum};
 
 pub(crate) struct RungeKutta {
@@ -35,13 +35,12 @@ impl RungeKutta {
         }
     }
 
-    /// Evaluates stage `i` at `start + h * (row of earlier stages)`; false when that state is outside the domain.
-    fn stage(&mut self, system: &dyn System, start: &[f64], h: f64, row: crate::tableau::Row, i: usize) -> bool {
+    /// Evaluates stage `i` at `start + h * (row of earlier stages)`, a state that is left in `self.state`.
+    fn stage(&mut self, system: &dyn System, start: &[f64], h: f64, row: Row, i: usize) {
         let (earlier, later) = self.stages.split_at_mut(i * self.n);
         weighted_sum(h, row, earlier, &mut self.sum);
         add(start, &self.sum, &mut self.state);
         system.rates(&self.state, &mut later[..self.n]);
-        system.in_domain(&self.state)
     }
 
     /// The error of the step in units of the tolerance. Of two estimates `e_5`, `e_3` the combination of DOP853 is
@@ -79,8 +78,8 @@ impl Stepper for RungeKutta {
         self.nested_is_ready = false;
         self.stages[..self.n].copy_from_slice(from.rates);
         for (i, row) in self.tableau.rows.iter().enumerate() {
-            let inside = self.stage(system, from.state, from.h, row, i + 1);
-            if norm.is_some() && !inside {
+            self.stage(system, from.state, from.h, row, i + 1);
+            if norm.is_some() && !system.in_domain(&self.state) {
                 return f64::INFINITY;
             }
         }

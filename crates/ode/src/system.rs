@@ -25,11 +25,28 @@ pub trait System {
         true
     }
 
+    /// Makes `count` steps of length `h` of Heun's scheme in place, with the same bits as one by one, if the system has a
+    /// faster way to do so.
+    fn heun(&self, _state: &mut [f64], _h: f64, _count: u64) -> Burst {
+        Burst::NotOffered
+    }
+
     /// All rates: [`System::kinematics`] and [`System::dynamics`].
     fn rates(&self, state: &[f64], rates: &mut [f64]) {
         self.kinematics(state, rates);
         self.dynamics(state, rates);
     }
+}
+
+/// What became of many steps made at once (see [`System::heun`]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Burst {
+    /// The steps were made and nothing happened in them.
+    Quiet,
+    /// Something happened in one of them: they must be made again one by one, to be looked at.
+    Eventful,
+    /// There is no faster way; the state is untouched.
+    NotOffered,
 }
 
 /// Components of one kind, whose errors are compared with one size.

@@ -146,9 +146,12 @@ impl Observer for Recorder<'_> {
         let happened = |event: Event| self.watch.found().iter().any(|happening| happening.event == event);
         let continues = !self.scene.model.is_singular();
         let is_over = happened(Event::BlowUp)
-            || self.is_stopped
-                && (!continues || happened(Event::NegativeSpeed) && happened(Event::Exchange));
+            || self.is_stopped && (!continues || happened(Event::NegativeSpeed) && happened(Event::Exchange));
         if is_over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    fn next_sample(&self) -> f64 {
+        self.sampler.next()
     }
 }
 

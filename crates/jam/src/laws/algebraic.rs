@@ -46,9 +46,9 @@ impl Algebraic {
     /// The power among those that need no general one.
     fn special_power(&self) -> u8 {
         match self.power {
-            q if q == 1.0 => 1,
-            q if q == 2.0 => 2,
-            q if q == 3.0 => 3,
+            1.0 => 1,
+            2.0 => 2,
+            3.0 => 3,
             _ => 0,
         }
     }

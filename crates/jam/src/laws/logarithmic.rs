@@ -39,30 +39,52 @@ impl Logarithmic {
     }
 
     pub(super) fn visit<V: Visitor>(&self, visitor: V) -> V::Output {
-        let parameters = *self;
+        let (parameters, slope) = (*self, -1.0 / self.epsilon);
         if self.widening != 0.0 {
-            visitor.visit(LogarithmicLaw::<true> { parameters })
+            visitor.visit(LogarithmicLaw::<true> { parameters, slope })
         } else {
-            visitor.visit(LogarithmicLaw::<false> { parameters })
+            visitor.visit(LogarithmicLaw::<false> { parameters, slope })
         }
     }
 }
 
-/// The law with or without the widening.
+/// The law with or without the widening, and `-1 / eps`.
 #[derive(Clone, Copy, Debug)]
 pub struct LogarithmicLaw<const WIDENING: bool> {
     parameters: Logarithmic,
+    slope: f64,
 }
 
-/// The uniform flow: headway, `a'`, `1 / a'`, the ramp, `-1 / eps` and `c eps / (1 + c R')`.
+/// The uniform flow: headway, `a'`, `1 / a'`, the ramp and `c eps / (1 + c R')`.
 #[derive(Clone, Copy, Debug)]
 pub struct Base {
     headway: f64,
     distance: f64,
     inverse_distance: f64,
     ramp: SoftplusBase,
-    slope: f64,
     scale: f64,
+}
+
+impl<const WIDENING: bool> LogarithmicLaw<WIDENING> {
+    /// `-(s / (2 + a_v (v + v_ahead)) - 1) / eps`: the argument of the softplus function in the smooth ramp.
+    #[inline(always)]
+    fn ramp_argument(&self, gap: f64, speed: f64, ahead: f64) -> f64 {
+        let a_v = self.parameters.widening;
+        let ratio = if WIDENING { gap / (2.0 + a_v * (speed + ahead)) } else { 0.5 * gap };
+        (ratio - 1.0) * self.slope
+    }
+
+    /// How much that argument differs from the uniform flow's.
+    #[inline(always)]
+    fn ramp_difference(&self, base: &Base, gap: f64, speed: f64, ahead: f64) -> f64 {
+        let ratio = if WIDENING {
+            let wider = self.parameters.widening * (speed + ahead);
+            (gap - base.headway * (wider * base.inverse_distance)) / (base.distance + wider)
+        } else {
+            0.5 * gap
+        };
+        ratio * self.slope
+    }
 }
 
 impl<const WIDENING: bool> Law for LogarithmicLaw<WIDENING> {
@@ -72,11 +94,22 @@ impl<const WIDENING: bool> Law for LogarithmicLaw<WIDENING> {
 
     const CONTACT: f64 = 0.0;
 
+    const IN_HALVES: bool = true;
+
     #[inline(always)]
     fn acceleration(&self, gap: f64, speed: f64, ahead: f64) -> f64 {
-        let Logarithmic { desired_speed: v0, widening: a_v, epsilon } = self.parameters;
-        let ratio = if WIDENING { gap / (2.0 + a_v * (speed + ahead)) } else { 0.5 * gap };
-        let r = smooth_ramp(ratio - 1.0, epsilon);
+        self.acceleration_rest(self.acceleration_half(gap, speed, ahead), gap, speed, ahead)
+    }
+
+    #[inline(always)]
+    fn acceleration_half(&self, gap: f64, speed: f64, ahead: f64) -> f64 {
+        lane::decay(self.ramp_argument(gap, speed, ahead))
+    }
+
+    #[inline(always)]
+    fn acceleration_rest(&self, half: f64, gap: f64, speed: f64, ahead: f64) -> f64 {
+        let Logarithmic { desired_speed: v0, epsilon, .. } = self.parameters;
+        let r = epsilon * lane::softplus_of_decay(self.ramp_argument(gap, speed, ahead), half);
         v0 * (1.0 - lane::ln_1p(C * r)) - speed
     }
 
@@ -90,22 +123,25 @@ impl<const WIDENING: bool> Law for LogarithmicLaw<WIDENING> {
             distance,
             inverse_distance: 1.0 / distance,
             ramp: SoftplusBase::new(-x / epsilon),
-            slope: -1.0 / epsilon,
             scale: C * epsilon / (1.0 + C * r),
         }
     }
 
     #[inline(always)]
     fn deviation(&self, base: &Base, gap: f64, speed: f64, ahead: f64) -> f64 {
-        let Logarithmic { desired_speed: v0, widening: a_v, .. } = self.parameters;
-        let ratio = if WIDENING {
-            let wider = a_v * (speed + ahead);
-            (gap - base.headway * (wider * base.inverse_distance)) / (base.distance + wider)
-        } else {
-            0.5 * gap
-        };
-        let r = lane::softplus_difference(&base.ramp, ratio * base.slope);
-        -(v0 * lane::ln_1p(base.scale * r)) - speed
+        self.deviation_rest(base, self.deviation_half(base, gap, speed, ahead), gap, speed, ahead)
+    }
+
+    #[inline(always)]
+    fn deviation_half(&self, base: &Base, gap: f64, speed: f64, ahead: f64) -> f64 {
+        lane::softplus_change(&base.ramp, self.ramp_difference(base, gap, speed, ahead))
+    }
+
+    #[inline(always)]
+    fn deviation_rest(&self, base: &Base, half: f64, gap: f64, speed: f64, ahead: f64) -> f64 {
+        let difference = self.ramp_difference(base, gap, speed, ahead);
+        let r = lane::softplus_difference_of_change(&base.ramp, difference, half);
+        -(self.parameters.desired_speed * lane::ln_1p(base.scale * r)) - speed
     }
 
     #[inline(always)]

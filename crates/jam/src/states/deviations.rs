@@ -105,8 +105,13 @@ impl<L: Law> Kernel for Accelerations<'_, L> {
     fn run(self) {
         let last = self.gaps.len() - 1;
         let ahead = &self.speeds[1..];
+        if L::IN_HALVES {
+            for (((rate, gap), speed), ahead) in self.rates.iter_mut().zip(self.gaps).zip(self.speeds).zip(ahead) {
+                *rate = self.law.deviation_half(&self.base, *gap, *speed, *ahead);
+            }
+        }
         for (((rate, gap), speed), ahead) in self.rates.iter_mut().zip(self.gaps).zip(self.speeds).zip(ahead) {
-            *rate = self.law.deviation(&self.base, *gap, *speed, *ahead);
+            *rate = self.law.deviation_rest(&self.base, *rate, *gap, *speed, *ahead);
         }
         self.rates[last] = self.law.deviation(&self.base, self.gaps[last], self.speeds[last], self.speeds[0]);
     }

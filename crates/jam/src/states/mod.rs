@@ -8,6 +8,7 @@
 
 mod deviations;
 mod gaps;
+mod heun;
 mod positions;
 
 pub use deviations::Deviations;

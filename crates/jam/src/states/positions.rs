@@ -2,11 +2,12 @@
 
 use super::Form;
 use super::gaps::Accelerations;
+use super::heun::HeunSteps;
 use crate::laws::Law;
 use crate::observe::spread;
 use crate::ring::{Ring, Start};
 use math::simd::dispatch;
-use ode::{Group, Measure, System};
+use ode::{Burst, Group, Measure, System};
 use std::cell::RefCell;
 use std::ops::Range;
 
@@ -56,11 +57,15 @@ impl<L: Law> System for Positions<L> {
     }
 
     fn positions(&self) -> Vec<Range<usize>> {
-        vec![0..self.ring.pedestrians]
+        std::iter::once(0..self.ring.pedestrians).collect()
     }
 
     fn groups(&self) -> Vec<Group> {
         vec![Group { range: 0..self.dimension(), measure: Measure::Largest, floor: 1.0 }]
+    }
+
+    fn heun(&self, state: &mut [f64], h: f64, count: u64) -> Burst {
+        dispatch(HeunSteps { law: self.law, length: self.ring.length, h, count, state })
     }
 
     fn in_domain(&self, state: &[f64]) -> bool {

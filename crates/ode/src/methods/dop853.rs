@@ -4,6 +4,8 @@
 //! Springer 1993, section II.5 and the program DOP853 that goes with it; the method is due to J. R. Dormand and
 //! P. J. Prince. Tests check every order condition up to these orders.
 
+#![allow(clippy::excessive_precision, reason = "the digits as published, to be compared one by one")]
+
 use crate::tableau::{Interpolant, Tableau};
 
 /// Order 8 with 12 stages; 3 further stages for the interpolant of order 7, only where it is asked for.
