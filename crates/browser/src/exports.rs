@@ -1,0 +1,70 @@
+//! The C functions of the module. A function that answers with text or bytes keeps them and returns their length;
+//! [`answer`] says where they lie, until the next call. A negative length is that of an error message.
+#![allow(unsafe_code, reason = "an exported name is `unsafe` since two of the same would clash; nothing else here is")]
+
+use crate::compute::Tables;
+use crate::figures::FIGURES;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+static TABLES: Mutex<Tables> = Mutex::new(Tables::new());
+static ANSWER: Mutex<Vec<u8>> = Mutex::new(Vec::new());
+
+/// The number of figures; they are counted from 0.
+#[unsafe(no_mangle)]
+pub extern "C" fn figure_count() -> usize {
+    FIGURES.len()
+}
+
+/// The number of tables of a figure; 0 for a figure that does not exist.
+#[unsafe(no_mangle)]
+pub extern "C" fn table_count(figure: usize) -> usize {
+    FIGURES.get(figure).map_or(0, |figure| figure.tables.len())
+}
+
+/// Computes the tables of a figure; the answer has a line of `data/SHA256SUMS` for each.
+#[unsafe(no_mangle)]
+pub extern "C" fn sums(figure: usize) -> isize {
+    let lines = match FIGURES.get(figure) {
+        Some(figure) => lock(&TABLES).sums(figure).map(String::into_bytes),
+        None => Err(missing("figure", figure, FIGURES.len())),
+    };
+    keep(lines)
+}
+
+/// Computes one table; the answer is its CSV.
+#[unsafe(no_mangle)]
+pub extern "C" fn table(figure: usize, table: usize) -> isize {
+    let bytes = match FIGURES.get(figure).map(|figure| (figure, figure.tables.get(table))) {
+        Some((figure, Some(entry))) => lock(&TABLES).csv(figure, entry),
+        Some((figure, None)) => Err(missing("table", table, figure.tables.len())),
+        None => Err(missing("figure", figure, FIGURES.len())),
+    };
+    keep(bytes)
+}
+
+/// Where the answer to the last call lies.
+#[unsafe(no_mangle)]
+pub extern "C" fn answer() -> *const u8 {
+    lock(&ANSWER).as_ptr()
+}
+
+fn missing(what: &str, index: usize, count: usize) -> String {
+    format!("{what} {index}: there are {count}, counted from 0")
+}
+
+/// Keeps the answer; its length, negative for a message.
+fn keep(answer: Result<Vec<u8>, String>) -> isize {
+    let (bytes, sign) = match answer {
+        Ok(bytes) => (bytes, 1),
+        Err(message) => (message.into_bytes(), -1),
+    };
+    // a Vec is never longer than isize::MAX
+    let length = sign * bytes.len() as isize;
+    *lock(&ANSWER) = bytes;
+    length
+}
+
+/// What an earlier panic left behind is whole: both values are replaced in one assignment.
+fn lock<T>(mutex: &'static Mutex<T>) -> MutexGuard<'static, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
