@@ -1,8 +1,7 @@
 //! Figure 5 (fig:sfm): the criterion of the exponential model over strength and range, for three distances.
 
-use figures::panels::{Labels, map_of};
+use figures::panels::{MapPanel, map_grid};
 use figures::{Failure, Job, figure};
-use plot::style::COLUMN_WIDTH;
 use plot::{ColorScale, Picture};
 use std::process::ExitCode;
 
@@ -11,18 +10,27 @@ fn main() -> ExitCode {
 }
 
 fn picture(job: &Job) -> Result<Picture, Failure> {
-    Ok(Picture::new(COLUMN_WIDTH, 36.0)
-        .scale(ColorScale::diverging("$\\tilde\\Phi$", 0.5))
-        .titled(
-            "$d' = 2.5$",
-            map_of(job, "left", Labels::Both)?.region("unstable", (5.75, 3.0)).region("stable", (1.5, 5.5)),
-        )
-        .titled(
-            "$d' = 1.5$",
-            map_of(job, "middle", Labels::Horizontal)?.region("unstable", (5.75, 3.0)).region("stable", (1.5, 5.5)),
-        )
-        .titled(
-            "$d' = 0.5$",
-            map_of(job, "right", Labels::Horizontal)?.region("unstable", (5.75, 3.0)).region("stable", (1.5, 5.5)),
-        ))
+    map_grid(
+        job,
+        ColorScale::diverging("$\\tilde\\Phi$", 0.5),
+        3,
+        36.0,
+        &[
+            MapPanel {
+                name: "left",
+                title: "$d' = 2.5$",
+                regions: &[("unstable", (5.75, 3.0)), ("stable", (1.5, 5.5))],
+            },
+            MapPanel {
+                name: "middle",
+                title: "$d' = 1.5$",
+                regions: &[("unstable", (5.75, 3.0)), ("stable", (1.5, 5.5))],
+            },
+            MapPanel {
+                name: "right",
+                title: "$d' = 0.5$",
+                regions: &[("unstable", (5.75, 3.0)), ("stable", (1.5, 5.5))],
+            },
+        ],
+    )
 }

@@ -1,8 +1,7 @@
 //! Figure 9 (fig:newd_av): growth rates of the logarithmic law over widening, and over desired speed.
 
-use figures::panels::{Labels, map_of};
+use figures::panels::{MapPanel, map_grid};
 use figures::{Failure, Job, figure};
-use plot::style::COLUMN_WIDTH;
 use plot::{ColorScale, Picture};
 use std::process::ExitCode;
 
@@ -11,10 +10,18 @@ fn main() -> ExitCode {
 }
 
 fn picture(job: &Job) -> Result<Picture, Failure> {
-    let left = map_of(job, "left", Labels::Both)?.region("grows", (0.34, 0.5)).region("decays", (1.5, 2.7));
-    let right = map_of(job, "right", Labels::Horizontal)?.region("grows", (4.5, 1.4)).region("decays", (1.1, 2.55));
-    Ok(Picture::new(COLUMN_WIDTH, 48.0)
-        .scale(ColorScale::diverging("$\\mathrm{Re}\\,\\hat z^+$", 0.2))
-        .titled("$v_0' = 3$", left)
-        .titled("$\\tilde a_v = 0$", right))
+    map_grid(
+        job,
+        ColorScale::diverging("$\\mathrm{Re}\\,\\hat z^+$", 0.2),
+        2,
+        48.0,
+        &[
+            MapPanel { name: "left", title: "$v_0' = 3$", regions: &[("grows", (0.34, 0.5)), ("decays", (1.5, 2.7))] },
+            MapPanel {
+                name: "right",
+                title: "$\\tilde a_v = 0$",
+                regions: &[("grows", (4.5, 1.4)), ("decays", (1.1, 2.55))],
+            },
+        ],
+    )
 }

@@ -7,12 +7,7 @@ use plot::{Axis, Corner, Legend, Lines, Marker, Picture, Series};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    figure(env!("CARGO_BIN_NAME"), tables, picture)
-}
-
-fn tables(job: &mut Job) -> Result<(), Failure> {
-    job.take("std", "std", "std")?;
-    job.take("std_small_shift", "std", "std_small_shift")
+    figure(env!("CARGO_BIN_NAME"), Job::take_deviations, picture)
 }
 
 fn picture(job: &Job) -> Result<Picture, Failure> {

@@ -110,7 +110,7 @@ impl Job {
         Ok(Table::read(&self.run_file(panel, name)?)?)
     }
 
-    /// Takes a table of the run of a panel as it is.
+    /// Takes a table of the run of a panel as it is, under the name `target`.
     ///
     /// # Errors
     /// As [`Job::run_table`], or the copy cannot be written.
@@ -118,6 +118,15 @@ impl Job {
         let file = self.run_file(panel, name)?;
         let bytes = std::fs::read(&file).map_err(|error| with_path(error, &file))?;
         Ok(atomic(&self.arguments.tables.join(format!("{target}.csv")), &bytes)?)
+    }
+
+    /// Takes the standard deviations of all runs, each under the name of its panel.
+    ///
+    /// # Errors
+    /// As [`Job::take`].
+    pub fn take_deviations(&mut self) -> Result<(), Failure> {
+        let runs = self.recipe.panels.iter().filter(|panel| panel.kind == Kind::Run);
+        runs.map(|panel| self.take(&panel.name, "std", &panel.name)).collect()
     }
 
     fn run_file(&self, panel: &str, name: &str) -> Result<PathBuf, Failure> {

@@ -63,8 +63,11 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
                 values.iter().fold(0.0, |most: f64, value| if value.abs() > most { value.abs() } else { most });
             let limit = LIMITS.into_iter().find(|&limit| largest <= limit).unwrap_or(0.5);
             let scale = ColorScale::diverging(if value == "phi" { "$\\Phi$" } else { "$\\mathrm{Re}\\,z^+$" }, limit);
-            let picture =
-                Picture::new(COLUMN_WIDTH, 70.0).scale(scale).panel(map_panel(map, &numbers.table, Labels::Both)?);
+            let picture = Picture::new(COLUMN_WIDTH, 70.0).scale(scale).panel(map_panel(
+                map,
+                &numbers.table,
+                Labels { horizontal: true, vertical: true },
+            )?);
             let rendered = picture.render().map_err(Failure::work)?;
             atomic(&folder.join(format!("{name}.svg")), &rendered.svg)?;
             atomic(&folder.join(format!("{name}.png")), &rendered.png)?;

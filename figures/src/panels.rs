@@ -3,7 +3,8 @@
 use crate::failure::Failure;
 use crate::job::Job;
 use files::table::Table;
-use plot::{Axis, Legend, Lines, Map, Series, Trajectory};
+use plot::style::COLUMN_WIDTH;
+use plot::{Axis, ColorScale, Legend, Lines, Map, Picture, Series, Trajectory};
 use scene::map::Axis as MapAxis;
 
 /// Ticks of an axis of wave numbers.
@@ -11,26 +12,49 @@ const WAVE_NUMBERS: [(f64, &str); 5] =
     [(0.0, "0"), (0.25 * PI, "$\\pi/4$"), (0.5 * PI, "$\\pi/2$"), (0.75 * PI, "$3\\pi/4$"), (PI, "$\\pi$")];
 const PI: f64 = std::f64::consts::PI;
 
-/// Which of its axes a map in a grid labels: neighbours share the others.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Labels {
-    /// Both.
-    Both,
-    /// The horizontal one: there is a neighbour at the left.
-    Horizontal,
-    /// The vertical one: there is a neighbour below.
-    Vertical,
-    /// None: neighbours at the left and below.
-    None,
+/// One map of a grid.
+#[derive(Clone, Copy, Debug)]
+pub struct MapPanel<'a> {
+    /// The panel of the scene, and its table.
+    pub name: &'a str,
+    /// The title, in the markup of labels; empty for none.
+    pub title: &'a str,
+    /// Names of regions and where they stand, in data coordinates.
+    pub regions: &'a [(&'a str, (f64, f64))],
 }
 
-/// The map of a panel of the figure's scene, from the table of the same name.
+/// Which of its axes a map labels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Labels {
+    /// The horizontal one.
+    pub horizontal: bool,
+    /// The vertical one.
+    pub vertical: bool,
+}
+
+/// Maps of one colour scale in rows of `columns`, one column of a journal wide and `height` millimetres high. Neighbours
+/// share axes: those at the left label the vertical one, those at the bottom the horizontal one.
 ///
 /// # Errors
 /// No such panel, or its table is missing or damaged.
-pub fn map_of(job: &Job, panel: &str, labels: Labels) -> Result<Map, Failure> {
-    let map = scene::map::read(&job.recipe.file, &job.panel(panel)?.tables)?;
-    map_panel(&map, &job.read(panel)?, labels)
+pub fn map_grid(
+    job: &Job,
+    scale: ColorScale,
+    columns: usize,
+    height: f64,
+    panels: &[MapPanel<'_>],
+) -> Result<Picture, Failure> {
+    let mut picture = Picture::new(COLUMN_WIDTH, height).columns(columns).scale(scale);
+    for (index, panel) in panels.iter().enumerate() {
+        let map = scene::map::read(&job.recipe.file, &job.panel(panel.name)?.tables)?;
+        let labels = Labels { horizontal: index + columns >= panels.len(), vertical: index % columns == 0 };
+        let mut drawn = map_panel(&map, &job.read(panel.name)?, labels)?;
+        for &(name, at) in panel.regions {
+            drawn = drawn.region(name, at);
+        }
+        picture = picture.titled(panel.title, drawn);
+    }
+    Ok(picture)
 }
 
 /// The picture of a map, from its table.
@@ -45,8 +69,7 @@ pub fn map_panel(map: &scene::map::Map, table: &Table, labels: Labels) -> Result
     }
     // the table runs up the columns of the map, the picture along its rows
     let values = (0..columns * rows).map(|i| values[(i % columns) * rows + i / columns]).collect();
-    let x = axis(&map.x, matches!(labels, Labels::Both | Labels::Horizontal));
-    let y = axis(&map.y, matches!(labels, Labels::Both | Labels::Vertical));
+    let (x, y) = (axis(&map.x, labels.horizontal), axis(&map.y, labels.vertical));
     Ok(Map::new(x, y, columns, rows, values))
 }
 
@@ -88,33 +111,57 @@ pub fn points(table: &Table, x: &str, y: &str) -> Result<Vec<(f64, f64)>, Failur
     Ok(table.column(x)?.into_iter().zip(table.column(y)?).collect())
 }
 
-/// A standard deviation of speeds against time, `scale` times as large (10^`power` on the axis label), with an inset on
-/// a logarithmic axis from 10^`floor` up. `part` is the inset's place (see [`Lines::inset`]).
-pub fn std_panel(
-    points: &[(f64, f64)],
-    t_end: f64,
-    top: f64,
-    power: i32,
-    decades: (f64, f64),
-    part: [f64; 4],
-) -> Lines {
-    let label = match power {
+/// How a standard deviation of speeds is drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct StdPanel<'a> {
+    /// The table.
+    pub name: &'a str,
+    /// The title, in the markup of labels.
+    pub title: &'a str,
+    /// The end of the time axis.
+    pub t_end: f64,
+    /// The top of the linear axis, in units of 10^`power`.
+    pub top: f64,
+    /// The power of ten in the label of the linear axis.
+    pub power: i32,
+    /// The ends of the logarithmic axis of the inset.
+    pub decades: (f64, f64),
+    /// The inset's place in fractions of the panel: left, bottom, right, top.
+    pub inset: [f64; 4],
+}
+
+/// Standard deviations against time, one above the other: linear axes as published, and an inset with a logarithmic one
+/// where the linear one shows a flat line.
+///
+/// # Errors
+/// A table is missing or damaged.
+pub fn std_column(job: &Job, panels: &[StdPanel<'_>]) -> Result<Picture, Failure> {
+    let mut picture = Picture::new(COLUMN_WIDTH, 50.0 * panels.len() as f64).columns(1);
+    for panel in panels {
+        picture = picture.titled(panel.title, std_panel(panel, &points(&job.read(panel.name)?, "t", "std")?));
+    }
+    Ok(picture)
+}
+
+fn std_panel(panel: &StdPanel<'_>, points: &[(f64, f64)]) -> Lines {
+    let label = match panel.power {
         0 => "std of speeds".to_owned(),
         power => format!("std of speeds $/ 10^{{{power}}}$"),
     };
-    let factor = math_power(power);
-    let scaled = points.iter().map(|&(t, std)| (t, std / factor)).collect();
-    let inset = Lines::new(Axis::linear("", 0.0, t_end).steps(2), Axis::log10("", decades.0, decades.1))
+    let unit = power_of_ten(panel.power);
+    let scaled = points.iter().map(|&(t, std)| (t, std / unit)).collect();
+    let (low, high) = panel.decades;
+    let inset = Lines::new(Axis::linear("", 0.0, panel.t_end).steps(2), Axis::log10("", low, high))
         .legend(Legend::Hidden)
         .series(Series::line("", points.to_vec()));
-    Lines::new(Axis::linear("$t$", 0.0, t_end).steps(4), Axis::linear(&label, 0.0, top).steps(4))
+    Lines::new(Axis::linear("$t$", 0.0, panel.t_end).steps(4), Axis::linear(&label, 0.0, panel.top).steps(4))
         .legend(Legend::Hidden)
         .series(Series::line("", scaled))
-        .inset(part, inset)
+        .inset(panel.inset, inset)
 }
 
 /// 10^power, exact for the small powers of axis labels.
-fn math_power(power: i32) -> f64 {
+fn power_of_ten(power: i32) -> f64 {
     let size = (0..power.abs()).fold(1.0, |product, _| product * 10.0);
     if power < 0 { 1.0 / size } else { size }
 }

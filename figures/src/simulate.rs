@@ -194,7 +194,7 @@ fn summary(scene: &Scene, outcome: &Outcome, seconds: f64) -> Value {
         .iter()
         .map(|happening| json!({ "event": happening.event.name(), "t": happening.time, "n": happening.pedestrian }))
         .collect();
-    let extents: Vec<f64> = outcome.jams.iter().map(|jam| jam.extent).collect();
+    let extents: Vec<f64> = outcome.drift.jams().iter().map(|jam| jam.extent).collect();
     json!({
         "schema_version": 1,
         "law": scene.model.name(),
@@ -210,7 +210,12 @@ fn summary(scene: &Scene, outcome: &Outcome, seconds: f64) -> Value {
         "t": outcome.statistics.time,
         "stop": outcome.stop().map_or("t_end", |happening| happening.event.name()),
         "events": events,
-        "jams": { "number": outcome.jams.len(), "extents": extents, "speed": outcome.jam_speed },
+        "jams": {
+            "number": extents.len(),
+            "extents": extents,
+            "speed": outcome.drift.speed().map(|(speed, _)| speed),
+            "measured_over": outcome.drift.speed().map(|(_, time)| time),
+        },
     })
 }
 
@@ -236,8 +241,9 @@ fn in_words(scene: &Scene, outcome: &Outcome, seconds: f64) -> String {
             happening.pedestrian
         );
     }
-    if let (false, Some(speed)) = (outcome.jams.is_empty(), outcome.jam_speed) {
-        let _ = write!(text, "\n{} jams, travelling at {speed:.4}", outcome.jams.len());
+    if let Some((speed, time)) = outcome.drift.speed() {
+        let count = outcome.drift.jams().len();
+        let _ = write!(text, "\n{count} jams, travelling at {speed:.4} (mean over the last {time:?})");
     }
     text
 }

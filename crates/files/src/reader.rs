@@ -160,8 +160,9 @@ impl<'a> Reader<'a> {
         Reader { file, name, section, asked: BTreeSet::new() }
     }
 
-    /// Whether the table has this key.
-    pub fn has(&self, key: &str) -> bool {
+    /// Whether the table has this key, which counts as known from now on.
+    pub fn has(&mut self, key: &'static str) -> bool {
+        self.asked.insert(key);
         self.section.entries.contains_key(key)
     }
 
@@ -271,7 +272,9 @@ impl<'a> Reader<'a> {
     }
 
     fn missing(&self, key: &str, wanted: &str) -> RecipeError {
-        self.error(self.section.line, format!("{}.{key} is missing; it must be {wanted}", self.name))
+        let others: Vec<&str> = self.section.entries.keys().map(String::as_str).collect();
+        let found = if others.is_empty() { String::new() } else { format!("; found here: {}", others.join(", ")) };
+        self.error(self.section.line, format!("{}.{key} is missing; it must be {wanted}{found}", self.name))
     }
 
     fn wrong(&self, key: &str, entry: &Entry, wanted: &str) -> RecipeError {
@@ -285,6 +288,7 @@ impl<'a> Reader<'a> {
 
 fn shown(value: &Value) -> String {
     match value {
+        Value::Number(number) if number.fract() == 0.0 && number.abs() < 1e15 => format!("{number}"),
         Value::Number(number) => format!("{number:?}"),
         Value::Text(text) => format!("{text:?}"),
         Value::Section(_) => "a table".to_owned(),

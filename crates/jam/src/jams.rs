@@ -1,15 +1,15 @@
-//! Jams in a snapshot: how many, how long, and how fast they travel.
+//! Jams in a snapshot: how many, how long; and how fast they travel from one snapshot to the next.
 
 /// A jam: consecutive pedestrians that are all slower than a threshold.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jam {
-    /// The last one in it, counted from 0: the one that everybody of the jam walks behind has the highest number.
+    /// The last of its pedestrians, counted from 0; the others have the next numbers.
     pub first: usize,
-    /// How many stand in it.
+    /// How many are in it.
     pub pedestrians: usize,
-    /// Distance from its last to its first pedestrian.
+    /// Distance between its two ends: where the speed, linear between neighbours, crosses the threshold.
     pub extent: f64,
-    /// The middle of that stretch, unwrapped like the positions.
+    /// The middle between its ends, unwrapped like the positions.
     pub centre: f64,
 }
 
@@ -25,11 +25,17 @@ pub fn threshold(speeds: &[f64], desired_speed: f64) -> Option<f64> {
 }
 
 /// The jams of a snapshot on a ring of the given length; positions unwrapped, growing with the number of the
-/// pedestrian.
+/// pedestrian. Empty when everybody is slower than the threshold, or nobody.
 pub fn find(positions: &[f64], speeds: &[f64], length: f64, threshold: f64) -> Vec<Jam> {
     let count = speeds.len();
-    let slow = |n: usize| speeds[n % count] < threshold;
-    let position = |n: usize| positions[n % count] + if n >= count { length } else { 0.0 };
+    let speed = |n: usize| speeds[n % count];
+    let slow = |n: usize| speed(n) < threshold;
+    let position = |n: usize| positions[n % count] + length * (n / count) as f64;
+    // where the speed crosses the threshold between n and n + 1
+    let crossing = |n: usize| {
+        let share = (threshold - speed(n)) / (speed(n + 1) - speed(n));
+        position(n) + share * (position(n + 1) - position(n))
+    };
     let Some(free) = (0..count).find(|&n| !slow(n)) else { return Vec::new() };
     let mut jams = Vec::new();
     let mut n = free;
@@ -39,29 +45,49 @@ pub fn find(positions: &[f64], speeds: &[f64], length: f64, threshold: f64) -> V
             n += 1;
         }
         if n > first {
-            let (back, front) = (position(first), position(n - 1));
-            jams.push(Jam {
-                first: first % count,
-                pedestrians: n - first,
-                extent: front - back,
-                centre: 0.5 * (back + front),
-            });
+            let (back, front) = (crossing(first - 1), crossing(n - 1));
+            let (extent, centre) = (front - back, 0.5 * (back + front));
+            jams.push(Jam { first: first % count, pedestrians: n - first, extent, centre });
         }
         n += 1;
     }
     jams
 }
 
-/// The mean speed at which jams travel between two snapshots: each jam is compared with the nearest one of the earlier
-/// snapshot, on a ring of the given length. `None` if one of them has no jam.
-pub fn drift(earlier: &[Jam], later: &[Jam], length: f64, time: f64) -> Option<f64> {
-    if earlier.is_empty() || later.is_empty() {
-        return None;
+/// How far jams travel on the average, followed from snapshot to snapshot as long as their number stays the same.
+#[derive(Clone, Debug, Default)]
+pub struct Drift {
+    before: Vec<Jam>,
+    distance: f64,
+    time: f64,
+}
+
+impl Drift {
+    /// Takes the jams of the next snapshot, `interval` after the one before, on a ring of the given length.
+    pub fn follow(&mut self, jams: &[Jam], length: f64, interval: f64) {
+        let around = |distance: f64| distance - length * (distance / length).round();
+        if jams.len() != self.before.len() || jams.is_empty() {
+            (self.distance, self.time) = (0.0, 0.0);
+        } else {
+            // each jam against the nearest one of the snapshot before
+            let nearest = |jam: &Jam| {
+                let moves = self.before.iter().map(|before| around(jam.centre - before.centre));
+                moves.fold(f64::INFINITY, |best, next| if next.abs() < best.abs() { next } else { best })
+            };
+            self.distance += jams.iter().map(nearest).sum::<f64>() / jams.len() as f64;
+            self.time += interval;
+        }
+        self.before = jams.to_vec();
     }
-    let around = |distance: f64| distance - length * (distance / length).round();
-    let nearest = |jam: &Jam| {
-        let moves = earlier.iter().map(|before| around(jam.centre - before.centre));
-        moves.fold(f64::INFINITY, |best, next| if next.abs() < best.abs() { next } else { best })
-    };
-    Some(later.iter().map(nearest).sum::<f64>() / (later.len() as f64 * time))
+
+    /// The jams of the last snapshot.
+    pub fn jams(&self) -> &[Jam] {
+        &self.before
+    }
+
+    /// The mean speed of the jams, negative when they travel backwards, and the time it was measured over. `None`
+    /// while there are none, or right after their number changed.
+    pub fn speed(&self) -> Option<(f64, f64)> {
+        (self.time > 0.0).then(|| (self.distance / self.time, self.time))
+    }
 }

@@ -196,12 +196,11 @@ impl Map {
                 _ => set(&mut model, parameter, value)?,
             }
         }
-        let flow = flow(&model, &point)?;
+        let (criterion, linear) = stability(&model, &point)?;
         Ok(match self.value {
-            Value::Criterion => (criterion(&model, flow), criterion_again(&model, flow)),
+            Value::Criterion => (criterion, criterion_of(&model, &linear)),
             Value::GrowthRate => {
-                let k = point.wave_number.unwrap_or(0.0);
-                let linear = linear(&model, flow);
+                let k = point.wave_number.ok_or("needs a wave number")?;
                 (linear.growth_rate(k), linear.refined_growth_rate(k))
             }
         })
@@ -229,51 +228,36 @@ fn set(model: &mut Model, parameter: &str, value: f64) -> Result<(), String> {
     Ok(())
 }
 
-/// The uniform flow of a cell: `d'` for the two first laws, headway and speed for the logarithmic one.
-#[derive(Clone, Copy)]
-enum Flow {
-    Gap(f64),
-    Headway(f64, f64),
-}
-
-fn flow(model: &Model, point: &Point) -> Result<Flow, String> {
-    if let Some(gap) = point.gap {
-        return Ok(Flow::Gap(gap));
-    }
-    let headway = point.headway.unwrap_or(0.0);
-    let speed = steady_speed(model, headway).map_err(|error| error.to_string())?;
+/// The paper's criterion and the linearised law at a point.
+fn stability(model: &Model, point: &Point) -> Result<(f64, Linear), String> {
+    let steady = || {
+        let headway = point.headway.ok_or("needs the headway")?;
+        let speed = steady_speed(model, headway).map_err(|error| error.to_string())?;
+        Ok::<_, String>((headway, speed))
+    };
     Ok(match model {
-        Model::Algebraic(law) => Flow::Gap(law.gap(headway, speed)),
-        Model::Exponential(law) => Flow::Gap(law.gap(headway, speed)),
-        Model::Logarithmic(_) => Flow::Headway(headway, speed),
+        Model::Algebraic(law) => {
+            let gap = point.gap.map_or_else(|| steady().map(|(headway, speed)| law.gap(headway, speed)), Ok)?;
+            (criteria::algebraic(law, gap), law.linearise(gap))
+        }
+        Model::Exponential(law) => {
+            let gap = point.gap.map_or_else(|| steady().map(|(headway, speed)| law.gap(headway, speed)), Ok)?;
+            (criteria::exponential(law, gap), law.linearise(gap))
+        }
+        Model::Logarithmic(law) => {
+            let (headway, speed) = steady()?;
+            (criteria::logarithmic(law, headway, speed), law.linearise(headway, speed))
+        }
     })
-}
-
-fn criterion(model: &Model, flow: Flow) -> f64 {
-    match (model, flow) {
-        (Model::Algebraic(law), Flow::Gap(gap)) => criteria::algebraic(law, gap),
-        (Model::Exponential(law), Flow::Gap(gap)) => criteria::exponential(law, gap),
-        (Model::Logarithmic(law), Flow::Headway(headway, speed)) => criteria::logarithmic(law, headway, speed),
-        _ => f64::NAN,
-    }
 }
 
 /// The criterion through the coefficients of the linearised law: `phi / (1 + 2 beta) - kappa - 1/2`, which for the
 /// logarithmic law the paper divides once more by `1 + 2 beta`.
-fn criterion_again(model: &Model, flow: Flow) -> f64 {
-    let Linear { phi, beta, kappa } = linear(model, flow);
+fn criterion_of(model: &Model, linear: &Linear) -> f64 {
+    let Linear { phi, beta, kappa } = *linear;
     let widened = 1.0 + 2.0 * beta;
     match model {
         Model::Logarithmic(_) => (phi / widened - 0.5) / widened,
         _ => phi / widened - kappa - 0.5,
-    }
-}
-
-fn linear(model: &Model, flow: Flow) -> Linear {
-    match (model, flow) {
-        (Model::Algebraic(law), Flow::Gap(gap)) => law.linearise(gap),
-        (Model::Exponential(law), Flow::Gap(gap)) => law.linearise(gap),
-        (_, Flow::Headway(headway, speed)) => model.linearise(headway, speed),
-        (Model::Logarithmic(_), Flow::Gap(_)) => Linear { phi: f64::NAN, beta: f64::NAN, kappa: f64::NAN },
     }
 }

@@ -23,10 +23,8 @@ pub struct Outcome {
     pub positions: Vec<f64>,
     /// See `positions`.
     pub speeds: Vec<f64>,
-    /// Jams at the last sample before the end or the first stop.
-    pub jams: Vec<jams::Jam>,
-    /// Mean speed of the jams between the last two samples.
-    pub jam_speed: Option<f64>,
+    /// The jams at the last sample before the end or the first stop, and how they got there.
+    pub drift: jams::Drift,
 }
 
 impl Outcome {
@@ -73,8 +71,7 @@ pub fn run(scene: &Scene) -> Result<Outcome, Failure> {
         statistics,
         positions,
         speeds,
-        jam_speed: jams::drift(&record.earlier_jams, &record.jams, scene.ring.length, scene.sample),
-        jams: record.jams,
+        drift: record.drift,
     })
 }
 
@@ -164,8 +161,7 @@ struct Record<'a> {
     positions: Vec<f64>,
     gaps: Vec<f64>,
     speeds: Vec<f64>,
-    jams: Vec<jams::Jam>,
-    earlier_jams: Vec<jams::Jam>,
+    drift: jams::Drift,
 }
 
 impl<'a> Record<'a> {
@@ -179,8 +175,7 @@ impl<'a> Record<'a> {
             positions: zeros(),
             gaps: zeros(),
             speeds: zeros(),
-            jams: Vec::new(),
-            earlier_jams: Vec::new(),
+            drift: jams::Drift::default(),
         }
     }
 
@@ -193,10 +188,9 @@ impl<'a> Record<'a> {
                 self.trajectories.push(&[t, n as f64, *x, *v]);
             }
         }
-        self.earlier_jams = std::mem::take(&mut self.jams);
-        let desired = self.scene.model.desired_speed();
-        if let Some(threshold) = jams::threshold(&self.speeds, desired) {
-            self.jams = jams::find(&self.positions, &self.speeds, self.scene.ring.length, threshold);
-        }
+        let (desired, length) = (self.scene.model.desired_speed(), self.scene.ring.length);
+        let found = jams::threshold(&self.speeds, desired)
+            .map_or(Vec::new(), |threshold| jams::find(&self.positions, &self.speeds, length, threshold));
+        self.drift.follow(&found, length, self.scene.sample);
     }
 }
