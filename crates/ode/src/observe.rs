@@ -60,21 +60,67 @@ impl Sampler {
     }
 }
 
-/// The fraction of the step at which `value` first is negative, to the last bit of the fraction; looked for in `parts` parts of the
-/// step, so that two crossings within one part may go unseen. `None` when it does not get there.
+/// The fraction of the step at which `value` first is negative, to the last bit of the fraction. Looked for in `parts`
+/// parts of the step and about every minimum that they show; of two crossings within one part the first may go unseen
+/// only where `value` has several minima there. `None` when it does not get there.
 pub fn first_crossing(step: &mut Step<'_>, parts: u32, value: &mut dyn FnMut(&[f64]) -> f64) -> Option<f64> {
     let mut state = vec![0.0; step.before().len()];
-    let mut is_past = |theta: f64| {
+    let mut at = |theta: f64| {
         step.at_fraction(theta, &mut state);
-        value(&state) < 0.0
+        value(&state)
     };
-    let part = (1..=parts).find(|&part| is_past(f64::from(part) / f64::from(parts)))?;
-    let (mut before, mut past) = (f64::from(part - 1) / f64::from(parts), f64::from(part) / f64::from(parts));
+    let place = |part: u32| f64::from(part) / f64::from(parts);
+    let close = 0.0625 / f64::from(parts);
+    let (mut earlier, mut last) = (f64::INFINITY, at(0.0));
+    for part in 1..=parts {
+        let next = at(place(part));
+        // at the start where it falls at first; else where a neighbour is more than twice as high, since a parabola's
+        // minimum lies below the lowest of three samples by at most an eighth of what a neighbour is above it
+        let is_minimum = last <= earlier && last <= next;
+        let may_dip = if part == 1 { at(close) < last } else { 2.0 * last < earlier || 2.0 * last < next };
+        if is_minimum && may_dip {
+            let from = place(part.saturating_sub(2));
+            if let Some(past) = negative_about_minimum(from, place(part), &mut at) {
+                return Some(bisect(from, past, &mut at));
+            }
+        }
+        if next < 0.0 {
+            return Some(bisect(place(part - 1), place(part), &mut at));
+        }
+        (earlier, last) = (last, next);
+    }
+    if last > earlier || at(1.0 - close) > last {
+        return None;
+    }
+    let from = place(parts - 1);
+    negative_about_minimum(from, 1.0, &mut at).map(|past| bisect(from, past, &mut at))
+}
+
+/// A fraction between the two at which the value is negative, from a golden-section search for its minimum.
+fn negative_about_minimum(from: f64, to: f64, at: &mut dyn FnMut(f64) -> f64) -> Option<f64> {
+    /// `(sqrt(5) - 1) / 2`
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    /// Narrows the interval to 1e-5 of itself, a parabola's value to 1e-10 of its change.
+    const ROUNDS: u32 = 24;
+    let (mut low, mut high) = (from, to);
+    for _ in 0..ROUNDS {
+        let (left, right) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
+        let (at_left, at_right) = (at(left), at(right));
+        if at_left < 0.0 || at_right < 0.0 {
+            return Some(if at_left < 0.0 { left } else { right });
+        }
+        if at_left < at_right { high = right } else { low = left }
+    }
+    None
+}
+
+/// The first number at which the value is negative, between one before the crossing and one past it.
+fn bisect(mut before: f64, mut past: f64, at: &mut dyn FnMut(f64) -> f64) -> f64 {
     loop {
         let middle = 0.5 * (before + past);
         if middle <= before || middle >= past {
-            return Some(past);
+            return past;
         }
-        if is_past(middle) { past = middle } else { before = middle }
+        if at(middle) < 0.0 { past = middle } else { before = middle }
     }
 }

@@ -17,6 +17,9 @@ pub fn table(file: &str, tables: &Section) -> Result<Table, RecipeError> {
     let value = curve.choice("value", &["ramp", "force"])?;
     let from = curve.number("from", FINITE)?;
     let to = curve.number("to", FINITE)?;
+    if to <= from {
+        return Err(curve.complaint("to", &format!("must be above from = {from:?}")));
+    }
     let points = curve.count("points", 2, 1_000_000)?;
     let arguments = (0..points).map(|i| from + (to - from) * (i as f64 / (points - 1) as f64));
     let table = if value == "ramp" {

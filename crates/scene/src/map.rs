@@ -83,11 +83,15 @@ pub fn read(file: &str, tables: &Section) -> Result<Map, RecipeError> {
         _ => Value::GrowthRate,
     };
     let (x, y) = (axis(file, "map.x", map.section("x")?)?, axis(file, "map.y", map.section("y")?)?);
-    map.finish()?;
     let mut law_tables = top.section("law")?.clone();
-    for axis in [&x, &y] {
+    let [x_section, y_section] = [map.section("x")?, map.section("y")?];
+    for (name, section, axis) in [("map.x", x_section, &x), ("map.y", y_section, &y)] {
+        if let Some(problem) = unfit(&law_tables, axis) {
+            return Err(Reader::new(file, name, section).complaint("parameter", &problem));
+        }
         place_holder(&mut law_tables, axis);
     }
+    map.finish()?;
     let model = law::read(file, &law_tables)?;
     let point = if top.has("uniform") { uniform(file, top.section("uniform")?)? } else { EMPTY };
     top.finish()?;
@@ -126,10 +130,28 @@ fn axis(file: &str, name: &'static str, section: &Section) -> Result<Axis, Recip
     Ok(axis)
 }
 
+/// Why this axis does not fit the law, if it does not.
+fn unfit(law: &Section, axis: &Axis) -> Option<String> {
+    use files::reader::Value;
+    let Value::Text(kind) = &law.entries.get("kind")?.value else { return None };
+    let own: &[&str] = match kind.as_str() {
+        "algebraic" => &["mu", "delta", "q", "a_v", "v0"],
+        "exponential" => &["a", "b", "c", "a_v", "v0"],
+        "logarithmic" => &["a_v", "v0"],
+        _ => return None,
+    };
+    let fits = OF_THE_FLOW.contains(&axis.parameter) || own.contains(&axis.parameter);
+    let valid = [own, &OF_THE_FLOW[..]].concat().join(", ");
+    (!fits).then(|| format!("the {kind} law has no parameter {}; an axis can be {valid}", axis.parameter))
+}
+
+/// Axes that are no parameters of a law.
+const OF_THE_FLOW: [&str; 3] = ["d_gap", "headway", "k"];
+
 /// A parameter of the law that is an axis need not be named: any value stands for it until the cells set it.
 fn place_holder(law: &mut Section, axis: &Axis) {
     use files::reader::{Entry, Value};
-    if !["d_gap", "headway", "k"].contains(&axis.parameter) {
+    if !OF_THE_FLOW.contains(&axis.parameter) {
         let entry = Entry { line: law.line, value: Value::Number(axis.centre(0)) };
         law.entries.insert(axis.parameter.to_owned(), entry);
     }
@@ -141,6 +163,9 @@ impl Map {
         let has = |name| self.x.parameter == name || self.y.parameter == name;
         if self.value == Value::GrowthRate && !has("k") && self.point.wave_number.is_none() {
             return Some("growth_rate needs a wave number: an axis k, or uniform.k".to_owned());
+        }
+        if self.value == Value::Criterion && (has("k") || self.point.wave_number.is_some()) {
+            return Some("the criterion is one for all waves: leave out k, or choose growth_rate".to_owned());
         }
         let gaps = [has("d_gap") || self.point.gap.is_some(), has("headway") || self.point.headway.is_some()];
         match (gaps, &self.model) {

@@ -1,1 +1,14 @@
-//! Tests.
+//! Tests of the physics: the laws against their printed form, the ring's symmetries, growth against linear theory, the
+//! paper's criteria against the exact ones, events and jams on constructed runs.
+
+mod convergence;
+mod criteria;
+mod deviation;
+mod events;
+mod growth;
+mod jams;
+mod linear;
+mod presets;
+mod ring;
+mod sample;
+mod uniform;

@@ -1,1 +1,12 @@
-//! Tests.
+//! Tests of the integrator: coefficients against the order conditions, solutions against known ones, the drivers
+//! against what they promise.
+
+mod comparison;
+mod convergence;
+mod dense;
+mod driver;
+mod events;
+mod failures;
+mod order_conditions;
+mod problems;
+mod trees;

@@ -1,1 +1,10 @@
-//! Tests.
+//! Tests of scenes: every complaint, the figures' own scenes, maps, curves, overrides, and runs against published curves
+//! and against a second method.
+
+mod errors;
+mod figures;
+mod maps;
+mod overrides;
+mod project;
+mod published;
+mod runs;

@@ -1,0 +1,6 @@
+//! Tests of tables, of writing, and of reading scene files.
+
+mod reader;
+mod recipe;
+mod table;
+mod write;

@@ -1,0 +1,75 @@
+//! Scene files: panels, and what tells two scenes apart.
+
+use files::recipe::{Kind, Recipe, parse};
+
+fn recipe(text: &str) -> Recipe {
+    parse("my.toml", text).unwrap_or_else(|error| panic!("{error}"))
+}
+
+const TEXT: &str = "title = \"A run\"\nsource = \"fig1\"\n[law]\nkind = \"algebraic\"\nq = 2\nmu = 0.5\n\
+                    [run]\nt_end = 10\n[panel.left.law]\nmu = 0.25\n[panel.right]\nlaw = { q = 1.0 }\nrun.t_end = 20\n\
+                    [origin]\n\"law.q\" = \"eq1\"\n";
+
+#[test]
+fn panels_lie_on_top_of_the_file() {
+    let recipe = recipe(TEXT);
+    assert_eq!((recipe.title.as_str(), recipe.source.as_str()), ("A run", "fig1"));
+    assert_eq!(recipe.origin, [("law.q".to_owned(), "eq1".to_owned())]);
+    let names: Vec<&str> = recipe.panels.iter().map(|panel| panel.name.as_str()).collect();
+    assert_eq!(names, ["left", "right"]);
+    let determinants = |name: &str| recipe.panel(name).expect("the panel").determinants();
+    assert_eq!(determinants("left"), "law.kind = \"algebraic\"\nlaw.mu = 0.25\nlaw.q = 2.0\nrun.t_end = 10.0");
+    assert_eq!(determinants("right"), "law.kind = \"algebraic\"\nlaw.mu = 0.5\nlaw.q = 1.0\nrun.t_end = 20.0");
+    let error = recipe.panel("middle").expect_err("there is none");
+    assert_eq!(error.to_string(), "my.toml: no panel middle; the scene has left, right");
+}
+
+#[test]
+fn a_file_without_panels_has_one() {
+    let recipe = recipe("[law]\nq = 2\n");
+    assert_eq!(recipe.panels.len(), 1);
+    assert_eq!((recipe.panels[0].name.as_str(), recipe.panels[0].kind), ("main", Kind::Drawing));
+    assert!(recipe.title.is_empty() && recipe.source.is_empty() && recipe.origin.is_empty());
+}
+
+#[test]
+fn kinds_follow_from_the_tables() {
+    let cases = [("[run]\n", Kind::Run), ("[map]\n", Kind::Map), ("[curve]\n", Kind::Curve), ("", Kind::Drawing)];
+    for (text, kind) in cases {
+        assert_eq!(recipe(text).panels[0].kind, kind);
+    }
+    let two = recipe("[law]\nq = 1\n[panel.a.run]\nt_end = 1\n[panel.b.map]\nvalue = \"criterion\"\n");
+    assert_eq!([two.panels[0].kind, two.panels[1].kind], [Kind::Run, Kind::Map]);
+}
+
+#[test]
+fn only_values_determine_a_scene() {
+    let plain = recipe("[law]\nq = 1\nmu = 0.5\nkind = \"algebraic\"\n[run]\nt_end = 1e3\n").panels[0].determinants();
+    let same = [
+        // comments, order, spelling of numbers, title, source and origin
+        "# a comment\n[run] # another\nt_end = 1000\n[law]\nkind = 'algebraic'\nmu = 5e-1\nq = 1.0\n",
+        "title = \"T\"\nsource = \"S\"\nlaw = { mu = 0.50, q = 1, kind = \"algebraic\" }\nrun.t_end = 1_000.0\n",
+        "[law]\nq = 1\nmu = 0.5\nkind = \"algebraic\"\n[run]\nt_end = 1e3\n[origin]\n\"law.q\" = \"x\"\n",
+        "[law]\r\nq = 1\r\nmu = 0.5\r\nkind = \"algebraic\"\r\n[run]\r\nt_end = 1e3\r\n",
+    ];
+    for text in same {
+        assert_eq!(recipe(text).panels[0].determinants(), plain, "{text}");
+    }
+    let other = [
+        "[law]\nq = 1\nmu = 0.5000000000000001\nkind = \"algebraic\"\n[run]\nt_end = 1e3\n",
+        "[law]\nq = 1\nmu = 0.5\nkind = \"algebraic\"\ndelta = 0\n[run]\nt_end = 1e3\n",
+        "[law]\nq = \"1\"\nmu = 0.5\nkind = \"algebraic\"\n[run]\nt_end = 1e3\n",
+    ];
+    for text in other {
+        assert_ne!(recipe(text).panels[0].determinants(), plain, "{text}");
+    }
+}
+
+#[test]
+fn values_cannot_pass_for_others() {
+    // a text with a line break or an equals sign is quoted, so two scenes never share a text
+    let one = recipe("[law]\na = \"1\\nlaw.b = 2.0\"\n").panels[0].determinants();
+    let two = recipe("[law]\na = 1\nb = 2\n").panels[0].determinants();
+    assert_ne!(one, two);
+    assert_eq!(one.lines().count(), 1);
+}

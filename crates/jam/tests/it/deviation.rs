@@ -1,0 +1,131 @@
+//! The laws written as differences from the uniform flow are the printed laws, and stay accurate for small deviations.
+
+use crate::sample::{Deviation, Random, laws};
+use jam::laws::Model;
+use math::twofold::Twofold;
+
+/// Gap and speed of a uniform flow with room, and where its room is.
+fn flow(model: &Model, random: &mut Random) -> (f64, f64, f64) {
+    let speed = random.uniform(-0.3, 1.0) * model.desired_speed();
+    let room = random.uniform(0.3, 3.0);
+    (room + 2.0 * model.room_per_speed() * speed + model.contact(), speed, room)
+}
+
+fn deviation(model: &Model, gap: f64, speed: f64, from: [f64; 3]) -> f64 {
+    model.visit(Deviation { gap, speed, from })
+}
+
+/// How much the acceleration moves when each of its arguments is off by half a unit, by central differences.
+fn sensitivity(model: &Model, arguments: [f64; 3]) -> f64 {
+    let [gap, speed, ahead] = arguments;
+    let slope = |i: usize| {
+        let h = 1e-6;
+        let mut ends = [arguments; 2];
+        ends[0][i] += h;
+        ends[1][i] -= h;
+        let value = |a: [f64; 3]| model.acceleration(a[0], a[1], a[2]);
+        ((value(ends[0]) - value(ends[1])) / (2.0 * h)).abs()
+    };
+    let size = gap.abs() + 2.0;
+    0.5 * f64::EPSILON * (slope(0) * size + slope(1) * (speed.abs() + 1.0) + slope(2) * (ahead.abs() + 1.0))
+}
+
+/// Rounding of the printed law: some ten operations and functions of at most two units each (the power: `2.5 q ln d`
+/// more) on terms of the size of drive and force, and the rounding of each argument.
+fn rounding(model: &Model, arguments: [f64; 3]) -> f64 {
+    let [gap, speed, ahead] = arguments;
+    let drive = model.desired_speed() + speed.abs();
+    let force = (model.desired_speed() - speed - model.acceleration(gap, speed, ahead)).abs();
+    let power = match model {
+        Model::Algebraic(law) => 2.5 * law.power * math::ln(model.room(gap, speed, ahead)).abs(),
+        _ => 0.0,
+    };
+    // the logarithm's own scale is the desired speed, for each unit of force
+    let force = if matches!(model, Model::Logarithmic(_)) { force + drive } else { force };
+    f64::EPSILON * (10.0 * drive + (20.0 + power) * force) + 4.0 * sensitivity(model, arguments)
+}
+
+#[test]
+fn deviations_are_differences_of_the_printed_law() {
+    let mut random = Random(1);
+    let mut worst: f64 = 0.0;
+    for _ in 0..20_000 {
+        for model in laws(&mut random) {
+            let (gap, speed, room) = flow(&model, &mut random);
+            let scale = room * random.magnitude(-6.0, 0.0);
+            let from = [(); 3].map(|()| scale * random.uniform(-0.7, 1.0));
+            let there = [gap + from[0], speed + from[1], speed + from[2]];
+            if model.room(there[0], there[1], there[2]) < 0.1 * room {
+                continue;
+            }
+            let printed = model.acceleration(there[0], there[1], there[2]) - model.acceleration(gap, speed, speed);
+            let allowed = rounding(&model, there) + rounding(&model, [gap, speed, speed]);
+            let ratio = (deviation(&model, gap, speed, from) - printed).abs() / allowed;
+            assert!(ratio < 1.0, "{model:?} at {gap}, {speed} from {from:?}: {ratio} times the rounding");
+            worst = worst.max(ratio);
+        }
+    }
+    println!("largest difference {worst:.3} times the bound");
+}
+
+#[test]
+fn small_deviations_keep_their_digits() {
+    let mut random = Random(2);
+    for size in [1e-9, 1e-12, 1e-100, 1e-290] {
+        let mut worst: f64 = 0.0;
+        for _ in 0..5000 {
+            for model in laws(&mut random) {
+                let (gap, speed, room) = flow(&model, &mut random);
+                let from = [(); 3].map(|()| size * random.uniform(-1.0, 1.0));
+                let linear = model.linearise(gap, speed);
+                let terms = [
+                    linear.phi * from[0],
+                    -linear.beta * (from[1] + from[2]),
+                    linear.kappa * (from[2] - from[1]),
+                    -from[1],
+                ];
+                let scale: f64 = terms.iter().map(|term| term.abs()).sum();
+                // relative size of the next term: the shortest length over which each law bends
+                let bend = match model {
+                    Model::Algebraic(law) => (law.power + 1.0) / room + 1.0 / law.epsilon,
+                    Model::Exponential(law) => 1.0 / law.range + 1.0 / law.epsilon,
+                    Model::Logarithmic(law) => 2.0 + 1.0 / law.epsilon,
+                };
+                let error = (deviation(&model, gap, speed, from) - terms.iter().sum::<f64>()).abs() / scale;
+                // the same force through other formulas: 40 units, and exp(-d / eps) knows d / eps to its own rounding
+                let allowed = 10.0 * bend * size + f64::EPSILON * (40.0 + 4.0 * bend * (gap.abs() + 2.0));
+                assert!(error < allowed, "{model:?} at {gap}, {speed} from {from:?}: {error:e}, allowed {allowed:e}");
+                worst = worst.max(error);
+            }
+        }
+        println!("deviations of {size:e}: largest relative error {worst:e}");
+    }
+}
+
+#[test]
+fn whole_powers_agree_with_twofold_numbers() {
+    // without widening and relative speed the force needs no function: -w - mu^2 (1 / (d + u)^q - 1 / d^q)
+    let mut random = Random(3);
+    let mut worst: f64 = 0.0;
+    for _ in 0..20_000 {
+        let Model::Algebraic(mut law) = laws(&mut random)[0] else { continue };
+        (law.relative, law.widening) = (0.0, 0.0);
+        for q in 1..=3 {
+            law.power = f64::from(q);
+            let gap = 2.0 + random.uniform(0.3, 3.0);
+            let d = gap - 2.0;
+            let (u, w) = (d * random.magnitude(-15.0, -0.1) * random.uniform(-1.0, 1.0), random.uniform(-1e-3, 1e-3));
+            let power = |x: Twofold| (1..q).fold(x, |power, _| power * x);
+            let (before, after) = (power(Twofold::from(d)), power(Twofold::sum(d, u)));
+            // 1 / after - 1 / before, over one denominator; twofold numbers keep 16 digits of it down to u = 1e-15 d
+            let difference = (before - after) / (before * after);
+            let force = Twofold::product(law.strength, law.strength) * difference;
+            let exact = Twofold::from(-w) - force;
+            let computed = deviation(&Model::Algebraic(law), gap, 0.7, [u, w, 0.0]);
+            let error = (exact - computed).abs().hi / (w.abs() + force.hi.abs());
+            worst = worst.max(error);
+            assert!(error < 12.0 * f64::EPSILON, "q = {q}, d = {d}, u = {u:e}: {error:e}");
+        }
+    }
+    println!("largest relative error {worst:e}");
+}

@@ -1,0 +1,213 @@
+//! Events of constructed trajectories: when, who, and in which order.
+
+use jam::events::{BLOW_UP, Event, Happening, Watch};
+use jam::laws::{Exponential, Model};
+use jam::ring::{Ring, Start};
+use jam::states::{Form, FormKind, gaps_state};
+use ode::{Control, Group, Measure, Method, Problem, Step, System, integrate};
+use std::ops::{ControlFlow, Range};
+
+/// Three pedestrians whose gaps and speeds are `constant + amplitude cos t`; the state is `(cos t, -sin t)`.
+struct Swing {
+    gaps: [(f64, f64); 3],
+    speeds: [(f64, f64); 3],
+}
+
+impl System for Swing {
+    fn dimension(&self) -> usize {
+        2
+    }
+    fn kinematics(&self, state: &[f64], rates: &mut [f64]) {
+        rates[0] = state[1];
+    }
+    fn dynamics(&self, state: &[f64], rates: &mut [f64]) {
+        rates[1] = -state[0];
+    }
+    fn positions(&self) -> Vec<Range<usize>> {
+        vec![0..1, 1..1]
+    }
+    fn groups(&self) -> Vec<Group> {
+        vec![Group { range: 0..2, measure: Measure::Largest, floor: 1.0 }]
+    }
+}
+
+impl Form for Swing {
+    fn start(&self, _start: Start) -> Vec<f64> {
+        vec![1.0, 0.0]
+    }
+    fn read(&self, state: &[f64], gaps: &mut [f64], speeds: &mut [f64]) {
+        for n in 0..3 {
+            gaps[n] = self.gaps[n].0 + self.gaps[n].1 * state[0];
+            speeds[n] = self.speeds[n].0 + self.speeds[n].1 * state[0];
+        }
+    }
+    fn read_rates(&self, rates: &[f64], gaps: &mut [f64], speeds: &mut [f64]) {
+        for n in 0..3 {
+            gaps[n] = self.gaps[n].1 * rates[0];
+            speeds[n] = self.speeds[n].1 * rates[0];
+        }
+    }
+    fn write_positions(&self, _state: &[f64], positions: &mut [f64]) {
+        positions.fill(0.0);
+    }
+    fn speed_deviation(&self, _state: &[f64]) -> f64 {
+        0.0
+    }
+}
+
+fn relaxation(widening: f64) -> Model {
+    Model::Exponential(Exponential {
+        strength: 0.0,
+        range: 1.0,
+        contact: 0.0,
+        widening,
+        epsilon: 0.1,
+        desired_speed: 1.0,
+    })
+}
+
+/// The events of a run, and whether each was reported once.
+fn watched(form: &dyn Form, model: Model, start: &[f64], count: usize, end: f64, control: Control) -> Vec<Happening> {
+    let mut watch = Watch::new(model, form, count);
+    let mut reported = Vec::new();
+    let problem = Problem { system: form, start, begin: 0.0, end, method: Method::Dop853, control };
+    integrate(&problem, &mut |step: &mut Step<'_>| {
+        reported.extend(watch.look(step));
+        ControlFlow::Continue(())
+    })
+    .expect("it runs");
+    assert_eq!(reported, watch.found());
+    reported
+}
+
+fn swing_events(swing: &Swing, widening: f64, control: Control) -> Vec<Happening> {
+    watched(swing, relaxation(widening), &[1.0, 0.0], 3, 6.0, control)
+}
+
+const ADAPTIVE: Control = Control::Adaptive { tolerance: 1e-13 };
+
+/// Event, pedestrian, and the cosine at its time, which tells the time on the way down.
+fn assert_events(found: &[Happening], expected: &[(Event, usize, f64)]) {
+    assert_eq!(found.len(), expected.len(), "{found:?}");
+    for (happening, (event, pedestrian, cos)) in found.iter().zip(expected) {
+        assert_eq!((happening.event, happening.pedestrian), (*event, *pedestrian), "{found:?}");
+        assert!(happening.time > 0.0 && happening.time < std::f64::consts::PI, "on the way down: {happening:?}");
+        assert!((math::cos(happening.time) - cos).abs() < 1e-12, "{happening:?}: {}", math::cos(happening.time));
+    }
+}
+
+#[test]
+fn overlap_negative_speed_and_exchange_in_order() {
+    let swing = Swing { gaps: [(5.0, 0.0), (3.0, 4.0), (2.5, 0.5)], speeds: [(1.0, 0.0), (0.5, 0.0), (0.25, 0.5)] };
+    // gap 2: 3 + 4 cos = 2; speed 2: 1/4 + cos / 2 = 0; gap 1: 3 + 4 cos = 0; gap 2 just touches 2 at cos = -1
+    let expected = [(Event::Overlap, 1, -0.25), (Event::NegativeSpeed, 2, -0.5), (Event::Exchange, 1, -0.75)];
+    assert_events(&swing_events(&swing, 0.0, ADAPTIVE), &expected);
+    // the same with steps so long that a pedestrian comes and goes within a few of them
+    let coarse = swing_events(&swing, 0.0, Control::Fixed { step: 0.5 });
+    let events: Vec<Event> = coarse.iter().map(|happening| happening.event).collect();
+    assert_eq!(events, [Event::Overlap, Event::NegativeSpeed, Event::Exchange]);
+}
+
+#[test]
+fn widening_makes_the_overlap_earlier() {
+    let swing = Swing { gaps: [(5.0, 0.0), (3.0, 4.0), (5.0, 0.0)], speeds: [(1.0, 0.0), (0.5, 0.0), (0.25, 0.0)] };
+    // room of 1: 3 + 4 cos - 2 - a_v (1/2 + 1/4) = 0 for a_v = 2: cos = 1/8; exchange as before
+    let expected = [(Event::Overlap, 1, 0.125), (Event::Exchange, 1, -0.75)];
+    assert_events(&swing_events(&swing, 2.0, ADAPTIVE), &expected);
+}
+
+#[test]
+fn a_dip_within_a_step_is_seen() {
+    // gap 0 is below 2 only for cos < -0.98, 0.4 time units about t = pi, within the step from 2 to 4
+    let swing = Swing { gaps: [(2.98, 1.0), (5.0, 0.0), (5.0, 0.0)], speeds: [(1.0, 0.0); 3] };
+    let found = swing_events(&swing, 0.0, Control::Fixed { step: 2.0 });
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!((found[0].event, found[0].pedestrian), (Event::Overlap, 0));
+    // dense output over steps of 2: an error of the cosine of 2^8 / 40320
+    assert!((math::cos(found[0].time) + 0.98).abs() < 1e-2, "{found:?}");
+}
+
+#[test]
+fn nothing_happens_where_nothing_is_negative() {
+    let swing = Swing { gaps: [(3.001, 1.0), (5.0, 0.0), (5.0, 0.0)], speeds: [(1.001, 1.0); 3] };
+    assert!(swing_events(&swing, 0.0, ADAPTIVE).is_empty());
+}
+
+#[test]
+fn blow_up_is_a_speed_beyond_the_bound() {
+    // |v_1| = 1e12 (1 - cos t) passes the bound at t = pi / 2, backwards, so its speed is negative from the start on
+    let swing = Swing { gaps: [(5.0, 0.0); 3], speeds: [(1.0, 0.0), (-BLOW_UP, BLOW_UP), (1.0, 0.0)] };
+    let found = swing_events(&swing, 0.0, ADAPTIVE);
+    let blow_up = found.iter().find(|happening| happening.event == Event::BlowUp).expect("it blows up");
+    assert_eq!(blow_up.pedestrian, 1);
+    assert!((blow_up.time - std::f64::consts::FRAC_PI_2).abs() < 1e-12, "{blow_up:?}");
+}
+
+#[test]
+fn stops_and_names() {
+    let known: Vec<(&str, bool)> = Event::ALL.iter().map(|event| (event.name(), event.is_stop())).collect();
+    assert_eq!(known, [("overlap", true), ("negative_speed", false), ("exchange", false), ("blow_up", true)]);
+}
+
+/// `dv/dt = 1 - v`: pedestrian 0 runs into 1, `s_0 = 3 - 4 (1 - exp(-t))`.
+fn runner() -> (Model, Ring, Vec<f64>, Vec<f64>) {
+    (relaxation(0.0), Ring { pedestrians: 3, length: 9.0 }, vec![3.0; 3], vec![4.5, 0.5, 2.0])
+}
+
+#[test]
+fn a_faster_pedestrian_passes_at_the_time_of_the_formula() {
+    let (model, ring, gaps, speeds) = runner();
+    let form = FormKind::Gaps.build(&model, ring);
+    let start = gaps_state(&model, &gaps, &speeds, 0.0);
+    let found = watched(&*form, model, &start, 3, 5.0, ADAPTIVE);
+    // overlap at s = 2: 1 - exp(-t) = 1/4; exchange at s = 0: 3/4
+    let expected = [(Event::Overlap, -math::ln(0.75)), (Event::Exchange, -math::ln(0.25))];
+    assert_eq!(found.len(), 2, "{found:?}");
+    for (happening, (event, time)) in found.iter().zip(expected) {
+        assert_eq!((happening.event, happening.pedestrian), (event, 0));
+        // the gap closes with a speed of at least 1 there, so the time errs as the gap does
+        assert!((happening.time - time).abs() < 1e-12, "{happening:?} not {time}");
+    }
+}
+
+#[test]
+fn a_watch_goes_on_in_another_form() {
+    let (model, ring, gaps, speeds) = runner();
+    let (first, second) = (FormKind::Gaps.build(&model, ring), FormKind::Positions.build(&model, ring));
+    let mut watch = Watch::new(model, &*first, 3);
+    let start = gaps_state(&model, &gaps, &speeds, 0.0);
+    let problem =
+        Problem { system: &*first, start: &start, begin: 0.0, end: 0.5, method: Method::Dop853, control: ADAPTIVE };
+    let look = |step: &mut Step<'_>, watch: &mut Watch<'_>| watch.look(step).len();
+    let mut seen = 0;
+    let half = integrate(&problem, &mut |step: &mut Step<'_>| {
+        seen += look(step, &mut watch);
+        ControlFlow::Continue(())
+    })
+    .expect("it runs")
+    .state;
+    assert_eq!(seen, 1);
+    let (mut positions, mut gaps, mut speeds) = (vec![0.0; 3], vec![0.0; 3], vec![0.0; 3]);
+    first.write_positions(&half, &mut positions);
+    first.read(&half, &mut gaps, &mut speeds);
+    watch.change_form(&*second);
+    let start = [positions, speeds].concat();
+    let problem = Problem { system: &*second, start: &start, begin: 0.5, end: 5.0, ..problem };
+    integrate(&problem, &mut |step: &mut Step<'_>| {
+        seen += look(step, &mut watch);
+        ControlFlow::Continue(())
+    })
+    .expect("it runs");
+    assert_eq!(seen, 2);
+    assert!((watch.found()[1].time + math::ln(0.25)).abs() < 1e-12, "{:?}", watch.found());
+}
+
+#[test]
+fn for_the_logarithmic_law_an_overlap_is_an_exchange() {
+    let model = Model::Logarithmic(jam::laws::Logarithmic { desired_speed: 1.0, widening: 0.0, epsilon: 0.01 });
+    assert_eq!((model.contact(), model.room(0.5, 1.0, 1.0)), (0.0, 0.5));
+    let swing = Swing { gaps: [(0.5, 1.0), (5.0, 0.0), (5.0, 0.0)], speeds: [(1.0, 0.0); 3] };
+    let found = watched(&swing, model, &[1.0, 0.0], 3, 6.0, ADAPTIVE);
+    assert_events(&found, &[(Event::Overlap, 0, -0.5), (Event::Exchange, 0, -0.5)]);
+    assert_eq!(found[0].time, found[1].time);
+}

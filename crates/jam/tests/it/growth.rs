@@ -1,0 +1,101 @@
+//! Waves in simulations grow, decay and travel as the linear theory says.
+
+use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
+use jam::ring::{Ring, Start};
+use jam::states::FormKind;
+use jam::uniform::steady_speed;
+use ode::{Control, Method, Problem, Step, integrate};
+use std::f64::consts::PI;
+use std::ops::ControlFlow;
+
+/// Small enough that quadratic terms, which feed other waves than this one, and cubic ones (1e-16) do not count.
+const AMPLITUDE: f64 = 1e-8;
+
+/// `(1 / N) sum w_n exp(-i k n)`.
+fn projection(values: &[f64], k: f64) -> (f64, f64) {
+    let count = values.len() as f64;
+    let part = |f: fn(f64) -> f64| values.iter().enumerate().map(|(n, w)| w * f(k * n as f64)).sum::<f64>() / count;
+    (part(math::cos), -part(math::sin))
+}
+
+/// Errors of growth rate and frequency of the wave with `l` crests, relative to each of them, from a simulation.
+fn errors(model: &Model, ring: Ring, l: usize) -> (f64, f64) {
+    let count = ring.pedestrians;
+    let speed = steady_speed(model, ring.headway()).expect("there is room");
+    let k = 2.0 * PI * l as f64 / count as f64;
+    let (re, im) = model.linearise(ring.headway(), speed).root(k);
+    let form = FormKind::Deviations.build(model, ring);
+    let mut start = form.start(Start { shift: 0.0 });
+    // the eigenvector of z+: places A exp(i k n), gaps their differences, speeds z times them
+    for n in 0..count {
+        let place = |n: usize| (AMPLITUDE * math::cos(k * n as f64), AMPLITUDE * math::sin(k * n as f64));
+        let (here, ahead) = (place(n), place((n + 1) % count));
+        start[n] = ahead.0 - here.0;
+        start[count + n] = re * here.0 - im * here.1;
+    }
+    start[2 * count] = AMPLITUDE;
+    start[2 * count + 2] = speed;
+    let time = if re.abs() > 0.02 { 4.0 / re.abs() } else { 200.0 };
+    let control = Control::Adaptive { tolerance: 1e-14 };
+    let problem = Problem { system: &*form, start: &start, begin: 0.0, end: time, method: Method::Dop853, control };
+    let end = integrate(&problem, &mut |_: &mut Step<'_>| ControlFlow::Continue(())).expect("it runs").state;
+    let before = projection(&start[count..2 * count], k);
+    let after = projection(&end[count..2 * count], k);
+    // after / before = exp(z t); turned back by the expected angle, the angle that is left is small
+    let square = before.0 * before.0 + before.1 * before.1;
+    let ratio =
+        ((after.0 * before.0 + after.1 * before.1) / square, (after.1 * before.0 - after.0 * before.1) / square);
+    let size = (ratio.0 * ratio.0 + ratio.1 * ratio.1).sqrt();
+    let (cos, sin) = (math::cos(im * time), math::sin(im * time));
+    let angle = (ratio.1 * cos - ratio.0 * sin) / size;
+    ((math::ln(size) / time - re) / re, angle / (im * time))
+}
+
+fn cases() -> Vec<(Model, f64)> {
+    let algebraic = |strength: f64, relative: f64, power: f64, widening: f64| {
+        let law = Algebraic { strength, relative, power, widening, epsilon: 0.1, desired_speed: 3.0 };
+        (Model::Algebraic(law), 200.0 / 67.0 + 6.0 * widening)
+    };
+    let exponential = |strength: f64, contact: f64, widening: f64| {
+        let law = Exponential { strength, range: 1.5, contact, widening, epsilon: 0.1, desired_speed: 3.0 };
+        (Model::Exponential(law), 200.0 / 57.0 + 6.0 * widening)
+    };
+    let logarithmic = |desired_speed: f64, widening: f64| {
+        (Model::Logarithmic(Logarithmic { desired_speed, widening, epsilon: 0.01 }), 200.0 / 133.0)
+    };
+    vec![
+        algebraic(0.45, 0.0, 2.0, 0.0),
+        algebraic(0.55, 0.0, 2.0, 0.0),
+        algebraic(0.5, 1.0, 1.0, 0.1),
+        algebraic(0.9, 0.3, 2.5, 0.1),
+        exponential(1.5, 0.0, 0.0),
+        exponential(3.0, 0.0, 0.0),
+        exponential(4.0, 1.0, 0.2),
+        logarithmic(1.0, 0.0),
+        logarithmic(0.5, 0.0),
+        logarithmic(1.0, 0.3),
+        logarithmic(3.0, 0.1),
+    ]
+}
+
+#[test]
+fn waves_grow_and_travel_as_the_linear_theory_says() {
+    let (mut worst, mut growing, mut decaying) = ((0.0_f64, 0.0_f64), 0, 0);
+    for (model, headway) in cases() {
+        let ring = Ring { pedestrians: 48, length: 48.0 * headway };
+        for l in [1, 2, 5, 12, 23] {
+            let (growth, frequency) = errors(&model, ring, l);
+            let speed = steady_speed(&model, headway).expect("there is room");
+            let rate = model.linearise(headway, speed).growth_rate(2.0 * PI * l as f64 / 48.0);
+            println!("{} l = {l}: rate {rate:.4e}, errors {growth:.1e}, {frequency:.1e}", model.name());
+            // a tolerance of 1e-14 at each of some hundred steps
+            assert!(growth.abs() < 1e-11 && frequency.abs() < 1e-11, "{model:?} l = {l}: {growth:e}, {frequency:e}");
+            worst = (worst.0.max(growth.abs()), worst.1.max(frequency.abs()));
+            growing += u32::from(rate > 0.0);
+            decaying += u32::from(rate < 0.0);
+        }
+    }
+    println!("largest relative errors: growth {:e}, frequency {:e}", worst.0, worst.1);
+    println!("{growing} growing, {decaying} decaying waves");
+    assert!(growing > 15 && decaying > 15);
+}

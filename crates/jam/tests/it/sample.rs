@@ -1,0 +1,117 @@
+//! Random numbers, the same in every run, and random laws of every combination of terms.
+
+use jam::laws::{Algebraic, Exponential, Law, Logarithmic, Model, Visitor};
+
+/// The generator splitmix64 (Steele, Lea, Flood 2014).
+pub struct Random(pub u64);
+
+impl Random {
+    /// 64 random bits.
+    pub fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// A number between the two, all equally likely.
+    pub fn uniform(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * ((self.bits() >> 11) as f64 / (1u64 << 53) as f64)
+    }
+
+    /// Zero or a number between the two.
+    pub fn perhaps(&mut self, low: f64, high: f64) -> f64 {
+        if self.bits() & 1 == 0 { 0.0 } else { self.uniform(low, high) }
+    }
+
+    /// `10^x` with `x` between the two.
+    pub fn magnitude(&mut self, low: f64, high: f64) -> f64 {
+        math::pow(10.0, self.uniform(low, high))
+    }
+}
+
+/// Every variant of the algebraic law: with and without each term, `q` = 1, 2, 3 and another.
+pub fn algebraic(random: &mut Random) -> Algebraic {
+    let power = [1.0, 2.0, 3.0, random.uniform(0.5, 3.5)][(random.bits() % 4) as usize];
+    Algebraic {
+        strength: random.uniform(0.1, 1.5),
+        relative: random.perhaps(0.2, 2.0),
+        power,
+        widening: random.perhaps(0.05, 0.4),
+        epsilon: random.uniform(0.05, 0.5),
+        desired_speed: random.uniform(0.5, 3.0),
+    }
+}
+
+/// Every variant of the exponential law.
+pub fn exponential(random: &mut Random) -> Exponential {
+    Exponential {
+        strength: random.uniform(0.5, 8.0),
+        range: random.uniform(0.3, 4.0),
+        contact: random.perhaps(0.5, 10.0),
+        widening: random.perhaps(0.05, 0.4),
+        epsilon: random.uniform(0.05, 0.5),
+        desired_speed: random.uniform(0.5, 3.0),
+    }
+}
+
+/// Both variants of the logarithmic law.
+pub fn logarithmic(random: &mut Random) -> Logarithmic {
+    Logarithmic {
+        desired_speed: random.uniform(0.5, 3.0),
+        widening: random.perhaps(0.05, 0.4),
+        epsilon: random.magnitude(-2.0, -0.5),
+    }
+}
+
+/// One law of each kind.
+pub fn laws(random: &mut Random) -> [Model; 3] {
+    [
+        Model::Algebraic(algebraic(random)),
+        Model::Exponential(exponential(random)),
+        Model::Logarithmic(logarithmic(random)),
+    ]
+}
+
+/// A law of each kind with the paper's parameters, all unstable at [`HEADWAYS`].
+pub fn paper_laws() -> [Model; 3] {
+    [
+        Model::Algebraic(Algebraic {
+            strength: 0.55,
+            relative: 0.0,
+            power: 2.0,
+            widening: 0.0,
+            epsilon: 0.1,
+            desired_speed: 3.0,
+        }),
+        Model::Exponential(Exponential {
+            strength: 3.0,
+            range: 1.5,
+            contact: 0.0,
+            widening: 0.0,
+            epsilon: 0.1,
+            desired_speed: 3.0,
+        }),
+        Model::Logarithmic(Logarithmic { desired_speed: 1.0, widening: 0.0, epsilon: 0.01 }),
+    ]
+}
+
+/// Headways that go with [`paper_laws`].
+pub const HEADWAYS: [f64; 3] = [200.0 / 67.0, 200.0 / 57.0, 200.0 / 133.0];
+
+/// The law as a difference from the uniform flow.
+pub struct Deviation {
+    /// Gap and speed of the uniform flow.
+    pub gap: f64,
+    pub speed: f64,
+    /// Deviations of gap, own speed and speed ahead.
+    pub from: [f64; 3],
+}
+
+impl Visitor for Deviation {
+    type Output = f64;
+    fn visit<L: Law + 'static>(self, law: L) -> f64 {
+        let base = law.base(self.gap - L::CONTACT, self.speed);
+        law.deviation(&base, self.from[0], self.from[1], self.from[2])
+    }
+}

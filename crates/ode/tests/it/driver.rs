@@ -1,0 +1,122 @@
+//! Times, counts and sums of the two drivers.
+
+use crate::problems::{oscillator, solve, watched};
+use math::twofold::Twofold;
+use ode::{Control, Method, Problem, Step, integrate};
+use std::ops::ControlFlow;
+
+/// Start, end and length of every step.
+fn steps(end: f64, control: Control, method: Method) -> Vec<(f64, f64, f64)> {
+    let mut steps = Vec::new();
+    watched(&oscillator(), &[1.0, 0.0], end, method, control, &mut |step| {
+        steps.push((step.start, step.end, step.length()));
+    })
+    .expect("nothing stands in the way");
+    steps
+}
+
+#[test]
+fn times_of_fixed_steps_are_multiples() {
+    for (h, end, count) in [(0.1, 1.0, 10), (1e-3, 3.0, 3000), (0.1, 0.3, 3), (0.7, 2.1, 3), (1e-5, 1.0, 100_000)] {
+        let steps = steps(end, Control::Fixed { step: h }, Method::Euler);
+        assert_eq!(steps.len(), count, "step {h}");
+        for (k, (start, stop, length)) in steps.iter().enumerate() {
+            let last = k + 1 == count;
+            let expected = (k as f64 * h, if last { end } else { (k + 1) as f64 * h }, h);
+            assert_eq!((*start, *stop, *length), expected, "step {k} of {h}");
+        }
+    }
+}
+
+#[test]
+fn the_last_fixed_step_is_shorter_where_the_end_is_no_multiple() {
+    let steps = steps(1.05, Control::Fixed { step: 0.1 }, Method::Rk4);
+    assert_eq!(steps.len(), 11);
+    assert_eq!(steps[10], (1.0, 1.05, 1.05 - 1.0));
+    let one = self::steps(0.25, Control::Fixed { step: 1.0 }, Method::Rk4);
+    assert_eq!(one, [(0.0, 0.25, 0.25)]);
+}
+
+#[test]
+fn adaptive_steps_follow_each_other_and_end_at_the_end() {
+    let steps = steps(50.0, Control::Adaptive { tolerance: 1e-9 }, Method::Dop853);
+    assert_eq!(steps[0].0, 0.0);
+    assert_eq!(steps[steps.len() - 1].1, 50.0);
+    assert!(steps.windows(2).all(|pair| pair[0].1 == pair[1].0));
+}
+
+#[test]
+fn the_time_gathers_no_rounding() {
+    let steps = steps(5000.0, Control::Adaptive { tolerance: 1e-13 }, Method::Dop853);
+    assert!(steps.len() > 10_000, "{} steps", steps.len());
+    let mut exact = Twofold::ZERO;
+    for (_, end, length) in &steps {
+        exact = exact + *length;
+        let unit = end.next_up() - end;
+        // Kahan's sum is within a unit of the exact one; the last time is the end, which its length was chosen to meet
+        assert!((exact - *end).abs().hi <= unit, "t = {end}: {:e} units", (exact - *end).hi / unit);
+    }
+}
+
+#[test]
+fn evaluations_are_counted() {
+    for method in Method::ALL {
+        let system = oscillator();
+        let statistics = solve(&system, &[1.0, 0.0], 1.0, method, Control::Fixed { step: 0.125 });
+        assert_eq!(statistics.steps, 8);
+        let stages = match method {
+            Method::Extrapolation => 1 + 64,
+            Method::Ballistic => 1,
+            _ => method.tableau().map_or(0, |tableau| tableau.stages() as u64),
+        };
+        // the rate at a step's end is the one at the next one's start
+        assert_eq!(statistics.evaluations, 1 + 8 * stages, "{}", method.name());
+        assert_eq!(statistics.evaluations, system.evaluations.get(), "{}", method.name());
+    }
+    let system = oscillator();
+    let mut state = [0.0; 2];
+    let control = Control::Adaptive { tolerance: 1e-10 };
+    let statistics = watched(&system, &[1.0, 0.0], 10.0, Method::Dop853, control, &mut |step| {
+        step.at_fraction(0.3, &mut state);
+    })
+    .expect("nothing stands in the way");
+    assert_eq!(statistics.evaluations, system.evaluations.get());
+}
+
+#[test]
+fn a_break_ends_after_the_step() {
+    for control in [Control::Fixed { step: 0.1 }, Control::Adaptive { tolerance: 1e-9 }] {
+        let system = oscillator();
+        let problem =
+            Problem { system: &system, start: &[1.0, 0.0], begin: 0.0, end: 10.0, method: Method::Dop853, control };
+        let mut seen = (0, 0.0, Vec::new());
+        let statistics = integrate(&problem, &mut |step: &mut Step<'_>| {
+            seen = (seen.0 + 1, step.end, step.after().to_vec());
+            if seen.0 == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        })
+        .expect("nothing stands in the way");
+        assert_eq!((statistics.steps, statistics.time, statistics.state), seen);
+    }
+}
+
+#[test]
+fn names_and_orders() {
+    let known: Vec<(&str, usize, bool)> =
+        Method::ALL.iter().map(|method| (method.name(), method.order(), method.is_adaptive())).collect();
+    let expected = [
+        ("euler", 1, false),
+        ("ballistic", 1, false),
+        ("heun", 2, false),
+        ("rk4", 4, false),
+        ("dop853", 8, true),
+        ("extrapolation", 16, true),
+    ];
+    assert_eq!(known, expected);
+}
+
+#[test]
+fn the_ballistic_scheme_moves_with_the_mean_speed() {
+    // x'' = -x from (1, 0.5): v_1 = v_0 - h x_0, x_1 = x_0 + h (v_0 + v_1) / 2
+    let statistics = solve(&oscillator(), &[1.0, 0.5], 0.25, Method::Ballistic, Control::Fixed { step: 0.25 });
+    assert_eq!(statistics.state, [1.0 + 0.25 * 0.5 * (0.5 + 0.25), 0.25]);
+}

@@ -1,0 +1,78 @@
+//! The scene files of the figures and the examples.
+
+use crate::project::{figure, figures, root};
+use files::reader::{Section, Value};
+use files::recipe::{self, Kind, Recipe};
+
+/// Reads every panel as the figure's program does.
+fn read(recipe: &Recipe) {
+    for panel in &recipe.panels {
+        match panel.kind {
+            Kind::Run => drop(scene::run::read(&recipe.file, &panel.tables).unwrap_or_else(|error| panic!("{error}"))),
+            Kind::Map => drop(scene::map::read(&recipe.file, &panel.tables).unwrap_or_else(|error| panic!("{error}"))),
+            Kind::Curve => {
+                drop(scene::curve::table(&recipe.file, &panel.tables).unwrap_or_else(|error| panic!("{error}")));
+            }
+            Kind::Drawing => {}
+        }
+    }
+}
+
+#[test]
+fn all_scenes_can_be_read() {
+    let figures = figures();
+    assert!(figures.len() >= 15, "{} figures", figures.len());
+    for recipe in &figures {
+        assert!(!recipe.title.is_empty() && !recipe.source.is_empty(), "{}", recipe.file);
+        read(recipe);
+    }
+    let examples = std::fs::read_dir(root("scenes")).expect("the folder of the examples");
+    let mut kinds = Vec::new();
+    for entry in examples {
+        let recipe = recipe::read(&entry.expect("a readable entry").path()).unwrap_or_else(|error| panic!("{error}"));
+        read(&recipe);
+        kinds.extend(recipe.panels.iter().map(|panel| panel.kind));
+    }
+    assert!(kinds.contains(&Kind::Run) && kinds.contains(&Kind::Map), "an example of each kind");
+}
+
+/// The dotted keys of all numbers.
+fn numbers(section: &Section, prefix: &str, keys: &mut Vec<String>) {
+    for (key, entry) in &section.entries {
+        match &entry.value {
+            Value::Number(_) => keys.push(format!("{prefix}{key}")),
+            Value::Section(inner) => numbers(inner, &format!("{prefix}{key}."), keys),
+            Value::Text(_) | Value::Other(_) => {}
+        }
+    }
+}
+
+#[test]
+fn every_number_of_a_figure_has_an_origin_and_the_other_way_round() {
+    let mut count = 0;
+    for recipe in figures() {
+        let mut keys = Vec::new();
+        for panel in &recipe.panels {
+            numbers(&panel.tables, "", &mut keys);
+        }
+        for key in &keys {
+            let origin = recipe.origin.iter().find(|(named, _)| named == key);
+            assert!(origin.is_some_and(|(_, from)| !from.trim().is_empty()), "{}: {key} has no origin", recipe.file);
+        }
+        for (key, _) in &recipe.origin {
+            assert!(keys.contains(key), "{}: origin of {key}, which is no number of the scene", recipe.file);
+        }
+        count += keys.len();
+    }
+    assert!(count > 100, "{count} numbers");
+}
+
+#[test]
+fn figures_11_to_13_share_one_run() {
+    let determinants = |id: &str, panel: &str| figure(id).panel(panel).expect("the panel").determinants();
+    let eleven = determinants("fig11", "main");
+    assert_eq!(eleven, determinants("fig12", "main"));
+    assert_eq!(eleven, determinants("fig13", "std"));
+    assert_ne!(eleven, determinants("fig13", "std_small_shift"));
+    assert!(eleven.contains("start.shift = 0.1\n") || eleven.ends_with("start.shift = 0.1"), "{eleven}");
+}

@@ -1,0 +1,51 @@
+//! Values of the command line on top of a scene.
+
+use crate::project::{figure, scene};
+use jam::states::FormKind;
+use ode::{Control, Method};
+use scene::Overrides;
+
+#[test]
+fn nothing_given_changes_nothing() {
+    let tables = &figure("fig11").panels[0].tables;
+    assert_eq!(&Overrides::default().apply(tables), tables);
+}
+
+#[test]
+fn the_scheme_of_the_paper() {
+    let plain = scene(&figure("fig04"), "stable", &Overrides::default());
+    let paper = scene(&figure("fig04"), "stable", &Overrides::paper());
+    assert_eq!((plain.form, plain.method), (FormKind::Deviations, Method::Dop853));
+    assert_eq!((paper.form, paper.method), (FormKind::Positions, Method::Heun));
+    assert_eq!(paper.control, Control::Fixed { step: 1e-5 });
+    assert_eq!((paper.model, paper.ring, paper.t_end), (plain.model, plain.ring, plain.t_end));
+}
+
+#[test]
+fn the_check_is_another_method_ten_times_tighter() {
+    let check = scene(&figure("fig11"), "main", &Overrides::check(1e-11));
+    assert_eq!((check.method, check.control), (Method::Extrapolation, Control::Adaptive { tolerance: 0.1 * 1e-11 }));
+    assert_eq!(Overrides::check(1e-15).tolerance, Some(1e-15));
+}
+
+#[test]
+fn step_and_tolerance_replace_each_other() {
+    let recipe = figure("fig11");
+    let fixed = Overrides { method: Some("rk4".to_owned()), dt: Some(0.01), ..Overrides::default() };
+    let fixed_scene = scene(&recipe, "main", &fixed);
+    assert_eq!((fixed_scene.method, fixed_scene.control), (Method::Rk4, Control::Fixed { step: 0.01 }));
+    let back = Overrides { method: Some("dop853".to_owned()), tolerance: Some(1e-6), ..Overrides::default() };
+    let tables = back.apply(&fixed.apply(&recipe.panels[0].tables));
+    let adaptive = scene::run::read("my.toml", &tables).expect("a scene");
+    assert_eq!(adaptive.control, Control::Adaptive { tolerance: 1e-6 });
+    let times = Overrides { t_end: Some(7.0), sample: Some(0.5), ..Overrides::default() };
+    let short = scene(&recipe, "main", &times);
+    assert_eq!((short.t_end, short.sample), (7.0, 0.5));
+}
+
+#[test]
+fn complaints_about_given_values_name_no_line() {
+    let tables = Overrides { t_end: Some(-1.0), ..Overrides::default() }.apply(&figure("fig11").panels[0].tables);
+    let error = scene::run::read("my.toml", &tables).expect_err("a negative time");
+    assert_eq!(error.to_string(), "my.toml: run.t_end = -1: must be a number > 0.0");
+}
