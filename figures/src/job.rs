@@ -125,8 +125,8 @@ impl Job {
     /// # Errors
     /// As [`Job::take`].
     pub fn take_deviations(&mut self) -> Result<(), Failure> {
-        let runs = self.recipe.panels.iter().filter(|panel| panel.kind == Kind::Run);
-        runs.map(|panel| self.take(&panel.name, "std", &panel.name)).collect()
+        let mut runs = self.recipe.panels.iter().filter(|panel| panel.kind == Kind::Run);
+        runs.try_for_each(|panel| self.take(&panel.name, "std", &panel.name))
     }
 
     fn run_file(&self, panel: &str, name: &str) -> Result<PathBuf, Failure> {

@@ -1,0 +1,91 @@
+//! Starting a program and waiting for it.
+
+use crate::disk;
+use crate::failure::Failure;
+use std::fs::File;
+use std::io::ErrorKind;
+use std::path::Path;
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::Duration;
+
+/// How often a waiting thread looks whether its program has ended.
+const PATIENCE: Duration = Duration::from_millis(3);
+
+/// Runs a program with its words in the file `log`; kills it when `stop` becomes true.
+///
+/// # Errors
+/// The program is missing (5), cannot be started (4), or ends badly: its own code when that is 2 or 5, else 4, with
+/// what it printed.
+pub fn run_logged(mut command: Command, log: &Path, stop: &AtomicBool) -> Result<(), Failure> {
+    let name = command.get_program().to_string_lossy().into_owned();
+    if let Some(folder) = log.parent() {
+        disk::create_folder(folder)?;
+    }
+    let file = File::create(log).map_err(Failure::at(log))?;
+    let twin = file.try_clone().map_err(Failure::at(log))?;
+    let child = command.stdin(Stdio::null()).stdout(file).stderr(twin).spawn();
+    let mut child = child.map_err(|error| not_started(&name, &error))?;
+    let status = wait(&mut child, stop).map_err(|error| Failure::Failed(format!("{name}: {error}")))?;
+    if status.success() {
+        return Ok(());
+    }
+    let bytes = std::fs::read(log).map_err(Failure::at(log))?;
+    Err(ended_badly(&name, status, String::from_utf8_lossy(&bytes).trim_end()))
+}
+
+/// Runs a program that shares our stdout and stderr.
+///
+/// # Errors
+/// As [`run_logged`], without a text when the program has ended badly: it has said why itself.
+pub fn run_shown(command: &mut Command) -> Result<(), Failure> {
+    let name = command.get_program().to_string_lossy().into_owned();
+    let status = command.status().map_err(|error| not_started(&name, &error))?;
+    match status.code() {
+        Some(0) => Ok(()),
+        Some(code) => Err(Failure::Child(code)),
+        None => Err(Failure::Failed(format!("{name}: {status}"))),
+    }
+}
+
+/// Cargo, as cargo named itself to us.
+pub fn cargo() -> Command {
+    Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+}
+
+/// The first line that a program prints, or `None` when it cannot be run or ends badly.
+pub fn first_line(program: &str, arguments: &[&str]) -> Option<String> {
+    let output = Command::new(program).args(arguments).stdin(Stdio::null()).output().ok()?;
+    let text = String::from_utf8_lossy(&output.stdout).lines().next().unwrap_or("").trim().to_owned();
+    output.status.success().then_some(text)
+}
+
+fn wait(child: &mut Child, stop: &AtomicBool) -> std::io::Result<ExitStatus> {
+    loop {
+        if let Some(status) = child.try_wait()? {
+            return Ok(status);
+        }
+        if stop.load(Ordering::Relaxed) {
+            child.kill()?;
+        }
+        thread::sleep(PATIENCE);
+    }
+}
+
+fn not_started(name: &str, error: &std::io::Error) -> Failure {
+    let text = format!("{name}: {error}");
+    match error.kind() {
+        ErrorKind::NotFound => Failure::Unsupported(text),
+        _ => Failure::Failed(text),
+    }
+}
+
+fn ended_badly(name: &str, status: ExitStatus, words: &str) -> Failure {
+    let text = format!("{words}\n{name}: {status}");
+    match status.code() {
+        Some(2) => Failure::Usage(text),
+        Some(5) => Failure::Unsupported(text),
+        _ => Failure::Failed(text),
+    }
+}

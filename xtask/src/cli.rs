@@ -1,0 +1,190 @@
+//! The command line.
+
+use crate::paths::Scheme;
+use clap::{Args, Parser, Subcommand};
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+/// Computes, draws and verifies the figures.
+#[derive(Debug, Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask")]
+pub struct Cli {
+    /// The checkout, when it is not the one around the current folder.
+    #[arg(long, global = true, hide = true)]
+    pub root: Option<PathBuf>,
+    /// What to do.
+    #[command(subcommand)]
+    pub verb: Verb,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Verb {
+    /// Write tables and pictures, hash them, compare with the committed sums
+    Figures(FiguresArgs),
+    /// Recompute into a scratch folder and judge against the committed reference: bytes and numbers
+    Verify(VerifyArgs),
+    /// Say what is stale and why, without running anything
+    Status(StatusArgs),
+    /// Show every input of a figure, which one changed, and the command to rebuild
+    Explain(ExplainArgs),
+    /// Show figure, label, title, binary, scene, outputs, last run time
+    List(ListArgs),
+    /// Accept new sums after showing what changes
+    Bless(BlessArgs),
+    /// Run a scene: cargo xtask simulate SCENE.toml [options]; --help shows the options
+    #[command(disable_help_flag = true)]
+    Simulate(ForwardArgs),
+    /// Compute a stability map: cargo xtask map SCENE.toml [options]; --help shows the options
+    #[command(disable_help_flag = true)]
+    Map(ForwardArgs),
+    /// Describe the machine and the toolchain
+    Describe(JsonArgs),
+    /// Say what is missing and how to get it
+    Doctor(JsonArgs),
+    /// Run the tests that Rust alone can run; the others are skipped aloud
+    Test,
+    /// Run what continuous integration runs
+    Ci(CiArgs),
+    /// Remove what can be made again
+    Clean,
+}
+
+/// Which figures are meant.
+#[derive(Clone, Debug, Default, Args)]
+pub struct Selection {
+    /// fig04, 4, a label (fig:stdv_rec) or a prefix of the slug; without one the figures of the paper
+    pub ids: Vec<String>,
+    /// The supplements too
+    #[arg(long, conflicts_with = "ids")]
+    pub all: bool,
+}
+
+/// How work is spread.
+#[derive(Clone, Debug, Default, Args)]
+pub struct Effort {
+    /// Programs at a time; without it as many as the machine has processors
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub jobs: Option<u16>,
+    /// Do what can be done after a failure
+    #[arg(long)]
+    pub keep_going: bool,
+}
+
+impl Effort {
+    /// Programs at a time.
+    pub fn threads(&self) -> usize {
+        let machine = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+        self.jobs.map_or_else(machine, usize::from)
+    }
+}
+
+/// Options of `figures`.
+#[derive(Debug, Args)]
+pub struct FiguresArgs {
+    /// Which figures.
+    #[command(flatten)]
+    pub selection: Selection,
+    /// How work is spread.
+    #[command(flatten)]
+    pub effort: Effort,
+    /// The scene's own method, or the paper's word for word (tables and pictures in a folder of their own)
+    #[arg(long, value_enum, default_value_t)]
+    pub scheme: Scheme,
+    /// Do everything again
+    #[arg(long)]
+    pub force: bool,
+    /// Show the plan and run nothing
+    #[arg(long)]
+    pub dry_run: bool,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Options of `verify`.
+#[derive(Clone, Debug, Default, Args)]
+pub struct VerifyArgs {
+    /// Which figures.
+    #[command(flatten)]
+    pub selection: Selection,
+    /// How work is spread.
+    #[command(flatten)]
+    pub effort: Effort,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Options of `status`.
+#[derive(Debug, Args)]
+pub struct StatusArgs {
+    /// Which figures.
+    #[command(flatten)]
+    pub selection: Selection,
+    /// End with code 3 when something is stale
+    #[arg(long)]
+    pub exit_code: bool,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Options of `explain`.
+#[derive(Debug, Args)]
+pub struct ExplainArgs {
+    /// The figure
+    pub id: String,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Options of `list`.
+#[derive(Debug, Args)]
+pub struct ListArgs {
+    /// Which figures.
+    #[command(flatten)]
+    pub selection: Selection,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Options of `bless`.
+#[derive(Debug, Args)]
+pub struct BlessArgs {
+    /// Which figures.
+    #[command(flatten)]
+    pub selection: Selection,
+    /// Whose sums
+    #[arg(long, value_enum, default_value_t)]
+    pub scheme: Scheme,
+    /// Accept figures whose numbers moved
+    #[arg(long)]
+    pub numbers: bool,
+}
+
+/// Arguments that another program reads.
+#[derive(Debug, Args)]
+pub struct ForwardArgs {
+    /// Passed on as they are.
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+    pub arguments: Vec<OsString>,
+}
+
+/// Options of verbs that only print.
+#[derive(Debug, Args)]
+pub struct JsonArgs {
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Options of `ci`.
+#[derive(Debug, Args)]
+pub struct CiArgs {
+    /// The slow checks as well
+    #[arg(long)]
+    pub full: bool,
+}

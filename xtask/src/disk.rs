@@ -1,0 +1,108 @@
+//! Files and folders, with errors that name the path.
+
+use crate::failure::Failure;
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+/// The text of a file; `None` when there is no such file.
+///
+/// # Errors
+/// Any other error of the operating system, or bytes that are not UTF-8.
+pub fn read_text(path: &Path) -> Result<Option<String>, Failure> {
+    match fs::read_to_string(path) {
+        Ok(text) => Ok(Some(text)),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(Failure::at(path)(error)),
+    }
+}
+
+/// Writes a file whole or not at all, with the folders above it.
+///
+/// # Errors
+/// A folder or the file cannot be written.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    if let Some(parent) = path.parent() {
+        create_folder(parent)?;
+    }
+    files::write::atomic(path, bytes).map_err(Failure::failed)
+}
+
+/// Writes a file unless it holds these bytes already, so that an unchanged file keeps its date.
+///
+/// # Errors
+/// As [`write`].
+pub fn write_if_changed(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    match fs::read(path) {
+        Ok(old) if old == bytes => Ok(()),
+        _ => write(path, bytes),
+    }
+}
+
+/// Makes a folder and those above it.
+///
+/// # Errors
+/// The folder cannot be made.
+pub fn create_folder(path: &Path) -> Result<(), Failure> {
+    fs::create_dir_all(path).map_err(Failure::at(path))
+}
+
+/// Removes a file or a folder with everything in it; it is no error when there is none.
+///
+/// # Errors
+/// It cannot be removed.
+pub fn remove(path: &Path) -> Result<(), Failure> {
+    let removed = match fs::symlink_metadata(path) {
+        Ok(data) if data.is_dir() => fs::remove_dir_all(path),
+        Ok(_) => fs::remove_file(path),
+        Err(error) => Err(error),
+    };
+    match removed {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(Failure::at(path)(error)),
+        _ => Ok(()),
+    }
+}
+
+/// Moves `from` to `to` on the same file system, in place of whatever was there.
+///
+/// # Errors
+/// The old one cannot be removed, or the new one not be renamed.
+pub fn replace(from: &Path, to: &Path) -> Result<(), Failure> {
+    remove(to)?;
+    fs::rename(from, to).map_err(Failure::at(to))
+}
+
+/// The names in a folder, sorted; none when there is no such folder. Names that are not UTF-8 are left out.
+///
+/// # Errors
+/// The folder cannot be read.
+pub fn names(folder: &Path) -> Result<Vec<String>, Failure> {
+    let entries = match fs::read_dir(folder) {
+        Ok(entries) => entries,
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
+        Err(error) => return Err(Failure::at(folder)(error)),
+    };
+    let mut names = Vec::new();
+    for entry in entries {
+        names.extend(entry.map_err(Failure::at(folder))?.file_name().into_string());
+    }
+    names.sort();
+    Ok(names)
+}
+
+/// Every file below `folder`, sorted; `enter` says which folders are looked into, by their name.
+///
+/// # Errors
+/// A folder cannot be read.
+pub fn walk(folder: &Path, enter: &dyn Fn(&str) -> bool) -> Result<Vec<PathBuf>, Failure> {
+    let mut found = Vec::new();
+    for name in names(folder)? {
+        let path = folder.join(&name);
+        if !path.is_dir() {
+            found.push(path);
+        } else if enter(&name) {
+            found.extend(walk(&path, enter)?);
+        }
+    }
+    Ok(found)
+}

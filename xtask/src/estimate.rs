@@ -1,0 +1,115 @@
+//! How far a run is from its check, column by column.
+
+use crate::disk;
+use crate::events::{self, Event};
+use crate::failure::Failure;
+use crate::paths::{Paths, RUN_EVENTS, RUN_SUMMARY, RUN_TABLES};
+use crate::store;
+use files::table::Table;
+use serde_json::Value;
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Columns that name a row.
+pub const KEYS: [&str; 2] = ["t", "n"];
+
+/// A run compared with its check.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Estimate {
+    /// Largest absolute difference of each column over the whole run.
+    pub columns: BTreeMap<String, f64>,
+    /// Rows that only one of the two has.
+    pub unmatched: usize,
+    /// The run's `summary.json`.
+    pub summary: Value,
+    /// Events of the run.
+    pub events: Vec<Event>,
+    /// Events of the check.
+    pub check_events: Vec<Event>,
+}
+
+impl Estimate {
+    /// Compares the stored run `key` with its check. A check by the same method with the same steps (a scene that asks
+    /// for fixed steps) says nothing about the error: then nothing is compared.
+    ///
+    /// # Errors
+    /// A stored file cannot be read, or is not what a run writes.
+    pub fn of(paths: &Paths, key: &str) -> Result<Estimate, Failure> {
+        let (run, check) = (store::folder(paths, key), store::folder(paths, &store::check_key(key)));
+        let mut estimate = Estimate { summary: summary(&run)?, events: events_of(&run)?, ..Estimate::default() };
+        if same_method(&estimate.summary, &summary(&check)?) {
+            return Ok(estimate);
+        }
+        estimate.check_events = events_of(&check)?;
+        for name in RUN_TABLES.iter().filter(|name| run.join(name).exists()) {
+            let (columns, unmatched) = differences(&table(&run.join(name))?, &table(&check.join(name))?);
+            estimate.columns.extend(columns);
+            estimate.unmatched += unmatched;
+        }
+        Ok(estimate)
+    }
+
+    /// The length of the ring, which is the drawn range of positions.
+    pub fn length(&self) -> Option<f64> {
+        self.summary.get("length")?.as_f64()
+    }
+}
+
+/// The largest absolute difference of each column that both tables have and that names no row, over the rows with equal
+/// [`KEYS`]; and the number of rows without a partner. Both tables are sorted by their keys.
+pub fn differences(run: &Table, check: &Table) -> (BTreeMap<String, f64>, usize) {
+    let index = |table: &Table, name: &str| table.columns.iter().position(|column| column == name);
+    let pair = |name: &str| Some((index(run, name)?, index(check, name)?));
+    let keys: Vec<(usize, usize)> = KEYS.iter().filter_map(|name| pair(name)).collect();
+    let values = run.columns.iter().filter(|name| !KEYS.contains(&name.as_str()));
+    let columns: Vec<(&String, (usize, usize))> = values.filter_map(|name| Some((name, pair(name)?))).collect();
+    let mut largest = vec![0.0; columns.len()];
+    let mut unmatched = 0;
+    let (mut left, mut right) = (run.rows().peekable(), check.rows().peekable());
+    while let (Some(&mine), Some(&theirs)) = (left.peek(), right.peek()) {
+        let order = keys.iter().map(|&(a, b)| mine[a].total_cmp(&theirs[b])).find(|order| order.is_ne());
+        match order.unwrap_or(Ordering::Equal) {
+            Ordering::Less => drop(left.next()),
+            Ordering::Greater => drop(right.next()),
+            Ordering::Equal => {
+                for (largest, &(_, (a, b))) in largest.iter_mut().zip(&columns) {
+                    let difference = (mine[a] - theirs[b]).abs();
+                    *largest = if difference > *largest { difference } else { *largest };
+                }
+                left.next();
+                right.next();
+                continue;
+            }
+        }
+        unmatched += 1;
+    }
+    unmatched += left.count() + right.count();
+    (columns.into_iter().zip(largest).map(|((name, _), largest)| (name.clone(), largest)).collect(), unmatched)
+}
+
+/// Reads a table that a program of ours has written.
+///
+/// # Errors
+/// It cannot be read, or is no table.
+pub fn table(path: &Path) -> Result<Table, Failure> {
+    Table::read(path).map_err(Failure::at(path))
+}
+
+fn same_method(run: &Value, check: &Value) -> bool {
+    run["method"] == check["method"] && run["control"] == check["control"]
+}
+
+fn summary(run: &Path) -> Result<Value, Failure> {
+    let path = run.join(RUN_SUMMARY);
+    let text = disk::read_text(&path)?.unwrap_or_else(|| "{}".to_owned());
+    serde_json::from_str(&text).map_err(Failure::at(&path))
+}
+
+fn events_of(run: &Path) -> Result<Vec<Event>, Failure> {
+    let path = run.join(RUN_EVENTS);
+    match disk::read_text(&path)? {
+        Some(text) => events::parse(&path.display().to_string(), &text),
+        None => Ok(Vec::new()),
+    }
+}

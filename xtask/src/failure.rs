@@ -1,0 +1,58 @@
+//! Why a verb did not end well, and the exit code that says so.
+
+use std::fmt::Display;
+use std::path::Path;
+
+/// The reason of an end that is not success; the text goes to stderr, the code to the shell.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Failure {
+    /// Something differs from what is committed (1).
+    Differs(String),
+    /// Wrong use or bad input (2).
+    Usage(String),
+    /// Something is older than what it is made from (3).
+    Stale(String),
+    /// A figure or a tool failed: disk full, a crash, a build error (4).
+    Failed(String),
+    /// The machine lacks a font, a tool or the toolchain (5).
+    Unsupported(String),
+    /// A program that has said itself why it failed; its exit code is passed on.
+    Child(i32),
+}
+
+impl Failure {
+    /// The exit code of the contract.
+    pub fn code(&self) -> i32 {
+        match self {
+            Failure::Differs(_) => 1,
+            Failure::Usage(_) => 2,
+            Failure::Stale(_) => 3,
+            Failure::Failed(_) => 4,
+            Failure::Unsupported(_) => 5,
+            Failure::Child(code) => *code,
+        }
+    }
+
+    /// The text for stderr; empty when there is nothing left to say.
+    pub fn text(&self) -> &str {
+        match self {
+            Failure::Differs(text)
+            | Failure::Usage(text)
+            | Failure::Stale(text)
+            | Failure::Failed(text)
+            | Failure::Unsupported(text) => text,
+            Failure::Child(_) => "",
+        }
+    }
+
+    /// A closure for `map_err`: code 4 with the path and the operating system's message.
+    pub fn at<E: Display>(path: &Path) -> impl Fn(E) -> Failure {
+        let path = path.display().to_string();
+        move |error| Failure::Failed(format!("{path}: {error}"))
+    }
+
+    /// Code 4 for an error whose text names its path already.
+    pub fn failed<E: Display>(error: E) -> Failure {
+        Failure::Failed(error.to_string())
+    }
+}

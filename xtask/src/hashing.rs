@@ -1,0 +1,52 @@
+//! SHA-256 of many files at once.
+
+use crate::failure::Failure;
+use std::collections::BTreeMap;
+use std::num::NonZero;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+/// The hashes of files, in the order of `paths`; `None` for a file that is not there.
+///
+/// # Errors
+/// A file that is there cannot be read.
+pub fn hash_all(paths: &[PathBuf]) -> Result<Vec<Option<String>>, Failure> {
+    let next = AtomicUsize::new(0);
+    let threads = thread::available_parallelism().map_or(1, NonZero::get).min(paths.len().max(1));
+    let work = || {
+        let mut mine = Vec::new();
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            match paths.get(index) {
+                Some(path) => mine.push((index, hash(path))),
+                None => return mine,
+            }
+        }
+    };
+    let mut hashes: Vec<Result<Option<String>, Failure>> = vec![Ok(None); paths.len()];
+    thread::scope(|scope| {
+        let workers: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+        for (index, hash) in workers.into_iter().flat_map(|worker| worker.join().unwrap_or_default()) {
+            hashes[index] = hash;
+        }
+    });
+    hashes.into_iter().collect()
+}
+
+fn hash(path: &Path) -> Result<Option<String>, Failure> {
+    match files::write::sha256_file(path) {
+        Ok(hash) => Ok(Some(hash)),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(Failure::failed(error)),
+    }
+}
+
+/// One hash for a list of named hashes.
+pub fn digest(inputs: &BTreeMap<String, String>) -> String {
+    let mut text = String::new();
+    for (name, hash) in inputs {
+        text.push_str(&format!("{hash}  {name}\n"));
+    }
+    files::write::sha256(text.as_bytes())
+}

@@ -1,0 +1,29 @@
+//! The runner: it builds the figures' binaries, starts them in the right order, and judges what they wrote.
+//!
+//! It links no physics. `verbs` holds one file for each verb of the command line; the modules beside it are what the
+//! verbs share. Data flows `figure -> sources -> freshness -> plan -> pool -> outputs -> sums, manifest`.
+
+pub mod child;
+pub mod cli;
+pub mod compile;
+pub mod disk;
+pub mod estimate;
+pub mod events;
+pub mod failure;
+pub mod figure;
+pub mod golden;
+pub mod hashing;
+pub mod lock;
+pub mod manifest;
+pub mod numbers;
+pub mod outputs;
+pub mod paths;
+pub mod plan;
+pub mod pool;
+pub mod print;
+pub mod record;
+pub mod sources;
+pub mod store;
+pub mod sums;
+pub mod verbs;
+pub mod work;

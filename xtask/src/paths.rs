@@ -1,0 +1,239 @@
+//! Where everything lies. The only module that spells a path.
+
+use crate::failure::Failure;
+use clap::ValueEnum;
+use std::env;
+use std::path::{Path, PathBuf};
+
+/// How runs are integrated.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Scheme {
+    /// The method and tolerance that the scene names.
+    #[default]
+    Adaptive,
+    /// Word for word as the paper says; tables and pictures go to a folder of their own.
+    Paper,
+}
+
+/// Places of the checkout. Names with `/` are relative to the root, as they stand in SHA256SUMS.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Paths {
+    /// The folder of the checkout.
+    pub root: PathBuf,
+    /// Cargo's target folder.
+    pub target: PathBuf,
+    /// What the names of outputs are relative to: the root, or the scratch folder of `verify`.
+    pub base: PathBuf,
+    /// Whose outputs are meant.
+    pub scheme: Scheme,
+}
+
+/// Lock file of the dependencies, by name.
+pub const LOCK_FILE: &str = "Cargo.lock";
+/// The file that pins the toolchain, by name.
+pub const TOOLCHAIN: &str = "rust-toolchain.toml";
+/// Single files that determine what the binaries do.
+pub const SINGLE_SOURCES: [&str; 4] = ["Cargo.toml", LOCK_FILE, TOOLCHAIN, ".cargo/config.toml"];
+/// Crates that determine the numbers of a run.
+pub const NUMERIC_SOURCES: [&str; 7] = [
+    "crates/math/",
+    "crates/ode/",
+    "crates/jam/",
+    "crates/files/",
+    "crates/scene/",
+    "figures/src/",
+    "figures/Cargo.toml",
+];
+/// Sources that every figure shares.
+pub const SHARED_SOURCES: [&str; 4] = ["crates/", "figures/src/", "figures/Cargo.toml", "data/reference/"];
+/// Folders that are searched for sources.
+pub const SOURCE_FOLDERS: [&str; 3] = ["crates", "figures", "data/reference"];
+/// Checks that need more than Rust: spot values by NumPy.
+pub const SPOT_CHECK: &str = "checks/spot.py";
+/// Checks that need more than Rust: other processors.
+pub const OTHER_MACHINES: &str = "checks/other-machines.sh";
+/// The list of sums inside a stored run.
+pub const STORE_SUMS: &str = "SHA256SUMS";
+/// The events of a stored run.
+pub const RUN_EVENTS: &str = "events.csv";
+/// Method, counts and lengths of a stored run.
+pub const RUN_SUMMARY: &str = "summary.json";
+/// The tables of a stored run.
+pub const RUN_TABLES: [&str; 2] = ["std.csv", "trajectories.csv"];
+
+impl Paths {
+    /// The checkout around `root`, or, without it, around the manifest that cargo names or the current folder.
+    ///
+    /// # Errors
+    /// No folder upwards holds both `figures` and `Cargo.toml`.
+    pub fn find(root: Option<PathBuf>) -> Result<Paths, Failure> {
+        let here = env::current_dir().map_err(|error| Failure::Unsupported(format!("current folder: {error}")))?;
+        let root = match root {
+            Some(root) => here.join(root),
+            None => {
+                let start = env::var_os("CARGO_MANIFEST_DIR").map_or_else(|| here.clone(), PathBuf::from);
+                start.ancestors().find(|folder| is_root(folder)).map(Path::to_path_buf).ok_or_else(|| {
+                    Failure::Usage(format!("{}: no folder upwards holds Cargo.toml and figures", start.display()))
+                })?
+            }
+        };
+        let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), |target| here.join(target));
+        Ok(Paths { base: root.clone(), root, target, scheme: Scheme::Adaptive })
+    }
+
+    /// The same checkout for another scheme.
+    pub fn with_scheme(&self, scheme: Scheme) -> Paths {
+        Paths { scheme, ..self.clone() }
+    }
+
+    /// The same checkout with every output, the store and the reports in a folder of their own below target.
+    pub fn scratch(&self) -> Paths {
+        Paths { base: self.target.join(format!("verify-{}", std::process::id())), ..self.clone() }
+    }
+
+    /// The folder of the figures' sources.
+    pub fn figures(&self) -> PathBuf {
+        self.root.join("figures")
+    }
+
+    /// The scene file of a figure, by name.
+    pub fn scene(slug: &str) -> String {
+        format!("figures/{slug}/scene.toml")
+    }
+
+    /// The folder of a figure's source and pictures, by name, with the final `/`.
+    pub fn figure_folder(slug: &str) -> String {
+        format!("figures/{slug}/")
+    }
+
+    /// A release binary.
+    pub fn binary(&self, name: &str) -> PathBuf {
+        self.target.join("release").join(format!("{name}{}", env::consts::EXE_SUFFIX))
+    }
+
+    /// The folder of a figure's tables, by name.
+    pub fn tables(&self, id: &str) -> String {
+        match self.scheme {
+            Scheme::Adaptive => format!("data/{id}"),
+            Scheme::Paper => format!("data/paper-scheme/{id}"),
+        }
+    }
+
+    /// The folder a figure's tables are written to before they take the place of the old ones, by name.
+    pub fn fresh_tables(&self, id: &str) -> String {
+        format!("{}.tmp-{}", self.tables(id), std::process::id())
+    }
+
+    /// The folder of a figure's pictures, by name.
+    pub fn pictures(&self, slug: &str, id: &str) -> String {
+        match self.scheme {
+            Scheme::Adaptive => format!("figures/{slug}"),
+            Scheme::Paper => self.tables(id),
+        }
+    }
+
+    /// An output, by name, as a path.
+    pub fn output(&self, name: &str) -> PathBuf {
+        self.base.join(name)
+    }
+
+    /// The folder of generated data; temporary folders of a run that was broken off lie here.
+    pub fn data(&self) -> PathBuf {
+        self.base.join("data")
+    }
+
+    /// The folder of the scheme's tables.
+    pub fn scheme_data(&self) -> PathBuf {
+        match self.scheme {
+            Scheme::Adaptive => self.data(),
+            Scheme::Paper => self.data().join("paper-scheme"),
+        }
+    }
+
+    /// The committed sums, by name.
+    pub fn sums(&self, supplement: bool) -> &'static str {
+        match (self.scheme, supplement) {
+            (Scheme::Adaptive, false) => "data/SHA256SUMS",
+            (Scheme::Adaptive, true) => "data/SHA256SUMS-supplements",
+            (Scheme::Paper, false) => "data/paper-scheme/SHA256SUMS",
+            (Scheme::Paper, true) => "data/paper-scheme/SHA256SUMS-supplements",
+        }
+    }
+
+    /// The committed samples of a figure's tables, by name.
+    pub fn golden(id: &str) -> String {
+        format!("data/golden/{id}")
+    }
+
+    /// What is known of each output.
+    pub fn manifest(&self) -> PathBuf {
+        self.root.join("data/manifest.json")
+    }
+
+    /// Events of all runs.
+    pub fn events(&self) -> PathBuf {
+        self.root.join("data/events.csv")
+    }
+
+    /// The folder of the fonts that the pictures need.
+    pub fn fonts(&self) -> PathBuf {
+        self.root.join("crates/plot/fonts")
+    }
+
+    /// The folder of stored runs.
+    pub fn store(&self) -> PathBuf {
+        if self.base == self.root { self.target.join("store") } else { self.base.join("store") }
+    }
+
+    /// The runner's own folder.
+    pub fn xtask(&self) -> PathBuf {
+        self.target.join("xtask")
+    }
+
+    /// What each figure was made from.
+    pub fn state(&self) -> PathBuf {
+        self.xtask().join("state.json")
+    }
+
+    /// Seconds of the last time each node ran.
+    pub fn times(&self) -> PathBuf {
+        self.xtask().join("times.json")
+    }
+
+    /// What the binaries were built from.
+    pub fn build_record(&self) -> PathBuf {
+        self.xtask().join("build.json")
+    }
+
+    /// The file that keeps two runs apart.
+    pub fn lock(&self) -> PathBuf {
+        self.xtask().join("lock")
+    }
+
+    /// What a node printed.
+    pub fn log(&self, node: &str) -> PathBuf {
+        let folder = if self.base == self.root { self.xtask() } else { self.base.clone() };
+        folder.join("log").join(format!("{}.txt", node.replace([' ', '/'], "-")))
+    }
+
+    /// What a figure's binary says of its tables.
+    pub fn report(&self, id: &str) -> PathBuf {
+        let folder = if self.base == self.root { self.xtask() } else { self.base.clone() };
+        let name = match self.scheme {
+            Scheme::Adaptive => format!("{id}.json"),
+            Scheme::Paper => format!("{id}-paper.json"),
+        };
+        folder.join("report").join(name)
+    }
+
+    /// Whether a tracked file of this name is written by the runner, so that a change of it is no change of a source.
+    pub fn is_output(name: &str) -> bool {
+        let picture = name.starts_with("figures/") && (name.ends_with(".png") || name.ends_with(".svg"));
+        let data = ["data/SHA256SUMS", "data/golden/", "data/paper-scheme/", "data/manifest.json", "data/events.csv"];
+        picture || data.iter().any(|start| name.starts_with(start))
+    }
+}
+
+fn is_root(folder: &Path) -> bool {
+    folder.join("Cargo.toml").is_file() && folder.join("figures").is_dir()
+}

@@ -1,0 +1,143 @@
+//! What each figure was made from the last time, and why it is stale now.
+
+use crate::disk;
+use crate::failure::Failure;
+use crate::figure::Figure;
+use crate::hashing;
+use crate::manifest::Measured;
+use crate::outputs::{self, Hashes};
+use crate::paths::{LOCK_FILE, Paths};
+use crate::sources::{Inputs, Sources};
+use crate::store;
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// One figure as it was made.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// One hash over all inputs.
+    pub key: String,
+    /// Every input with its hash.
+    pub inputs: Inputs,
+    /// Every output with its hash.
+    pub outputs: Hashes,
+    /// What the manifest says of it, once its runs were compared with their checks.
+    pub measured: Option<Measured>,
+}
+
+impl Record {
+    /// A figure just made.
+    pub fn new(inputs: Inputs, outputs: Hashes) -> Record {
+        Record { key: hashing::digest(&inputs), inputs, outputs, measured: None }
+    }
+}
+
+/// All figures as they were made, by folder of tables (which tells the schemes apart).
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Records {
+    /// By the name of the folder of tables, `data/fig04`.
+    pub figures: BTreeMap<String, Record>,
+}
+
+impl Records {
+    /// Reads the records; none when there is no file, or one of another form (then everything counts as stale).
+    ///
+    /// # Errors
+    /// The file cannot be read.
+    pub fn read(paths: &Paths) -> Result<Records, Failure> {
+        let text = disk::read_text(&paths.state())?.unwrap_or_default();
+        Ok(serde_json::from_str(&text).unwrap_or_default())
+    }
+
+    /// Writes the records.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write(&self, paths: &Paths) -> Result<(), Failure> {
+        let text = serde_json::to_string_pretty(self).map_err(Failure::failed)?;
+        disk::write(&paths.state(), text.as_bytes())
+    }
+
+    /// The record of a figure.
+    pub fn get(&self, paths: &Paths, figure: &Figure) -> Option<&Record> {
+        self.figures.get(&paths.tables(&figure.id))
+    }
+}
+
+/// A figure, what it is made from now, and why it is stale.
+#[derive(Clone, Debug)]
+pub struct Survey<'a> {
+    /// The figure.
+    pub figure: &'a Figure,
+    /// Its runs: panel and key.
+    pub runs: Vec<(String, String)>,
+    /// What it is made from now.
+    pub inputs: Inputs,
+    /// What it has now.
+    pub outputs: Hashes,
+    /// Why it is stale; empty when it is fresh.
+    pub reasons: Vec<String>,
+}
+
+/// Compares each figure with its record.
+///
+/// # Errors
+/// An output cannot be read.
+pub fn survey<'a>(
+    paths: &Paths,
+    figures: &[&'a Figure],
+    sources: &Sources,
+    records: &Records,
+) -> Result<Vec<Survey<'a>>, Failure> {
+    let numeric = sources.numeric();
+    let made = outputs::hash(paths, figures)?;
+    let look = |(&figure, outputs): (&&'a Figure, Hashes)| {
+        let runs = keys(paths, figure, &numeric);
+        let inputs = sources.figure(figure, &runs);
+        let reasons = reasons(records.get(paths, figure), &inputs, &outputs);
+        Survey { figure, runs, inputs, outputs, reasons }
+    };
+    Ok(figures.iter().zip(made).map(look).collect())
+}
+
+/// The runs of a figure: panel and key.
+pub fn keys(paths: &Paths, figure: &Figure, numeric: &str) -> Vec<(String, String)> {
+    let key = |determinants: &str| store::key(determinants, numeric, paths.scheme);
+    figure.runs().map(|panel| (panel.name.clone(), key(&panel.determinants()))).collect()
+}
+
+/// Why a figure is stale: each input and output that is not as recorded.
+pub fn reasons(record: Option<&Record>, inputs: &Inputs, outputs: &Hashes) -> Vec<String> {
+    let Some(record) = record else {
+        return vec!["not made here before".to_owned()];
+    };
+    let made_from = changes(&record.inputs, inputs, ["changed", "is gone", "is new"]);
+    let made = changes(&record.outputs, outputs, ["was edited", "is missing", "was not made by the figure"]);
+    made_from
+        .into_iter()
+        .map(|(name, what)| format!("{} {name} {what}", kind(name)))
+        .chain(made.into_iter().map(|(name, what)| format!("output {name} {what}")))
+        .collect()
+}
+
+/// What kind of input a name stands for.
+pub fn kind(name: &str) -> &'static str {
+    match name {
+        LOCK_FILE => "lock file",
+        _ if name.starts_with("run ") => "key of",
+        _ if name.ends_with("scene.toml") => "scene",
+        _ if name.starts_with("data/") => "reference",
+        _ => "source",
+    }
+}
+
+/// Names whose hash is another one, or that stand on one side only, each with the word for it.
+fn changes<'a>(old: &'a Inputs, new: &'a Inputs, words: [&'static str; 3]) -> Vec<(&'a str, &'static str)> {
+    let names: BTreeSet<&String> = old.keys().chain(new.keys()).collect();
+    let change = |name: &&'a String| match (old.get(*name), new.get(*name)) {
+        (Some(before), Some(now)) => (before != now).then_some((name.as_str(), words[0])),
+        (Some(_), None) => Some((name.as_str(), words[1])),
+        _ => Some((name.as_str(), words[2])),
+    };
+    names.iter().filter_map(change).collect()
+}

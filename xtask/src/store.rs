@@ -1,0 +1,58 @@
+//! Stored runs: a folder for each, named by the hash of what determines the run, with a list of sums written last.
+
+use crate::disk;
+use crate::failure::Failure;
+use crate::hashing;
+use crate::paths::{Paths, STORE_SUMS, Scheme};
+use crate::sums::Sums;
+use std::path::{Path, PathBuf};
+
+/// The key of a run: the hash of what determines its numbers.
+pub fn key(determinants: &str, numeric_sources: &str, scheme: Scheme) -> String {
+    files::write::sha256(format!("{scheme:?}\n{numeric_sources}\n{determinants}").as_bytes())
+}
+
+/// The key of the run that checks another: a different method at a tighter tolerance.
+pub fn check_key(key: &str) -> String {
+    format!("{key}-check")
+}
+
+/// The folder of a stored run.
+pub fn folder(paths: &Paths, key: &str) -> PathBuf {
+    paths.store().join(key)
+}
+
+/// The folder a run writes to before it is stored.
+pub fn fresh(paths: &Paths, key: &str) -> PathBuf {
+    paths.store().join(format!("{key}.tmp-{}", std::process::id()))
+}
+
+/// Whether the stored run is there and every byte of it is as it was stored.
+///
+/// # Errors
+/// A file of it cannot be read.
+pub fn is_sound(folder: &Path) -> Result<bool, Failure> {
+    let Ok(Some(sums)) = Sums::read(&folder.join(STORE_SUMS), STORE_SUMS) else {
+        return Ok(false);
+    };
+    let paths: Vec<PathBuf> = sums.by_name.keys().map(|name| folder.join(name)).collect();
+    let hashes = hashing::hash_all(&paths)?;
+    Ok(!paths.is_empty()
+        && hashes.iter().zip(sums.by_name.values()).all(|(found, listed)| found.as_ref() == Some(listed)))
+}
+
+/// Stores the run that lies in `fresh`: writes its sums, then moves it into its place.
+///
+/// # Errors
+/// The run wrote nothing, or the folder cannot be read, written or moved.
+pub fn adopt(fresh: &Path, folder: &Path) -> Result<(), Failure> {
+    let names = disk::names(fresh)?;
+    if names.is_empty() {
+        return Err(Failure::Failed(format!("{}: the run wrote nothing", fresh.display())));
+    }
+    let paths: Vec<PathBuf> = names.iter().map(|name| fresh.join(name)).collect();
+    let hashes = hashing::hash_all(&paths)?;
+    let by_name = names.into_iter().zip(hashes).filter_map(|(name, hash)| Some((name, hash?))).collect();
+    disk::write(&fresh.join(STORE_SUMS), Sums { by_name }.to_text().as_bytes())?;
+    disk::replace(fresh, folder)
+}

@@ -1,0 +1,97 @@
+//! Lists of sums in the form of GNU coreutils: 64 hexadecimal digits, two blanks, a name.
+
+use crate::disk;
+use crate::failure::Failure;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Hashes by name, sorted.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sums {
+    /// SHA-256 in hexadecimal digits, by the name of the file.
+    pub by_name: BTreeMap<String, String>,
+}
+
+/// What a comparison of one file says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum State {
+    /// The same bytes.
+    Same,
+    /// Other bytes.
+    Differs,
+    /// Made, but not in the list.
+    New,
+    /// In the list, but not made.
+    Missing,
+}
+
+impl State {
+    /// The word for tables and JSON.
+    pub fn word(self) -> &'static str {
+        match self {
+            State::Same => "same",
+            State::Differs => "differs",
+            State::New => "new",
+            State::Missing => "missing",
+        }
+    }
+}
+
+impl Sums {
+    /// Parses a list; `file` is only for messages.
+    ///
+    /// # Errors
+    /// Usage: a line of another form, a name that leaves the root, or one that stands twice; with its number.
+    pub fn parse(file: &str, text: &str) -> Result<Sums, Failure> {
+        let mut by_name = BTreeMap::new();
+        for (index, line) in text.lines().enumerate() {
+            let fail = |problem: &str| Failure::Usage(format!("{file}:{}: {problem}: {line:?}", index + 1));
+            let (hash, name) = line.split_once("  ").ok_or_else(|| fail("not `hash  name`"))?;
+            if hash.len() != 64 || !hash.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'a'..=b'f')) {
+                return Err(fail("not 64 lower-case hexadecimal digits"));
+            }
+            if name.is_empty() || name.starts_with('/') || name.split('/').any(|part| part == "..") {
+                return Err(fail("not a name relative to the root"));
+            }
+            if by_name.insert(name.to_owned(), hash.to_owned()).is_some() {
+                return Err(fail("this name stands twice"));
+            }
+        }
+        Ok(Sums { by_name })
+    }
+
+    /// Reads a list; `None` when there is no such file. `name` is only for messages.
+    ///
+    /// # Errors
+    /// As [`Sums::parse`], or the file cannot be read.
+    pub fn read(path: &Path, name: &str) -> Result<Option<Sums>, Failure> {
+        disk::read_text(path)?.map(|text| Sums::parse(name, &text)).transpose()
+    }
+
+    /// The list as text, sorted by name.
+    pub fn to_text(&self) -> String {
+        self.by_name.iter().map(|(name, hash)| format!("{hash}  {name}\n")).collect()
+    }
+
+    /// The entries whose names begin with one of these.
+    pub fn below(&self, starts: &[String]) -> Sums {
+        let belongs = |name: &str| starts.iter().any(|start| name.starts_with(start.as_str()));
+        let kept = self.by_name.iter().filter(|(name, _)| belongs(name));
+        Sums { by_name: kept.map(|(name, hash)| (name.clone(), hash.clone())).collect() }
+    }
+
+    /// Judges what was made against this list, a state for each name of either.
+    pub fn judge(&self, made: &BTreeMap<String, String>) -> BTreeMap<String, State> {
+        let mut states: BTreeMap<String, State> =
+            self.by_name.keys().map(|name| (name.clone(), State::Missing)).collect();
+        for (name, hash) in made {
+            let state = match self.by_name.get(name) {
+                None => State::New,
+                Some(expected) if expected == hash => State::Same,
+                Some(_) => State::Differs,
+            };
+            states.insert(name.clone(), state);
+        }
+        states
+    }
+}

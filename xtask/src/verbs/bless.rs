@@ -1,0 +1,153 @@
+//! `bless`: accepts new sums and samples after showing what changes.
+
+use super::summary::Committed;
+use super::verify::describe;
+use crate::cli::BlessArgs;
+use crate::disk;
+use crate::failure::Failure;
+use crate::figure;
+use crate::golden;
+use crate::lock::Lock;
+use crate::outputs;
+use crate::paths::{Paths, Scheme};
+use crate::print;
+use crate::record::{self, Records, Survey};
+use crate::sources::Sources;
+use crate::sums::{State, Sums};
+use std::io::ErrorKind;
+use std::process::Command;
+
+/// What changes for one figure.
+struct Change {
+    /// Lines that say so.
+    lines: Vec<String>,
+    /// Whether a table is other than the committed one.
+    numbers_moved: bool,
+}
+
+/// Runs the verb. Nothing is written unless everything can be accepted.
+///
+/// # Errors
+/// Stale: a figure is. Differs: a tracked file other than an output is modified, or numbers moved and `--numbers` was
+/// not given.
+pub fn run(paths: &Paths, arguments: &BlessArgs) -> Result<(), Failure> {
+    let paths = &paths.with_scheme(arguments.scheme);
+    let all = figure::discover(paths)?;
+    let mut selected = figure::select(&all, &arguments.selection.ids, arguments.selection.all)?;
+    selected.retain(|figure| paths.scheme == Scheme::Adaptive || figure.runs().next().is_some());
+    let _lock = Lock::take(paths)?;
+    refuse_modified(paths)?;
+    let surveys = record::survey(paths, &selected, &Sources::read(paths)?, &Records::read(paths)?)?;
+    refuse_stale(&surveys)?;
+    let committed = Committed::read(paths)?;
+    let mut moved = Vec::new();
+    for survey in &surveys {
+        let change = change(paths, survey, &committed)?;
+        print::out(&change.lines.concat())?;
+        if change.numbers_moved {
+            moved.push(survey.figure.id.as_str());
+        }
+    }
+    if !moved.is_empty() && !arguments.numbers {
+        let moved = moved.join(" ");
+        return Err(Failure::Differs(format!("numbers moved: {moved}; nothing written (--numbers accepts them)")));
+    }
+    // a list without figures that no longer exist, when all of them were asked for
+    let whole = arguments.selection.ids.is_empty();
+    for supplement in [false, true] {
+        write_sums(paths, &surveys, &committed, supplement, whole)?;
+    }
+    print::out(&format!("{} figures accepted\n", surveys.len()))?;
+    match paths.scheme {
+        Scheme::Adaptive => surveys.iter().try_for_each(|survey| write_samples(paths, survey)),
+        Scheme::Paper => Ok(()),
+    }
+}
+
+fn refuse_stale(surveys: &[Survey<'_>]) -> Result<(), Failure> {
+    let stale: Vec<&str> =
+        surveys.iter().filter(|survey| !survey.reasons.is_empty()).map(|survey| &*survey.figure.id).collect();
+    match stale.is_empty() {
+        true => Ok(()),
+        false => Err(Failure::Stale(format!("stale: {}; run cargo xtask figures first", stale.join(" ")))),
+    }
+}
+
+/// Sums stand for sources that anyone can get back: tracked files that are no outputs must be as committed.
+fn refuse_modified(paths: &Paths) -> Result<(), Failure> {
+    let mut git = Command::new("git");
+    git.arg("-C").arg(&paths.root).args(["status", "--porcelain", "-z", "--untracked-files=no", "--no-renames"]);
+    let output = match git.output() {
+        Ok(output) if output.status.success() => output,
+        Ok(_) => return note_no_repository(),
+        Err(error) if error.kind() == ErrorKind::NotFound => return note_no_repository(),
+        Err(error) => return Err(Failure::Failed(format!("git: {error}"))),
+    };
+    let text = String::from_utf8_lossy(&output.stdout);
+    let modified = text.split('\0').filter_map(|entry| entry.get(3..)).filter(|name| !Paths::is_output(name));
+    let names: Vec<&str> = modified.collect();
+    match names.is_empty() {
+        true => Ok(()),
+        false => Err(Failure::Differs(format!("modified, commit first: {}", names.join(" ")))),
+    }
+}
+
+fn note_no_repository() -> Result<(), Failure> {
+    eprintln!("no git repository: nothing says whether the sources are as committed");
+    Ok(())
+}
+
+fn change(paths: &Paths, survey: &Survey<'_>, committed: &Committed) -> Result<Change, Failure> {
+    let mut lines = Vec::new();
+    let mut numbers_moved = false;
+    for (name, state) in committed.judge(paths, survey).into_iter().filter(|(_, state)| *state != State::Same) {
+        lines.push(format!("{}: {name}\n", state.word()));
+        numbers_moved |= name.ends_with(".csv") && state != State::New;
+    }
+    if paths.scheme == Scheme::Adaptive {
+        for (table, distance) in golden::judge(paths, paths, survey.figure)? {
+            let Ok(distance) = distance.as_ref().map_err(|problem| lines.push(format!("  {table}: {problem}\n")))
+            else {
+                continue;
+            };
+            if distance.cells > 0 {
+                lines.push(format!("  {table}: {}\n", describe(distance)));
+                numbers_moved = true;
+            }
+        }
+    }
+    Ok(Change { lines, numbers_moved })
+}
+
+fn write_sums(
+    paths: &Paths,
+    surveys: &[Survey<'_>],
+    committed: &Committed,
+    supplement: bool,
+    whole: bool,
+) -> Result<(), Failure> {
+    let mine: Vec<&Survey<'_>> = surveys.iter().filter(|survey| survey.figure.is_supplement() == supplement).collect();
+    if mine.is_empty() {
+        return Ok(());
+    }
+    let old = committed.list(supplement).cloned().filter(|_| !whole).unwrap_or_default();
+    let starts: Vec<String> = mine.iter().flat_map(|survey| outputs::beginnings(paths, survey.figure)).collect();
+    let replaced = old.below(&starts);
+    let mut by_name = old.by_name;
+    by_name.retain(|name, _| !replaced.by_name.contains_key(name));
+    by_name.extend(mine.iter().flat_map(|survey| survey.outputs.clone()));
+    let path = paths.root.join(paths.sums(supplement));
+    disk::write_if_changed(&path, Sums { by_name }.to_text().as_bytes())
+}
+
+fn write_samples(paths: &Paths, survey: &Survey<'_>) -> Result<(), Failure> {
+    let folder = paths.root.join(Paths::golden(&survey.figure.id));
+    let samples = golden::samples(paths, survey.figure)?;
+    for name in disk::names(&folder)?.iter().filter(|name| !samples.contains_key(*name)) {
+        disk::remove(&folder.join(name))?;
+    }
+    for (name, text) in &samples {
+        disk::write_if_changed(&folder.join(name), text.as_bytes())?;
+    }
+    Ok(())
+}

@@ -1,0 +1,34 @@
+//! `ci`: what continuous integration runs.
+
+use super::test::{self, step};
+use super::verify;
+use crate::child;
+use crate::cli::{CiArgs, VerifyArgs};
+use crate::failure::Failure;
+use crate::paths::{OTHER_MACHINES, Paths};
+use std::process::Command;
+
+/// Runs the verb; stops at the first step that fails.
+///
+/// # Errors
+/// Differs: a step fails.
+pub fn run(paths: &Paths, arguments: &CiArgs) -> Result<(), Failure> {
+    cargo(paths, &["fmt", "--all", "--check"])?;
+    cargo(paths, &["clippy", "--locked", "--workspace", "--all-targets", "--", "-D", "warnings"])?;
+    eprintln!("ci: test");
+    test::run(paths)?;
+    eprintln!("ci: verify");
+    verify::run(paths, &VerifyArgs::default())?;
+    if arguments.full {
+        cargo(paths, &["test", "--release", "--locked", "--workspace", "--", "--ignored"])?;
+        eprintln!("ci: {OTHER_MACHINES}");
+        step(OTHER_MACHINES, Command::new("bash").arg(OTHER_MACHINES).current_dir(&paths.root))?;
+    }
+    Ok(())
+}
+
+fn cargo(paths: &Paths, arguments: &[&str]) -> Result<(), Failure> {
+    let name = format!("cargo {}", arguments.join(" "));
+    eprintln!("ci: {name}");
+    step(&name, child::cargo().args(arguments).current_dir(&paths.root).env("CARGO_TARGET_DIR", &paths.target))
+}

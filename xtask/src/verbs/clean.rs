@@ -1,0 +1,32 @@
+//! `clean`: removes what can be made again; committed files stay.
+
+use crate::disk;
+use crate::failure::Failure;
+use crate::figure;
+use crate::lock::Lock;
+use crate::paths::{Paths, Scheme};
+use crate::print;
+use std::path::PathBuf;
+
+/// Runs the verb: stored runs, the runner's own records (not its lock), scratch folders, tables of both schemes.
+///
+/// # Errors
+/// Something cannot be removed.
+pub fn run(paths: &Paths) -> Result<(), Failure> {
+    let _lock = Lock::take(paths)?;
+    let mut doomed: Vec<PathBuf> = vec![paths.store()];
+    let own = disk::names(&paths.xtask())?.into_iter().map(|name| paths.xtask().join(name));
+    doomed.extend(own.filter(|path| *path != paths.lock()));
+    let scratch = disk::names(&paths.target)?.into_iter().filter(|name| name.starts_with("verify-"));
+    doomed.extend(scratch.map(|name| paths.target.join(name)));
+    for figure in figure::discover(paths)? {
+        for scheme in [Scheme::Adaptive, Scheme::Paper] {
+            doomed.push(paths.output(&paths.with_scheme(scheme).tables(&figure.id)));
+        }
+    }
+    for path in doomed.iter().filter(|path| path.exists()) {
+        disk::remove(path)?;
+        print::out(&format!("removed {}\n", path.display()))?;
+    }
+    Ok(())
+}

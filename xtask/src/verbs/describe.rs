@@ -1,0 +1,101 @@
+//! `describe`: the machine and the toolchain, for a report of a difference.
+
+use crate::child;
+use crate::cli::JsonArgs;
+use crate::disk;
+use crate::failure::Failure;
+use crate::paths::{LOCK_FILE, Paths};
+use crate::print;
+use serde_json::json;
+use std::collections::BTreeMap;
+use std::env::consts;
+use std::path::Path;
+use std::process::Command;
+
+/// Dependencies whose version may show in an output.
+const KEY_CRATES: [&str; 9] =
+    ["csv", "plotters", "plotters-svg", "png", "resvg", "tiny-skia", "toml", "ttf-parser", "usvg"];
+
+/// Runs the verb.
+///
+/// # Errors
+/// The lock file cannot be read.
+pub fn run(paths: &Paths, arguments: &JsonArgs) -> Result<(), Failure> {
+    let lock = disk::read_text(&paths.root.join(LOCK_FILE))?.unwrap_or_default();
+    let facts = [("processor", processor()), ("system", system()), ("rustc", rustc())];
+    let (features, crates) = (features(), crate_versions(&lock));
+    let processors = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    if arguments.json {
+        let facts: BTreeMap<&str, String> = facts.into_iter().collect();
+        return print::json(json!({
+            "machine": facts, "processors": processors, "memory_kib": memory(), "features": features,
+            "architecture": consts::ARCH, "profile": "release", "crates": crates,
+        }));
+    }
+    let mut rows: Vec<Vec<String>> = facts.iter().map(|(name, value)| print::row(&[name, value])).collect();
+    let flags: Vec<String> =
+        features.iter().map(|(name, has)| format!("{name}: {}", if *has { "yes" } else { "no" })).collect();
+    rows.push(print::row(&["architecture", consts::ARCH]));
+    rows.push(print::row(&["processors", &processors.to_string()]));
+    rows.push(print::row(&["features", &flags.join(", ")]));
+    rows.push(print::row(&["memory", &memory().map_or("unknown".to_owned(), |kib| format!("{kib} KiB"))]));
+    rows.push(print::row(&["profile", "release"]));
+    rows.extend(crates.iter().map(|(name, version)| print::row(&[name, version])));
+    print::out(&print::table(&rows))
+}
+
+/// The versions of [`KEY_CRATES`] in a lock file.
+pub fn crate_versions(lock: &str) -> BTreeMap<String, String> {
+    let mut versions = BTreeMap::new();
+    let mut name = "";
+    for line in lock.lines() {
+        let value = |key: &str| line.strip_prefix(key).and_then(|rest| rest.strip_prefix(" = \"")?.strip_suffix('"'));
+        if let Some(found) = value("name") {
+            name = found;
+        } else if let Some(version) = value("version").filter(|_| KEY_CRATES.contains(&name)) {
+            versions.insert(name.to_owned(), version.to_owned());
+        }
+    }
+    versions
+}
+
+fn processor() -> String {
+    field("/proc/cpuinfo", "model name")
+        .or_else(|| child::first_line("sysctl", &["-n", "machdep.cpu.brand_string"]))
+        .unwrap_or_else(|| "unknown".to_owned())
+}
+
+fn memory() -> Option<u64> {
+    field("/proc/meminfo", "MemTotal")?.split_whitespace().next()?.parse().ok()
+}
+
+fn system() -> String {
+    let text = disk::read_text(Path::new("/etc/os-release")).ok().flatten().unwrap_or_default();
+    let name = text.lines().find_map(|line| line.strip_prefix("PRETTY_NAME=")).map(|name| name.trim_matches('"'));
+    let kernel = child::first_line("uname", &["-sr"]).unwrap_or_default();
+    format!("{} {kernel}", name.unwrap_or(consts::OS)).trim_end().to_owned()
+}
+
+fn rustc() -> String {
+    let output = Command::new("rustc").arg("-vV").output();
+    let text = output.map_or_else(|error| error.to_string(), |out| String::from_utf8_lossy(&out.stdout).into_owned());
+    text.lines().map(str::trim).collect::<Vec<_>>().join("; ")
+}
+
+#[cfg(target_arch = "x86_64")]
+fn features() -> BTreeMap<&'static str, bool> {
+    let (avx2, fma) = (std::is_x86_feature_detected!("avx2"), std::is_x86_feature_detected!("fma"));
+    [("avx2", avx2), ("fma", fma), ("avx512f", std::is_x86_feature_detected!("avx512f"))].into()
+}
+
+#[cfg(not(target_arch = "x86_64"))]
+fn features() -> BTreeMap<&'static str, bool> {
+    BTreeMap::new()
+}
+
+/// The first value of a `key : value` file of the kernel.
+fn field(file: &str, key: &str) -> Option<String> {
+    let text = disk::read_text(Path::new(file)).ok()??;
+    let mut values = text.lines().filter_map(|line| line.split_once(':'));
+    values.find(|(name, _)| name.trim() == key).map(|(_, value)| value.trim().to_owned())
+}

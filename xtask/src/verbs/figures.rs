@@ -1,0 +1,208 @@
+//! `figures`: writes tables and pictures, hashes everything, compares with the committed sums.
+
+use super::summary;
+use crate::cli::FiguresArgs;
+use crate::compile;
+use crate::disk;
+use crate::estimate::Estimate;
+use crate::failure::Failure;
+use crate::figure::{self, Figure};
+use crate::lock::Lock;
+use crate::manifest;
+use crate::paths::{Paths, Scheme};
+use crate::plan::{self, Node, Step, Wish};
+use crate::pool::Outcome;
+use crate::print;
+use crate::record::{self, Record, Records, Survey};
+use crate::sources::Sources;
+use crate::store;
+use crate::work::{self, Made};
+use std::collections::BTreeMap;
+
+/// Seconds by the name of the node.
+pub type Times = BTreeMap<String, f64>;
+
+/// Runs the verb.
+///
+/// # Errors
+/// Differs: an output is not as committed. Otherwise what kept a figure from being made.
+pub fn run(paths: &Paths, arguments: &FiguresArgs) -> Result<(), Failure> {
+    let paths = &paths.with_scheme(arguments.scheme);
+    let all = figure::discover(paths)?;
+    let selected = choose(&all, arguments)?;
+    // read before the work, so that a malformed list is told at once
+    let committed = summary::Committed::read(paths)?;
+    if arguments.dry_run {
+        return dry_run(paths, &all, &selected, arguments);
+    }
+    let _lock = Lock::take(paths)?;
+    work::sweep(paths)?;
+    let sources = Sources::read(paths)?;
+    compile::ensure(paths, &all, &sources)?;
+    let mut records = Records::read(paths)?;
+    let mut surveys = record::survey(paths, &selected, &sources, &records)?;
+    let wishes = wishes(paths, &surveys, &records, arguments);
+    let nodes = plan::make(paths, &surveys, &wishes, arguments.force)?;
+    let outcomes = make(paths, &surveys, &nodes, arguments, &mut records)?;
+    if !nodes.is_empty() {
+        surveys = record::survey(paths, &selected, &sources, &records)?;
+    }
+    if paths.scheme == Scheme::Adaptive {
+        measure(paths, &all, &surveys, &sources, &mut records)?;
+    }
+    let report = summary::Report::new(paths, &surveys, &records, &committed, seconds(&nodes, &outcomes));
+    report.print(paths, arguments.json)?;
+    work::verdict(&nodes, &outcomes)?;
+    report.verdict(paths, &committed, arguments.selection.ids.is_empty())
+}
+
+/// The figures meant; for the paper's scheme those with a run.
+fn choose<'a>(all: &'a [Figure], arguments: &FiguresArgs) -> Result<Vec<&'a Figure>, Failure> {
+    let selected = figure::select(all, &arguments.selection.ids, arguments.selection.all)?;
+    if arguments.scheme == Scheme::Adaptive {
+        return Ok(selected);
+    }
+    let (with, without): (Vec<&Figure>, Vec<&Figure>) =
+        selected.into_iter().partition(|figure| figure.runs().next().is_some());
+    match without.first().filter(|_| !arguments.selection.ids.is_empty()) {
+        Some(figure) => {
+            let valid: Vec<&str> = all.iter().filter(|one| one.runs().next().is_some()).map(|one| &*one.id).collect();
+            let id = &figure.id;
+            Err(Failure::Usage(format!("{id} has no run, so a scheme means nothing to it; valid: {}", valid.join(" "))))
+        }
+        None => Ok(with),
+    }
+}
+
+fn wishes(paths: &Paths, surveys: &[Survey<'_>], records: &Records, arguments: &FiguresArgs) -> Vec<Wish> {
+    let wish = |survey: &Survey<'_>| {
+        let draw = arguments.force || !survey.reasons.is_empty();
+        let measured = records.get(paths, survey.figure).is_some_and(|record| record.measured.is_some());
+        Wish { draw, measure: paths.scheme == Scheme::Adaptive && (draw || !measured) }
+    };
+    surveys.iter().map(wish).collect()
+}
+
+/// Carries out the plan. Each figure is recorded as soon as it is made, so that a run that is broken off loses nothing.
+fn make(
+    paths: &Paths,
+    surveys: &[Survey<'_>],
+    nodes: &[Node],
+    arguments: &FiguresArgs,
+    records: &mut Records,
+) -> Result<Vec<Outcome<Made>>, Failure> {
+    let mut times = read_times(paths)?;
+    let mut made = |node: &Node, made: &Made| {
+        times.insert(node.name.clone(), made.seconds);
+        if let Step::Draw { figure } = node.step {
+            let survey = &surveys[figure];
+            let record = Record::new(survey.inputs.clone(), made.outputs.clone());
+            records.figures.insert(paths.tables(&survey.figure.id), record);
+            records.write(paths)?;
+        }
+        Ok(())
+    };
+    let effort = &arguments.effort;
+    let outcomes = work::carry_out(paths, surveys, nodes, effort.threads(), effort.keep_going, &mut made)?;
+    if !nodes.is_empty() {
+        let text = serde_json::to_string_pretty(&times).map_err(Failure::failed)?;
+        disk::write(&paths.times(), text.as_bytes())?;
+    }
+    Ok(outcomes)
+}
+
+/// Compares runs with their checks for every figure that is fresh and not measured yet; then writes the manifest.
+fn measure(
+    paths: &Paths,
+    all: &[Figure],
+    surveys: &[Survey<'_>],
+    sources: &Sources,
+    records: &mut Records,
+) -> Result<(), Failure> {
+    let scenes = scenes(paths, all, &sources.numeric());
+    let mut estimates = BTreeMap::new();
+    let mut changed = false;
+    for survey in surveys.iter().filter(|survey| survey.reasons.is_empty()) {
+        let Some(record) = records.figures.get_mut(&paths.tables(&survey.figure.id)) else { continue };
+        if record.measured.is_some() || !checks_are_stored(paths, survey) {
+            continue;
+        }
+        for (_, key) in &survey.runs {
+            if !estimates.contains_key(key) {
+                estimates.insert(key.clone(), Estimate::of(paths, key)?);
+            }
+        }
+        record.measured = Some(manifest::measure(paths, survey, &estimates, &scenes)?);
+        changed = true;
+    }
+    if changed {
+        records.write(paths)?;
+    }
+    let fresh = surveys.iter().filter(|survey| survey.reasons.is_empty());
+    let measured: Vec<_> = fresh
+        .filter_map(|survey| Some((survey.figure, records.get(paths, survey.figure)?.measured.as_ref()?)))
+        .collect();
+    manifest::write(paths, all, &measured)
+}
+
+fn checks_are_stored(paths: &Paths, survey: &Survey<'_>) -> bool {
+    survey.runs.iter().all(|(_, key)| store::folder(paths, &store::check_key(key)).is_dir())
+}
+
+/// The scene under which a run's events are listed, by key: the first figure that has the run, and its panel.
+fn scenes(paths: &Paths, all: &[Figure], numeric: &str) -> BTreeMap<String, String> {
+    let mut scenes = BTreeMap::new();
+    for figure in all {
+        for (panel, key) in record::keys(paths, figure, numeric) {
+            scenes.entry(key).or_insert_with(|| format!("{}-{panel}", figure.id));
+        }
+    }
+    scenes
+}
+
+fn dry_run(paths: &Paths, all: &[Figure], selected: &[&Figure], arguments: &FiguresArgs) -> Result<(), Failure> {
+    let sources = Sources::read(paths)?;
+    let records = Records::read(paths)?;
+    let surveys = record::survey(paths, selected, &sources, &records)?;
+    let nodes = plan::make(paths, &surveys, &wishes(paths, &surveys, &records, arguments), arguments.force)?;
+    let build = compile::is_needed(paths, all, &sources)?;
+    let states: Vec<(&str, &str)> =
+        surveys.iter().map(|survey| (&*survey.figure.slug, reason(survey, arguments))).collect();
+    if arguments.json {
+        let steps: Vec<&str> = nodes.iter().map(|node| node.name.as_str()).collect();
+        let figures: BTreeMap<&str, &str> = states.into_iter().collect();
+        return print::json(serde_json::json!({ "build": build, "figures": figures, "nodes": steps }));
+    }
+    let mut rows = vec![print::row(&["build", if build { compile::COMMAND } else { "fresh" }])];
+    rows.extend(
+        nodes
+            .iter()
+            .filter(|node| matches!(node.step, Step::Simulate { .. }))
+            .map(|node| print::row(&[&node.name, "to run"])),
+    );
+    rows.extend(states.iter().map(|(slug, state)| print::row(&[slug, state])));
+    print::out(&print::table(&rows))
+}
+
+fn reason<'a>(survey: &'a Survey<'_>, arguments: &FiguresArgs) -> &'a str {
+    let forced = if arguments.force { "forced" } else { "fresh" };
+    survey.reasons.first().map_or(forced, String::as_str)
+}
+
+/// Seconds of the nodes that ran now.
+fn seconds(nodes: &[Node], outcomes: &[Outcome<Made>]) -> Times {
+    let seconds = |(node, outcome): (&Node, &Outcome<Made>)| match outcome {
+        Outcome::Done(made) => Some((node.name.clone(), made.seconds)),
+        _ => None,
+    };
+    nodes.iter().zip(outcomes).filter_map(seconds).collect()
+}
+
+/// Seconds of the last time each node ran.
+///
+/// # Errors
+/// The file cannot be read.
+pub fn read_times(paths: &Paths) -> Result<Times, Failure> {
+    let text = disk::read_text(&paths.times())?.unwrap_or_default();
+    Ok(serde_json::from_str(&text).unwrap_or_default())
+}

@@ -1,0 +1,15 @@
+//! One file for each verb of the command line.
+
+pub mod bless;
+pub mod ci;
+pub mod clean;
+pub mod describe;
+pub mod doctor;
+pub mod explain;
+pub mod figures;
+pub mod forward;
+pub mod list;
+pub mod status;
+pub mod summary;
+pub mod test;
+pub mod verify;

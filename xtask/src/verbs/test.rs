@@ -1,0 +1,42 @@
+//! `test`: the tests that Rust alone can run; what needs more is skipped aloud.
+
+use super::doctor;
+use crate::child;
+use crate::failure::Failure;
+use crate::paths::{OTHER_MACHINES, Paths, SPOT_CHECK};
+use crate::print;
+use std::process::Command;
+
+/// Runs the verb.
+///
+/// # Errors
+/// Differs: a test fails.
+pub fn run(paths: &Paths) -> Result<(), Failure> {
+    let mut cargo = child::cargo();
+    cargo.args(["test", "--release", "--locked", "--workspace"]).current_dir(&paths.root);
+    step("cargo test", cargo.env("CARGO_TARGET_DIR", &paths.target))?;
+    spot_check(paths)?;
+    print::out(&format!("skipped: other machines ({OTHER_MACHINES}): cargo xtask ci --full\n"))
+}
+
+/// Runs one step of a list; its words go to our stdout and stderr.
+///
+/// # Errors
+/// Differs: it fails. Unsupported: the program is missing.
+pub fn step(name: &str, command: &mut Command) -> Result<(), Failure> {
+    child::run_shown(command).map_err(|failure| match failure {
+        Failure::Child(code) => Failure::Differs(format!("{name} failed (exit code {code})")),
+        other => other,
+    })
+}
+
+/// Values computed by NumPy, by other code than ours.
+fn spot_check(paths: &Paths) -> Result<(), Failure> {
+    if !paths.root.join(SPOT_CHECK).is_file() {
+        return print::out(&format!("skipped: NumPy spot checks: there is no {SPOT_CHECK}\n"));
+    }
+    if doctor::numpy().is_none() {
+        return print::out("skipped: NumPy spot checks: python3 with numpy not found\n");
+    }
+    step(SPOT_CHECK, Command::new("python3").arg(SPOT_CHECK).current_dir(&paths.root))
+}

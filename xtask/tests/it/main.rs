@@ -1,0 +1,11 @@
+//! The runner's tests: its parts alone, then the whole of it on a small checkout with stand-ins for every program.
+
+mod cli;
+mod data;
+mod figures;
+mod ids;
+mod judging;
+mod pool;
+mod record;
+mod shop;
+mod tables;

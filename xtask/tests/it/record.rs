@@ -1,0 +1,54 @@
+//! Why a figure is stale.
+
+use std::collections::BTreeMap;
+use xtask::record::{Record, reasons};
+
+fn named(pairs: &[(&str, &str)]) -> BTreeMap<String, String> {
+    pairs.iter().map(|(name, hash)| ((*name).to_owned(), (*hash).to_owned())).collect()
+}
+
+#[test]
+fn a_figure_never_made_is_stale() {
+    assert_eq!(reasons(None, &named(&[]), &named(&[])), ["not made here before"]);
+}
+
+#[test]
+fn an_unchanged_figure_is_fresh() {
+    let (inputs, outputs) = (named(&[("crates/a.rs", "1")]), named(&[("data/fig04/a.csv", "2")]));
+    assert!(reasons(Some(&Record::new(inputs.clone(), outputs.clone())), &inputs, &outputs).is_empty());
+}
+
+#[test]
+fn every_change_is_named() {
+    let inputs = named(&[
+        ("Cargo.lock", "1"),
+        ("crates/a.rs", "1"),
+        ("data/reference/x.csv", "1"),
+        ("figures/fig04-a/scene.toml", "1"),
+        ("run main", "1"),
+    ]);
+    let outputs = named(&[("data/fig04/a.csv", "1"), ("data/fig04/b.csv", "1")]);
+    let now = named(&[
+        ("Cargo.lock", "2"),
+        ("crates/b.rs", "1"),
+        ("data/reference/x.csv", "2"),
+        ("figures/fig04-a/scene.toml", "2"),
+        ("run main", "2"),
+    ]);
+    let made = named(&[("data/fig04/b.csv", "2"), ("data/fig04/c.csv", "1")]);
+    let found = reasons(Some(&Record::new(inputs, outputs)), &now, &made);
+    assert_eq!(
+        found,
+        [
+            "lock file Cargo.lock changed",
+            "source crates/a.rs is gone",
+            "source crates/b.rs is new",
+            "reference data/reference/x.csv changed",
+            "scene figures/fig04-a/scene.toml changed",
+            "key of run main changed",
+            "output data/fig04/a.csv is missing",
+            "output data/fig04/b.csv was edited",
+            "output data/fig04/c.csv was not made by the figure",
+        ]
+    );
+}
