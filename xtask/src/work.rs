@@ -50,13 +50,13 @@ pub fn carry_out(
         count += 1;
         match outcome {
             Outcome::Done(result) => {
-                eprintln!("{count:>3}/{}  {:<32} {:>8.2} s", nodes.len(), node.name, result.seconds);
+                eprintln!("{count:>3}/{}  {:<38} {:>8.2} s", nodes.len(), node.name, result.seconds);
                 if trouble.is_ok() {
                     trouble = made(node, result);
                 }
             }
             Outcome::Failed(failure) => {
-                eprintln!("{count:>3}/{}  {:<32}   FAILED\n{}", nodes.len(), node.name, failure.text());
+                eprintln!("{count:>3}/{}  {:<38}   FAILED\n{}", nodes.len(), node.name, failure.text());
             }
             Outcome::Skipped => {}
         }
