@@ -24,7 +24,7 @@ fn picture(job: &Job) -> Result<Picture, Failure> {
             MapPanel {
                 name: "top_right",
                 title: "$\\langle 0.5, 0, 1, 0\\rangle$",
-                regions: &[("grows", (0.44, 0.9)), ("decays", (1.5, 2.2))],
+                regions: &[("grows", (0.45, 0.35)), ("decays", (1.5, 2.2))],
             },
             MapPanel {
                 name: "bottom_left",

@@ -1,0 +1,77 @@
+//! Bad input and failing disks: one message, the right exit code, nothing half-written.
+
+use crate::{root, run};
+use std::path::Path;
+
+/// Runs `simulate` on the example scene with one text replaced; returns exit code, message, and whether anything was
+/// written.
+fn with_scene(from: &str, to: &str) -> (Option<i32>, String, bool) {
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    let text = std::fs::read_to_string(root().join("scenes/ring.toml")).expect("the example scene");
+    assert!(text.contains(from), "{from} stands in the example scene");
+    let scene = scratch.path().join("my scene.toml");
+    std::fs::write(&scene, text.replacen(from, to, 1)).expect("a scene is written");
+    let out = scratch.path().join("out");
+    let output = run("simulate", &[scene.to_str().expect("UTF-8"), "--out", out.to_str().expect("UTF-8")]);
+    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned(), out.exists())
+}
+
+#[test]
+fn bad_scenes_are_refused_before_anything_is_written() {
+    let cases = [
+        ("length      = 75.0", "length = -5.0", "ring.length = -5: must be a number > 0.0"),
+        ("length      = 75.0", "length = nan", "ring.length = NaN: must be a number > 0.0"),
+        ("pedestrians = 50", "pedestrians = 0", "ring.pedestrians = 0: must be a whole number from 2 to"),
+        ("pedestrians = 50", "pedestrians = 1", "ring.pedestrians = 1: must be a whole number from 2 to"),
+        ("shift = 0.1", "shift = 2.0", "start.shift = 2: closes a gap at the start"),
+        ("shift = 0.1", "shift = \"far\"", "start.shift = \"far\": must be a finite number"),
+        ("shift = 0.1", "shift = 0.1\nshifft = 1", "start.shifft: unknown key; known here: shift"),
+        ("method    = \"dop853\"", "method = \"heun\"", "heun has no error estimate and needs dt"),
+    ];
+    for (from, to, words) in cases {
+        let (code, message, is_written) = with_scene(from, to);
+        assert_eq!(code, Some(2), "{to}: {message}");
+        assert!(message.contains("my scene.toml:") && message.contains(words), "{to}: {message}");
+        assert_eq!(message.lines().count(), 1, "{message}");
+        assert!(!is_written, "{to}: something was written");
+    }
+}
+
+#[test]
+fn a_folder_that_cannot_be_made_is_named() {
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    let file = scratch.path().join("file");
+    std::fs::write(&file, "in the way").expect("a file is written");
+    let out = file.join("out");
+    let output = run("simulate", &["scenes/ring.toml", "--t-end", "2", "--out", out.to_str().expect("UTF-8")]);
+    assert_eq!(output.status.code(), Some(4));
+    assert!(String::from_utf8_lossy(&output.stderr).contains(out.to_str().expect("UTF-8")));
+    assert_eq!(std::fs::read_to_string(&file).expect("still there"), "in the way");
+}
+
+#[test]
+fn a_figure_says_which_table_is_missing() {
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    let folder = scratch.path().to_str().expect("UTF-8");
+    let scene = "figures/fig08-logarithmic-force/scene.toml";
+    let output =
+        run("fig08-logarithmic-force", &["--scene", scene, "--tables", folder, "--pictures", folder, "--draw-only"]);
+    assert_eq!(output.status.code(), Some(4));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("force.csv"));
+    assert_eq!(files_in(scratch.path()), 0);
+}
+
+#[test]
+fn a_run_that_ends_in_an_event_ends_well() {
+    let scene = "figures/fig07-exponential-std/scene.toml";
+    let output = run("simulate", &[scene, "--panel", "unstable", "--json"]);
+    assert_eq!(output.status.code(), Some(0));
+    let summary: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(summary["schema_version"], 1);
+    assert_eq!(summary["stop"], "overlap");
+    assert!(output.stderr.is_empty());
+}
+
+fn files_in(folder: &Path) -> usize {
+    std::fs::read_dir(folder).expect("a folder").count()
+}
