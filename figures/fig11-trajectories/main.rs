@@ -29,7 +29,10 @@ fn picture(job: &Job) -> Result<Picture, Failure> {
     Ok(Picture::new(COLUMN_WIDTH, 124.0)
         .columns(1)
         .row_shares(&[1.5, 1.0])
-        .scale(ColorScale::sequential("speed $v_n$", 0.2, 1.0))
-        .panel(whole.field().every(TRACED).line_width(0.12).outline(times, positions))
-        .panel(window))
+        .scale(ColorScale::sequential("speed $v_n$", 0.0, 1.0))
+        .titled(
+            "speed of all, path of every 33rd",
+            whole.field().every(TRACED).line_width(0.12).outline(times, positions),
+        )
+        .titled("paths of all in the window", window))
 }

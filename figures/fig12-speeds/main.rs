@@ -33,11 +33,11 @@ fn picture(job: &Job) -> Result<Picture, Failure> {
     // where the first waves are, enlarged
     let waves = Lines::new(Axis::linear("", 95.0, 135.0).steps(4), Axis::linear("", 0.62, 0.68).steps(3))
         .legend(Legend::Hidden)
-        .series(regenerated("t300")?)
-        .series(published()?.look(2));
-    let early = panel(Legend::Corner(Corner::TopRight))
-        .series(regenerated("t300")?)
         .series(published()?.look(2))
+        .series(regenerated("t300")?.look(0));
+    let early = panel(Legend::Corner(Corner::TopRight))
+        .series(published()?.look(2))
+        .series(regenerated("t300")?.look(0))
         .inset([0.02, 0.03, 0.66, 0.5], waves);
     let late = panel(Legend::Hidden).series(regenerated("t2000")?);
     Ok(Picture::new(COLUMN_WIDTH, 100.0).columns(1).titled("$t = 300$", early).titled("$t = 2000$", late))

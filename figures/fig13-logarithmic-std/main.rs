@@ -14,8 +14,8 @@ fn picture(job: &Job) -> Result<Picture, Failure> {
     let published = points(&job.reference("published_std_log")?, "t", "std")?;
     let panel = Lines::new(Axis::linear("$t$", 0.0, 3000.0).steps(3), Axis::linear("std of speeds", 0.0, 0.5).steps(5))
         .legend(Legend::Corner(Corner::TopLeft))
-        .series(Series::line("$\\epsilon_1 = 0.1$", points(&job.read("std")?, "t", "std")?))
         .series(Series::points("published", Marker::Circle, published).every(4).look(2))
+        .series(Series::line("$\\epsilon_1 = 0.1$", points(&job.read("std")?, "t", "std")?).look(0))
         .series(
             Series::line("$\\epsilon_1 = 10^{-4}$ (text)", points(&job.read("std_small_shift")?, "t", "std")?).look(1),
         );

@@ -12,7 +12,7 @@ fn main() -> ExitCode {
 fn picture(job: &Job) -> Result<Picture, Failure> {
     map_grid(
         job,
-        ColorScale::diverging("$\\mathrm{Re}\\,z^+$", 0.2),
+        ColorScale::diverging("$\\mathrm{Re}\\,z^+$", 0.5),
         2,
         84.0,
         &[

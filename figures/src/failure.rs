@@ -1,5 +1,6 @@
 //! Failures of a binary, and the exit codes that tell them apart.
 
+use std::io::Write as _;
 use std::process::ExitCode;
 
 /// Why a binary could not do its work: the message for the user, and the exit code.
@@ -38,6 +39,17 @@ impl From<std::io::Error> for Failure {
 impl From<files::table::TableError> for Failure {
     fn from(error: files::table::TableError) -> Failure {
         Failure::work(error)
+    }
+}
+
+/// Prints a line to stdout. A reader that has gone away (`| head`) is no failure.
+///
+/// # Errors
+/// stdout cannot be written for another reason.
+pub fn print(line: &str) -> Result<(), Failure> {
+    match writeln!(std::io::stdout(), "{line}") {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure::work(format!("stdout: {error}"))),
+        _ => Ok(()),
     }
 }
 

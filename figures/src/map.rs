@@ -1,12 +1,13 @@
 //! A stability map of one's own: table and picture.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, print};
 use crate::panels::{Labels, map_panel};
 use clap::Parser;
 use files::recipe::{self, Kind};
-use files::write::{atomic, with_path};
+use files::write::{atomic_all, with_path};
 use plot::style::COLUMN_WIDTH;
 use plot::{ColorScale, Picture};
+use scene::map::Computed;
 use serde_json::json;
 use std::path::PathBuf;
 
@@ -46,35 +47,34 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
         let numbers = map.compute().map_err(|problem| Failure::input(format!("{}: {problem}", recipe.file)))?;
         computed.push((panel.name.as_str(), map, numbers));
     }
-    let mut summary = Vec::new();
+    let (mut files, mut summary, mut words) = (Vec::new(), Vec::new(), Vec::new());
     for (name, map, numbers) in &computed {
         let [_, _, value] = map.columns();
         let values = numbers.table.column(value)?;
         let unstable = values.iter().filter(|&&value| value > 0.0).count() as f64 / values.len() as f64;
-        summary.push(json!({ "panel": name, "value": value, "cells": values.len(), "unstable_share": unstable, "error": numbers.error }));
-        if !arguments.json {
-            println!("{name}: {} cells, {:.1} % unstable, error {:.1e}", values.len(), 100.0 * unstable, numbers.error);
-        }
+        let (cells, error) = (values.len(), numbers.error);
+        summary
+            .push(json!({ "panel": name, "value": value, "cells": cells, "unstable_share": unstable, "error": error }));
+        words.push(format!("{name}: {cells} cells, {:.1} % unstable, error {error:.1e}", 100.0 * unstable));
         let Some(folder) = &arguments.out else { continue };
-        std::fs::create_dir_all(folder).map_err(|error| with_path(error, folder))?;
-        atomic(&folder.join(format!("{name}.csv")), &numbers.table.to_csv())?;
+        files.push((folder.join(format!("{name}.csv")), numbers.table.to_csv()));
         if !arguments.tables_only {
-            let largest =
-                values.iter().fold(0.0, |most: f64, value| if value.abs() > most { value.abs() } else { most });
-            let limit = LIMITS.into_iter().find(|&limit| largest <= limit).unwrap_or(0.5);
-            let scale = ColorScale::diverging(if value == "phi" { "$\\Phi$" } else { "$\\mathrm{Re}\\,z^+$" }, limit);
-            let picture = Picture::new(COLUMN_WIDTH, 70.0).scale(scale).panel(map_panel(
-                map,
-                &numbers.table,
-                Labels { horizontal: true, vertical: true },
-            )?);
-            let rendered = picture.render().map_err(Failure::work)?;
-            atomic(&folder.join(format!("{name}.svg")), &rendered.svg)?;
-            atomic(&folder.join(format!("{name}.png")), &rendered.png)?;
+            let rendered = picture(map, numbers, &values)?.render().map_err(Failure::work)?;
+            files.push((folder.join(format!("{name}.svg")), rendered.svg));
+            files.push((folder.join(format!("{name}.png")), rendered.png));
         }
     }
-    if arguments.json {
-        println!("{}", json!({ "schema_version": 1, "maps": summary }));
+    if let Some(folder) = &arguments.out {
+        std::fs::create_dir_all(folder).map_err(|error| with_path(error, folder))?;
+        atomic_all(&files)?;
     }
-    Ok(())
+    print(&if arguments.json { json!({ "schema_version": 1, "maps": summary }).to_string() } else { words.join("\n") })
+}
+
+fn picture(map: &scene::map::Map, numbers: &Computed, values: &[f64]) -> Result<Picture, Failure> {
+    let largest = values.iter().fold(0.0, |most: f64, value| if value.abs() > most { value.abs() } else { most });
+    let limit = LIMITS.into_iter().find(|&limit| largest <= limit).unwrap_or(0.5);
+    let symbol = if map.columns()[2] == "phi" { "$\\Phi$" } else { "$\\mathrm{Re}\\,z^+$" };
+    let panel = map_panel(map, &numbers.table, Labels { horizontal: true, vertical: true })?;
+    Ok(Picture::new(COLUMN_WIDTH, 70.0).scale(ColorScale::diverging(symbol, limit)).panel(panel))
 }

@@ -76,7 +76,7 @@ pub fn map_panel(map: &scene::map::Map, table: &Table, labels: Labels) -> Result
 fn axis(axis: &MapAxis, is_labelled: bool) -> Axis {
     let name = if is_labelled { symbol(axis.parameter) } else { "" };
     let drawn = Axis::linear(name, axis.from, axis.to).steps(4);
-    let is_wave_number = axis.parameter == "k" && axis.to > 0.9 * PI;
+    let is_wave_number = axis.parameter == "k" && (0.9 * PI..=1.1 * PI).contains(&axis.to);
     match (is_wave_number, is_labelled) {
         (true, true) => drawn.ticks(&WAVE_NUMBERS),
         (true, false) => drawn.ticks(&WAVE_NUMBERS.map(|(k, _)| (k, ""))),

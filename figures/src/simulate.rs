@@ -1,11 +1,11 @@
 //! Running a scene from the command line: tables, events and a summary.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, print};
 use crate::panels::{points, trajectories};
 use cpu_time::ProcessTime;
 use files::recipe::{self, Kind};
 use files::table::Table;
-use files::write::atomic;
+use files::write::atomic_all;
 use ode::Control;
 use plot::style::COLUMN_WIDTH;
 use plot::{Axis, ColorScale, Legend, Lines, Picture, Series, SpaceTime};
@@ -35,16 +35,16 @@ pub struct Arguments {
     #[arg(long)]
     method: Option<String>,
     /// Largest local error, relative to the perturbation: 1e-15 to 1e-2
-    #[arg(long, value_name = "X", conflicts_with = "dt")]
+    #[arg(long, value_name = "X", conflicts_with = "dt", allow_negative_numbers = true)]
     tol: Option<f64>,
     /// Length of every step, in units of tau
-    #[arg(long, value_name = "X")]
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
     dt: Option<f64>,
     /// Time at which the run ends
-    #[arg(long, value_name = "T")]
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
     t_end: Option<f64>,
     /// Time between samples
-    #[arg(long, value_name = "DT")]
+    #[arg(long, value_name = "DT", allow_negative_numbers = true)]
     sample: Option<f64>,
     /// File for the final state: n, x, v
     #[arg(long, value_name = "FILE")]
@@ -70,23 +70,19 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     let outcome = run(&scene).map_err(Failure::work)?;
     let seconds = clock.elapsed().as_secs_f64();
     let summary = summary(&scene, &outcome, seconds);
+    let mut files = Vec::new();
     if let Some(folder) = &arguments.out {
-        std::fs::create_dir_all(folder).map_err(|error| files::write::with_path(error, folder))?;
-        write_tables(folder, &scene, &outcome)?;
-        atomic(&folder.join("summary.json"), pretty(&summary).as_bytes())?;
+        files.extend(tables(folder, &scene, &outcome));
+        files.push((folder.join("summary.json"), pretty(&summary).into_bytes()));
         if !arguments.tables_only {
-            draw(folder, &scene, &outcome)?;
+            files.extend(pictures(folder, &scene, &outcome)?);
         }
+        std::fs::create_dir_all(folder).map_err(|error| files::write::with_path(error, folder))?;
     }
-    if let Some(file) = &arguments.state {
-        atomic(file, &state(&outcome).to_csv())?;
-    }
-    if arguments.json {
-        println!("{summary}");
-    } else {
-        println!("{}", in_words(&scene, &outcome, seconds));
-    }
-    Ok(())
+    files.extend(arguments.state.iter().map(|file| (file.clone(), state(&outcome).to_csv())));
+    atomic_all(&files)?;
+    let words = if arguments.json { summary.to_string() } else { in_words(&scene, &outcome, seconds) };
+    print(&words)
 }
 
 fn read_scene(arguments: &Arguments) -> Result<Scene, Failure> {
@@ -125,41 +121,36 @@ fn read_scene(arguments: &Arguments) -> Result<Scene, Failure> {
 }
 
 /// Pictures of the standard deviation and, if they are kept, of the trajectories.
-fn draw(folder: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), Failure> {
+fn pictures(folder: &Path, scene: &Scene, outcome: &Outcome) -> Result<Vec<(PathBuf, Vec<u8>)>, Failure> {
     let std = points(&outcome.std, "t", "std")?;
     // a run that a stop ends is drawn up to its last sample
     let last = std.last().map_or(0.0, |&(t, _)| t);
     let times = Axis::linear("$t$", 0.0, if last > 0.0 { last } else { scene.t_end }).steps(4);
     let heights = Axis::around("std of speeds", std.iter().map(|&(_, std)| std));
     let panel = Lines::new(times.clone(), heights).legend(Legend::Hidden).series(Series::line("", std));
-    save(folder, "std", Picture::new(COLUMN_WIDTH, 60.0).panel(panel))?;
+    let mut files = rendered(folder, "std", Picture::new(COLUMN_WIDTH, 60.0).panel(panel))?;
     if scene.keeps_trajectories {
         let length = scene.ring.length;
-        let fastest = ColorScale::sequential("speed $v_n$", 0.0, scene.model.desired_speed());
-        let panel = SpaceTime::new(
-            times,
-            Axis::linear("$x'$", 0.0, length).steps(4),
-            length,
-            &trajectories(&outcome.trajectories)?,
-        );
-        save(folder, "trajectories", Picture::new(COLUMN_WIDTH, 80.0).scale(fastest).panel(panel))?;
+        let speeds = ColorScale::sequential("speed $v_n$", 0.0, scene.model.desired_speed());
+        let places = Axis::linear("$x'$", 0.0, length).steps(4);
+        let panel = SpaceTime::new(times, places, length, &trajectories(&outcome.trajectories)?);
+        files.extend(rendered(folder, "trajectories", Picture::new(COLUMN_WIDTH, 80.0).scale(speeds).panel(panel))?);
     }
-    Ok(())
+    Ok(files)
 }
 
-fn save(folder: &Path, name: &str, picture: Picture) -> Result<(), Failure> {
+fn rendered(folder: &Path, name: &str, picture: Picture) -> Result<Vec<(PathBuf, Vec<u8>)>, Failure> {
     let rendered = picture.render().map_err(Failure::work)?;
-    atomic(&folder.join(format!("{name}.svg")), &rendered.svg)?;
-    Ok(atomic(&folder.join(format!("{name}.png")), &rendered.png)?)
+    Ok(vec![(folder.join(format!("{name}.svg")), rendered.svg), (folder.join(format!("{name}.png")), rendered.png)])
 }
 
-fn write_tables(folder: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), Failure> {
-    atomic(&folder.join("std.csv"), &outcome.std.to_csv())?;
+fn tables(folder: &Path, scene: &Scene, outcome: &Outcome) -> Vec<(PathBuf, Vec<u8>)> {
+    let mut files =
+        vec![(folder.join("std.csv"), outcome.std.to_csv()), (folder.join("events.csv"), events(outcome).into_bytes())];
     if scene.keeps_trajectories {
-        atomic(&folder.join("trajectories.csv"), &outcome.trajectories.to_csv())?;
+        files.push((folder.join("trajectories.csv"), outcome.trajectories.to_csv()));
     }
-    atomic(&folder.join("events.csv"), events(outcome).as_bytes())?;
-    Ok(())
+    files
 }
 
 /// `event,t,n`: the first event of each kind.

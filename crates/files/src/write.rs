@@ -21,6 +21,28 @@ pub fn atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
     })
 }
 
+/// Writes several files so that all of them appear or none: first each beside its place, then all are renamed.
+///
+/// # Errors
+/// As [`atomic`]; the old files are untouched and no temporary one is left, unless a rename fails half-way.
+pub fn atomic_all(files: &[(PathBuf, Vec<u8>)]) -> io::Result<()> {
+    let written: io::Result<()> = files.iter().try_for_each(|(path, bytes)| {
+        let create =
+            || File::create(beside(path)).and_then(|mut file| file.write_all(bytes).and_then(|()| file.sync_all()));
+        create().map_err(|error| with_path(error, path))
+    });
+    let renamed = written.and_then(|()| {
+        files.iter().try_for_each(|(path, _)| fs::rename(beside(path), path).map_err(|error| with_path(error, path)))
+    });
+    if renamed.is_err() {
+        for (path, _) in files {
+            // a failed clean-up has nothing to add to the error that is already on its way
+            let _ = fs::remove_file(beside(path));
+        }
+    }
+    renamed
+}
+
 /// The SHA-256 of `bytes`, in 64 lower-case hexadecimal digits.
 pub fn sha256(bytes: &[u8]) -> String {
     hexadecimal(Sha256::digest(bytes).as_slice())

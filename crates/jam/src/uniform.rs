@@ -13,7 +13,7 @@ impl std::fmt::Display for NoUniformFlow {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(
             f,
-            "no uniform flow at headway L/N = {:?}: the law leaves no room there; lengths are in units of a_0, a headway above 2 (1 + a_v v_0) always does",
+            "no uniform flow at headway L/N = {:?}: at no speed from -1e12 v_0 to v_0 does the drive balance the force with room left; a longer ring, fewer pedestrians or a weaker force has a uniform flow",
             self.headway
         )
     }

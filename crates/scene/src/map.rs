@@ -86,6 +86,13 @@ pub fn read(file: &str, tables: &Section) -> Result<Map, RecipeError> {
     let mut law_tables = top.section("law")?.clone();
     let [x_section, y_section] = [map.section("x")?, map.section("y")?];
     for (name, section, axis) in [("map.x", x_section, &x), ("map.y", y_section, &y)] {
+        if axis.parameter == x.parameter && name == "map.y" {
+            return Err(Reader::new(file, name, section).complaint("parameter", "is the other axis as well"));
+        }
+        if law_tables.entries.contains_key(axis.parameter) {
+            let problem = format!("is an axis of the map ({name}): leave it out here");
+            return Err(Reader::new(file, "law", top.section("law")?).complaint(axis.parameter, &problem));
+        }
         if let Some(problem) = unfit(&law_tables, axis) {
             return Err(Reader::new(file, name, section).complaint("parameter", &problem));
         }
@@ -121,7 +128,7 @@ fn axis(file: &str, name: &'static str, section: &Section) -> Result<Axis, Recip
         parameter: reader.choice("parameter", &PARAMETERS)?,
         from: reader.number("from", 0.0..)?,
         to: reader.number("to", FINITE)?,
-        cells: reader.count("cells", 1, 10_000)?,
+        cells: reader.count("cells", 1, 2_000)?,
     };
     if axis.to <= axis.from {
         return Err(reader.complaint("to", &format!("must be above from = {:?}", axis.from)));

@@ -33,8 +33,10 @@ pub struct Scene {
     pub steady_speed: f64,
 }
 
-/// As many samples as a run may take, so that a slip in `sample` does not fill the memory.
-const MOST_SAMPLES: f64 = 1e7;
+/// As many rows as the table of a run may have, so that a slip in `sample` does not fill the memory (32 bytes a row).
+const MOST_ROWS: f64 = 2e7;
+/// As many steps of fixed length as a run may take: two orders more than the longest of the paper.
+const MOST_STEPS: f64 = 1e11;
 
 /// Reads a scene from the tables of a panel.
 ///
@@ -53,9 +55,6 @@ pub fn read(file: &str, tables: &Section) -> Result<Scene, RecipeError> {
 
     let t_end = run.number("t_end", POSITIVE)?;
     let sample = run.number("sample", POSITIVE)?;
-    if t_end / sample > MOST_SAMPLES {
-        return Err(run.complaint("sample", &format!("gives {:e} samples; at most {MOST_SAMPLES:e}", t_end / sample)));
-    }
     let method = method(&mut run)?;
     let control = control(&mut run, method)?;
     let form = match run.has("state") {
@@ -67,6 +66,19 @@ pub fn read(file: &str, tables: &Section) -> Result<Scene, RecipeError> {
         },
     };
     let keeps_trajectories = !run.has("record") || run.choice("record", &["std", "trajectories"])? == "trajectories";
+    let rows = (t_end / sample).floor() * if keeps_trajectories { ring.pedestrians as f64 } else { 1.0 };
+    if rows > MOST_ROWS {
+        let problem =
+            format!("gives a table of {rows:e} rows, more than {MOST_ROWS:e}; sample less often, or record = \"std\"");
+        return Err(run.complaint("sample", &problem));
+    }
+    match control {
+        Control::Fixed { step } if t_end / step > MOST_STEPS => {
+            let problem = format!("gives {:e} steps; at most {MOST_STEPS:e}", t_end / step);
+            return Err(run.complaint("dt", &problem));
+        }
+        _ => {}
+    }
     run.finish()?;
     Ok(Scene { model, ring, start, t_end, sample, method, control, form, keeps_trajectories, steady_speed })
 }
