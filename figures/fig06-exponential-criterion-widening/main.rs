@@ -19,7 +19,7 @@ fn picture(job: &Job) -> Result<Picture, Failure> {
             MapPanel {
                 name: "left",
                 title: "$d' = 2.5$",
-                regions: &[("unstable", (6.1, 3.0)), ("stable", (1.5, 5.5))],
+                regions: &[("unstable", (6.2, 2.6)), ("stable", (1.5, 5.5))],
             },
             MapPanel {
                 name: "middle",
