@@ -10,5 +10,6 @@ mod jams;
 mod linear;
 mod presets;
 mod ring;
+mod rings;
 mod sample;
 mod uniform;

@@ -8,5 +8,6 @@ mod driver;
 mod events;
 mod failures;
 mod order_conditions;
+mod pedestrians;
 mod problems;
 mod trees;

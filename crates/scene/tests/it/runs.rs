@@ -83,6 +83,15 @@ fn figure_11_agrees_with_its_check() {
 }
 
 #[test]
+fn figure_13_with_the_small_shift_agrees_with_its_check() {
+    let runs = with_check(&figure("fig13"), "std_small_shift");
+    assert!(runs.iter().all(|run| run.events.is_empty() && run.statistics.time == 3000.0));
+    let error = difference(&runs, |run| &run.std, "std");
+    println!("fig13 std_small_shift: {error:e} of the range, {} steps", runs[0].statistics.steps);
+    assert!(error < 1e-8, "{error:e}");
+}
+
+#[test]
 fn figure_11_ends_in_jams_that_travel_backwards() {
     let [run, check] = jams();
     let jams = run.drift.jams();
