@@ -4,7 +4,8 @@ use crate::child;
 use crate::disk;
 use crate::failure::Failure;
 use crate::figure::Figure;
-use crate::paths::Paths;
+use crate::hashing;
+use crate::paths::{FONT_SUMS, FONTS_REMEDY, Paths};
 use crate::sources::Sources;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -38,7 +39,7 @@ pub fn is_needed(paths: &Paths, figures: &[Figure], sources: &Sources) -> Result
 /// Builds the binaries if needed; cargo's words go to stderr.
 ///
 /// # Errors
-/// Unsupported: no cargo, or no fonts. Failed: the build fails, or leaves a binary unmade.
+/// Unsupported: no cargo, or a font is missing or damaged. Failed: the build fails, or leaves a binary unmade.
 pub fn ensure(paths: &Paths, figures: &[Figure], sources: &Sources) -> Result<(), Failure> {
     if !is_needed(paths, figures, sources)? {
         return Ok(());
@@ -58,20 +59,22 @@ pub fn ensure(paths: &Paths, figures: &[Figure], sources: &Sources) -> Result<()
     disk::write(&paths.build_record(), json(&built)?.as_bytes())
 }
 
-/// Whether the fonts that the pictures embed are there.
+/// Whether the fonts that the pictures embed are there, byte for byte.
 ///
 /// # Errors
-/// Unsupported: they are not.
+/// Unsupported: one is missing or damaged, with its name. Failed: one cannot be read.
 pub fn check_fonts(paths: &Paths) -> Result<(), Failure> {
-    let folder = paths.fonts();
-    let is_font = |name: &String| name.ends_with(".otf") || name.ends_with(".ttf");
-    match disk::names(&folder)?.iter().filter(|name| is_font(name)).count() {
-        0 | 1 => Err(Failure::Unsupported(format!(
-            "{}: needs two font faces (.otf), roman and italic; they are part of the checkout: restore the folder",
-            folder.display()
-        ))),
-        _ => Ok(()),
+    let files = FONT_SUMS.map(|(name, _)| paths.fonts().join(name));
+    for ((file, hash), (_, expected)) in files.iter().zip(hashing::hash_all(&files)?).zip(FONT_SUMS) {
+        let problem = match hash {
+            None => "no such font".to_owned(),
+            Some(hash) if hash != expected => format!("damaged font: its SHA-256 is {hash} in place of {expected}"),
+            Some(_) => continue,
+        };
+        let file = file.display();
+        return Err(Failure::Unsupported(format!("{file}: {problem}; {FONTS_REMEDY}")));
     }
+    Ok(())
 }
 
 fn names(figures: &[Figure]) -> impl Iterator<Item = &str> {

@@ -17,7 +17,7 @@ pub const KEYS: [&str; 2] = ["t", "n"];
 /// A run compared with its check.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Estimate {
-    /// Largest absolute difference of each column over the whole run.
+    /// Largest absolute difference of each column over the whole run; NaN where nothing could be compared.
     pub columns: BTreeMap<String, f64>,
     /// Rows that only one of the two has.
     pub unmatched: usize,
@@ -43,7 +43,11 @@ impl Estimate {
         }
         estimate.check_events = events_of(&check)?;
         for name in RUN_TABLES.iter().filter(|name| run.join(name).exists()) {
-            let (columns, unmatched) = differences(&table(&run.join(name))?, &table(&check.join(name))?);
+            let table_of_run = table(&run.join(name))?;
+            let (columns, unmatched) = differences(&table_of_run, &table(&check.join(name))?);
+            // what the check lacks has no estimate, which is not the same as none being asked for
+            let values = table_of_run.columns.iter().filter(|name| !KEYS.contains(&name.as_str()));
+            estimate.columns.extend(values.map(|name| (name.clone(), f64::NAN)));
             estimate.columns.extend(columns);
             estimate.unmatched += unmatched;
         }
@@ -57,15 +61,15 @@ impl Estimate {
 }
 
 /// The largest absolute difference of each column that both tables have and that names no row, over the rows with equal
-/// [`KEYS`]; and the number of rows without a partner. Both tables are sorted by their keys.
+/// [`KEYS`] (NaN when a difference is none, or no rows are equal); and the number of rows without a partner. Both tables are sorted by their keys.
 pub fn differences(run: &Table, check: &Table) -> (BTreeMap<String, f64>, usize) {
     let index = |table: &Table, name: &str| table.columns.iter().position(|column| column == name);
     let pair = |name: &str| Some((index(run, name)?, index(check, name)?));
     let keys: Vec<(usize, usize)> = KEYS.iter().filter_map(|name| pair(name)).collect();
     let values = run.columns.iter().filter(|name| !KEYS.contains(&name.as_str()));
     let columns: Vec<(&String, (usize, usize))> = values.filter_map(|name| Some((name, pair(name)?))).collect();
-    let mut largest = vec![0.0; columns.len()];
-    let mut unmatched = 0;
+    let mut largest = vec![0.0_f64; columns.len()];
+    let (mut unmatched, mut matched) = (0, run.is_empty() && check.is_empty());
     let (mut left, mut right) = (run.rows().peekable(), check.rows().peekable());
     while let (Some(&mine), Some(&theirs)) = (left.peek(), right.peek()) {
         let order = keys.iter().map(|&(a, b)| mine[a].total_cmp(&theirs[b])).find(|order| order.is_ne());
@@ -75,8 +79,9 @@ pub fn differences(run: &Table, check: &Table) -> (BTreeMap<String, f64>, usize)
             Ordering::Equal => {
                 for (largest, &(_, (a, b))) in largest.iter_mut().zip(&columns) {
                     let difference = (mine[a] - theirs[b]).abs();
-                    *largest = if difference > *largest { difference } else { *largest };
+                    *largest = if largest.is_nan() || difference <= *largest { *largest } else { difference };
                 }
+                matched = true;
                 left.next();
                 right.next();
                 continue;
@@ -85,6 +90,9 @@ pub fn differences(run: &Table, check: &Table) -> (BTreeMap<String, f64>, usize)
         unmatched += 1;
     }
     unmatched += left.count() + right.count();
+    if !matched {
+        largest.fill(f64::NAN);
+    }
     (columns.into_iter().zip(largest).map(|((name, _), largest)| (name.clone(), largest)).collect(), unmatched)
 }
 
@@ -106,7 +114,11 @@ fn summary(run: &Path) -> Result<Value, Failure> {
     serde_json::from_str(&text).map_err(Failure::at(&path))
 }
 
-fn events_of(run: &Path) -> Result<Vec<Event>, Failure> {
+/// The events of a stored run; none when it has no such file.
+///
+/// # Errors
+/// The file cannot be read, or is not what a run writes.
+pub fn events_of(run: &Path) -> Result<Vec<Event>, Failure> {
     let path = run.join(RUN_EVENTS);
     match disk::read_text(&path)? {
         Some(text) => events::parse(&path.display().to_string(), &text),

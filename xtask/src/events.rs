@@ -1,6 +1,9 @@
 //! Events of runs: their times, and how far the check agrees.
 
 use crate::failure::Failure;
+use crate::numbers;
+use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// The header of a run's events.
 pub const RUN_HEADER: &str = "event,t,n";
@@ -18,6 +21,77 @@ pub struct Event {
     pub t: f64,
     /// The pedestrian, from 0, as written.
     pub n: String,
+}
+
+/// The committed events of all runs, by scene.
+pub type ByScene = BTreeMap<String, Vec<Event>>;
+
+/// Parses the table of all events; `file` is only for messages.
+///
+/// # Errors
+/// Usage: another header, or a line of another form, with its number.
+pub fn parse_all(file: &str, text: &str) -> Result<ByScene, Failure> {
+    let fail = |line: usize, found: &str| Failure::Usage(format!("{file}:{line}: expected {HEADER}, found {found:?}"));
+    let mut lines = text.lines();
+    match lines.next() {
+        Some(HEADER) => {}
+        other => return Err(fail(1, other.unwrap_or(""))),
+    }
+    let mut scenes = ByScene::new();
+    for (index, line) in lines.enumerate() {
+        let cells: Vec<&str> = line.split(',').collect();
+        let [scene, event, t_text, n, _] = cells[..] else { return Err(fail(index + 2, line)) };
+        let t = t_text.parse().map_err(|_| fail(index + 2, line))?;
+        let event = Event { event: event.to_owned(), t_text: t_text.to_owned(), t, n: n.to_owned() };
+        scenes.entry(scene.to_owned()).or_default().push(event);
+    }
+    Ok(scenes)
+}
+
+/// An event that is not as committed.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Moved {
+    /// The scene.
+    pub scene: String,
+    /// The kind of event.
+    pub event: String,
+    /// The pedestrian, from 0, as written.
+    pub n: String,
+    /// The committed time as written; `None` for an event that is not in the table.
+    pub committed: Option<String>,
+    /// The time found as written; `None` for an event that did not occur.
+    pub found: Option<String>,
+    /// |committed - found|, if there are both.
+    pub absolute: Option<f64>,
+    /// The number of doubles from one to the other, if there are both. 0 when only the text is another one.
+    pub ulp: Option<u64>,
+}
+
+/// The events of a scene that are not as committed. The k-th of a kind at a pedestrian is compared with the k-th.
+pub fn compare(scene: &str, committed: &[Event], found: &[Event]) -> Vec<Moved> {
+    let moved = |one: &Event, committed: Option<&Event>, found: Option<&Event>| Moved {
+        scene: scene.to_owned(),
+        event: one.event.clone(),
+        n: one.n.clone(),
+        committed: committed.map(|event| event.t_text.clone()),
+        found: found.map(|event| event.t_text.clone()),
+        absolute: committed.zip(found).map(|(a, b)| (a.t - b.t).abs()),
+        ulp: committed.zip(found).map(|(a, b)| numbers::ulps(a.t, b.t)),
+    };
+    let expected = committed.iter().enumerate().filter_map(|(index, event)| {
+        let partner = partner(committed, index, found);
+        let same = partner.is_some_and(|partner| partner.t_text == event.t_text);
+        (!same).then(|| moved(event, Some(event), partner))
+    });
+    let new = found.iter().enumerate().filter(|&(index, _)| partner(found, index, committed).is_none());
+    expected.chain(new.map(|(_, event)| moved(event, None, Some(event)))).collect()
+}
+
+/// The event of `others` that has the rank among its like that `events[index]` has among its own.
+fn partner<'a>(events: &[Event], index: usize, others: &'a [Event]) -> Option<&'a Event> {
+    let event = &events[index];
+    let alike = |other: &&Event| other.event == event.event && other.n == event.n;
+    others.iter().filter(alike).nth(events[..index].iter().filter(alike).count())
 }
 
 /// Parses a run's `events.csv`; `file` is only for messages.
@@ -44,12 +118,9 @@ pub fn parse(file: &str, text: &str) -> Result<Vec<Event>, Failure> {
 /// The lines of a run for the table of all events, sorted by time. The k-th event of a kind at a pedestrian is compared
 /// with the k-th of the check; one that the check does not have gets the uncertainty `inf`.
 pub fn lines(scene: &str, run: &[Event], check: &[Event]) -> Vec<String> {
-    let alike = |a: &Event, b: &Event| a.event == b.event && a.n == b.n;
     let mut sorted: Vec<(f64, String)> = Vec::new();
     for (index, event) in run.iter().enumerate() {
-        let rank = run[..index].iter().filter(|other| alike(other, event)).count();
-        let partner = check.iter().filter(|other| alike(other, event)).nth(rank);
-        let uncertainty = uncertainty(event.t, partner.map(|partner| partner.t));
+        let uncertainty = uncertainty(event.t, partner(run, index, check).map(|partner| partner.t));
         sorted.push((event.t, format!("{scene},{},{},{},{uncertainty:?}", event.event, event.t_text, event.n)));
     }
     sorted.sort_by(|a, b| a.0.total_cmp(&b.0));

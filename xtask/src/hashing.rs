@@ -7,11 +7,22 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
+/// Hashes one file; `None` when there is none.
+pub type HashOne = dyn Fn(&Path) -> Result<Option<String>, Failure> + Sync;
+
 /// The hashes of files, in the order of `paths`; `None` for a file that is not there.
 ///
 /// # Errors
 /// A file that is there cannot be read.
 pub fn hash_all(paths: &[PathBuf]) -> Result<Vec<Option<String>>, Failure> {
+    hash_by(paths, &hash)
+}
+
+/// As [`hash_all`], by another way to hash one file.
+///
+/// # Errors
+/// Those of `hash`; or a thread panicked, so that some hashes are unknown.
+pub fn hash_by(paths: &[PathBuf], hash: &HashOne) -> Result<Vec<Option<String>>, Failure> {
     let next = AtomicUsize::new(0);
     let threads = thread::available_parallelism().map_or(1, NonZero::get).min(paths.len().max(1));
     let work = || {
@@ -27,10 +38,14 @@ pub fn hash_all(paths: &[PathBuf]) -> Result<Vec<Option<String>>, Failure> {
     let mut hashes: Vec<Result<Option<String>, Failure>> = vec![Ok(None); paths.len()];
     thread::scope(|scope| {
         let workers: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
-        for (index, hash) in workers.into_iter().flat_map(|worker| worker.join().unwrap_or_default()) {
-            hashes[index] = hash;
+        for worker in workers {
+            let panicked = |_| Failure::Failed("a thread that hashed files panicked".to_owned());
+            for (index, hash) in worker.join().map_err(panicked)? {
+                hashes[index] = hash;
+            }
         }
-    });
+        Ok(())
+    })?;
     hashes.into_iter().collect()
 }
 

@@ -18,6 +18,9 @@ use std::path::Path;
 /// method that works stays far below.
 pub const FLAGGED_ABOVE: f64 = 1e-8;
 
+/// The form of the file.
+const SCHEMA_VERSION: u32 = 1;
+
 /// One output.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -61,6 +64,17 @@ pub struct Measured {
 }
 
 impl Measured {
+    /// Every error above [`FLAGGED_ABOVE`] or unknown, in words: table, column, number.
+    pub fn flags(&self) -> Vec<String> {
+        let errors = self.entries.iter().flat_map(|(name, entry)| entry.error.iter().map(move |error| (name, error)));
+        let flagged = errors.filter(|(_, (_, error))| is_flagged(**error));
+        let words = |(name, (column, error)): (&String, (&String, &Option<f64>))| match error {
+            Some(error) => format!("error of {name}, column {column}: {error:.1e} of the drawn range"),
+            None => format!("error of {name}, column {column}: unknown, the check says nothing"),
+        };
+        flagged.map(words).collect()
+    }
+
     /// The largest error of any column of the figure.
     pub fn largest_error(&self) -> Option<f64> {
         let errors = self.entries.values().flat_map(|entry| entry.error.values());
@@ -162,7 +176,7 @@ fn describe_table(
         entry.error.extend(said.error.clone());
         entry.counts.extend(said.method.clone().map(|method| ("method".to_owned(), method)));
     }
-    entry.flagged = entry.error.values().any(|error| error.is_none_or(|error| error > FLAGGED_ABOVE));
+    entry.flagged = entry.error.values().any(|&error| is_flagged(error));
     Ok(())
 }
 
@@ -213,6 +227,33 @@ fn read_report(path: &Path) -> Result<Report, Failure> {
     }
 }
 
+fn is_flagged(error: Option<f64>) -> bool {
+    error.is_none_or(|error| error > FLAGGED_ABOVE)
+}
+
+/// The entries of the manifest that is there; none when there is no file.
+///
+/// # Errors
+/// Usage: the file cannot be read, or is not what [`write`] writes: what it says of figures not measured now would be
+/// lost.
+pub fn read(paths: &Paths) -> Result<BTreeMap<String, Entry>, Failure> {
+    let path = paths.manifest();
+    let bad = |problem: &str| {
+        // an error of the operating system has the path in it
+        let name = format!("{}: ", path.display());
+        let problem = problem.strip_prefix(&name).unwrap_or(problem);
+        Failure::Usage(format!("{name}{problem}; restore it (git restore), or delete it and run cargo xtask figures"))
+    };
+    let Some(text) = disk::read_text(&path).map_err(|failure| bad(failure.text()))? else {
+        return Ok(BTreeMap::new());
+    };
+    let manifest: Manifest = serde_json::from_str(&text).map_err(|error| bad(&error.to_string()))?;
+    match manifest.schema_version {
+        SCHEMA_VERSION => Ok(manifest.outputs),
+        other => Err(bad(&format!("schema_version {other} in place of {SCHEMA_VERSION}"))),
+    }
+}
+
 /// Writes the manifest and the table of events: the figures measured in place of their old entries; entries of figures
 /// that are not measured now stay, those of figures that no longer exist go.
 ///
@@ -223,12 +264,9 @@ pub fn write(paths: &Paths, all: &[Figure], measured: &[(&Figure, &Measured)]) -
         |figure: &Figure, name: &str| outputs::beginnings(paths, figure).iter().any(|start| name.starts_with(start));
     let is_measured = |figure: &Figure| measured.iter().any(|(other, _)| other.slug == figure.slug);
     let stays = |name: &str| all.iter().any(|figure| !is_measured(figure) && mine(figure, name));
-    let old = disk::read_text(&paths.manifest())?.unwrap_or_default();
-    let old: BTreeMap<String, Entry> =
-        serde_json::from_str(&old).map_or_else(|_| BTreeMap::new(), |old: Manifest| old.outputs);
-    let mut entries: BTreeMap<String, Entry> = old.into_iter().filter(|(name, _)| stays(name)).collect();
+    let mut entries: BTreeMap<String, Entry> = read(paths)?.into_iter().filter(|(name, _)| stays(name)).collect();
     entries.extend(measured.iter().flat_map(|(_, measured)| measured.entries.clone()));
-    let manifest = Manifest { schema_version: 1, outputs: entries };
+    let manifest = Manifest { schema_version: SCHEMA_VERSION, outputs: entries };
     let mut text = serde_json::to_string_pretty(&manifest).map_err(Failure::failed)?;
     text.push('\n');
     disk::write_if_changed(&paths.manifest(), text.as_bytes())?;

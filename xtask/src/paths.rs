@@ -48,6 +48,19 @@ pub const NUMERIC_SOURCES: [&str; 7] = [
 pub const SHARED_SOURCES: [&str; 4] = ["crates/", "figures/src/", "figures/Cargo.toml", "data/reference/"];
 /// Folders that are searched for sources.
 pub const SOURCE_FOLDERS: [&str; 3] = ["crates", "figures", "data/reference"];
+/// Below the folders searched, what reaches no figure: the page for browsers.
+pub const NO_SOURCES: [&str; 1] = ["crates/browser/"];
+/// How to get the fonts back.
+pub const FONTS_REMEDY: &str = "part of the checkout: git restore crates/plot/fonts";
+/// The fonts that the pictures embed, each with its SHA-256: a damaged one would be compiled in, and every picture would fail or differ.
+pub const FONT_SUMS: [(&str, &str); 2] = [
+    ("LibertinusSerif-Italic.otf", "9a393d63d6e05f620d3dc0190dfd35a8ede58c0808cf0fc9de7fcb9c723e4c24"),
+    ("LibertinusSerif-Regular.otf", "fcf06307a77367394fcb0ccb241e59eea70dba3d732be309647611224679c733"),
+];
+/// The events of all runs, by name.
+pub const EVENTS: &str = "data/events.csv";
+/// What to look at when every figure is as committed.
+pub const OPEN_ALL: &str = "open README.md for the table of figures, figures/*/fig*.png for the pictures";
 /// Checks that need more than Rust: spot values by NumPy.
 pub const SPOT_CHECK: &str = "checks/spot.py";
 /// Checks that need more than Rust: other processors.
@@ -60,6 +73,11 @@ pub const RUN_EVENTS: &str = "events.csv";
 pub const RUN_SUMMARY: &str = "summary.json";
 /// The tables of a stored run.
 pub const RUN_TABLES: [&str; 2] = ["std.csv", "trajectories.csv"];
+
+/// How the names of scratch folders begin.
+const SCRATCH: &str = "verify-";
+/// What stands before the process number in a temporary name, as in crate `files`.
+const TEMPORARY: &str = ".tmp-";
 
 impl Paths {
     /// The checkout around `root`, or, without it, around the manifest that cargo names or the current folder.
@@ -88,7 +106,23 @@ impl Paths {
 
     /// The same checkout with every output, the store and the reports in a folder of their own below target.
     pub fn scratch(&self) -> Paths {
-        Paths { base: self.target.join(format!("verify-{}", std::process::id())), ..self.clone() }
+        Paths { base: self.target.join(format!("{SCRATCH}{}", std::process::id())), ..self.clone() }
+    }
+
+    /// Whether a name in the target folder is that of a scratch folder.
+    pub fn is_scratch(name: &str) -> bool {
+        name.starts_with(SCRATCH)
+    }
+
+    /// The name under which something is made before it is put in its place; files are written under such names too.
+    pub fn temporary(name: &str) -> String {
+        format!("{name}{TEMPORARY}{}", std::process::id())
+    }
+
+    /// Whether a name is one of [`Paths::temporary`], of any process.
+    pub fn is_temporary(name: &str) -> bool {
+        let process = name.rsplit_once(TEMPORARY).map_or("", |(_, process)| process);
+        !process.is_empty() && process.bytes().all(|byte| byte.is_ascii_digit())
     }
 
     /// The folder of the figures' sources.
@@ -121,7 +155,7 @@ impl Paths {
 
     /// The folder a figure's tables are written to before they take the place of the old ones, by name.
     pub fn fresh_tables(&self, id: &str) -> String {
-        format!("{}.tmp-{}", self.tables(id), std::process::id())
+        Paths::temporary(&self.tables(id))
     }
 
     /// The folder of a figure's pictures, by name.
@@ -172,7 +206,7 @@ impl Paths {
 
     /// Events of all runs.
     pub fn events(&self) -> PathBuf {
-        self.root.join("data/events.csv")
+        self.root.join(EVENTS)
     }
 
     /// The folder of the fonts that the pictures need.
@@ -198,6 +232,19 @@ impl Paths {
     /// Seconds of the last time each node ran.
     pub fn times(&self) -> PathBuf {
         self.xtask().join("times.json")
+    }
+
+    /// The name of a node among those seconds: the two schemes take very different times.
+    pub fn times_name(&self, node: &str) -> String {
+        match self.scheme {
+            Scheme::Adaptive => node.to_owned(),
+            Scheme::Paper => format!("{node} (scheme paper)"),
+        }
+    }
+
+    /// A file that is written to see whether one can be.
+    pub fn probe(&self) -> PathBuf {
+        self.xtask().join("probe")
     }
 
     /// What the binaries were built from.
@@ -229,7 +276,7 @@ impl Paths {
     /// Whether a tracked file of this name is written by the runner, so that a change of it is no change of a source.
     pub fn is_output(name: &str) -> bool {
         let picture = name.starts_with("figures/") && (name.ends_with(".png") || name.ends_with(".svg"));
-        let data = ["data/SHA256SUMS", "data/golden/", "data/paper-scheme/", "data/manifest.json", "data/events.csv"];
+        let data = ["data/SHA256SUMS", "data/golden/", "data/paper-scheme/", "data/manifest.json", EVENTS];
         picture || data.iter().any(|start| name.starts_with(start))
     }
 }

@@ -106,6 +106,17 @@ pub fn keys(paths: &Paths, figure: &Figure, numeric: &str) -> Vec<(String, Strin
     figure.runs().map(|panel| (panel.name.clone(), key(&panel.determinants()))).collect()
 }
 
+/// The scene under which a run's events are listed, by key: the first figure that has the run, and its panel.
+pub fn scenes(paths: &Paths, all: &[Figure], numeric: &str) -> BTreeMap<String, String> {
+    let mut scenes = BTreeMap::new();
+    for figure in all {
+        for (panel, key) in keys(paths, figure, numeric) {
+            scenes.entry(key).or_insert_with(|| format!("{}-{panel}", figure.id));
+        }
+    }
+    scenes
+}
+
 /// Why a figure is stale: each input and output that is not as recorded.
 pub fn reasons(record: Option<&Record>, inputs: &Inputs, outputs: &Hashes) -> Vec<String> {
     let Some(record) = record else {

@@ -4,7 +4,7 @@ use crate::disk;
 use crate::failure::Failure;
 use crate::figure::Figure;
 use crate::hashing;
-use crate::paths::{LOCK_FILE, NUMERIC_SOURCES, Paths, SHARED_SOURCES, SINGLE_SOURCES, SOURCE_FOLDERS};
+use crate::paths::{LOCK_FILE, NO_SOURCES, NUMERIC_SOURCES, Paths, SHARED_SOURCES, SINGLE_SOURCES, SOURCE_FOLDERS};
 use std::collections::BTreeMap;
 
 /// Named hashes: a file's name relative to the root, or `run PANEL` with the key of a run.
@@ -68,10 +68,11 @@ impl Sources {
     }
 }
 
-/// Pictures and temporary files are outputs; documents and scripts reach no output.
+/// Pictures and temporary files are outputs; documents, scripts and the crates of [`NO_SOURCES`] reach no output.
 fn is_source(name: &str) -> bool {
-    let output = Paths::is_output(name) || name.contains(".tmp-");
+    let apart = NO_SOURCES.iter().any(|start| name.starts_with(start));
+    let output = Paths::is_output(name) || name.split('/').any(Paths::is_temporary);
     let in_figures = name.starts_with("figures/");
     let code = [".rs", ".toml"].iter().any(|end| name.ends_with(end));
-    !output && ![".md", ".py"].iter().any(|end| name.ends_with(end)) && (!in_figures || code)
+    !apart && !output && ![".md", ".py"].iter().any(|end| name.ends_with(end)) && (!in_figures || code)
 }

@@ -24,7 +24,7 @@ pub fn folder(paths: &Paths, key: &str) -> PathBuf {
 
 /// The folder a run writes to before it is stored.
 pub fn fresh(paths: &Paths, key: &str) -> PathBuf {
-    paths.store().join(format!("{key}.tmp-{}", std::process::id()))
+    paths.store().join(Paths::temporary(key))
 }
 
 /// Whether the stored run is there and every byte of it is as it was stored.

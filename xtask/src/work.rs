@@ -3,14 +3,16 @@
 use crate::child;
 use crate::disk;
 use crate::failure::Failure;
+use crate::figure::Figure;
 use crate::outputs::{self, Hashes};
 use crate::paths::{Paths, Scheme};
 use crate::plan::{Node, Step};
 use crate::pool::{self, Job, Outcome};
 use crate::record::Survey;
 use crate::store;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
@@ -71,12 +73,23 @@ fn perform(paths: &Paths, surveys: &[Survey<'_>], node: &Node, stop: &AtomicBool
         Step::Simulate { scene, panel, key, check } => {
             let fresh = store::fresh(paths, key);
             disk::remove(&fresh)?;
-            disk::create_folder(&fresh)?;
-            child::run_logged(simulate(paths, scene, panel, &fresh, *check), &log, stop)?;
-            store::adopt(&fresh, &store::folder(paths, key)).map(|()| Hashes::new())
+            let stored = disk::create_folder(&fresh)
+                .and_then(|()| child::run_logged(simulate(paths, scene, panel, &fresh, *check), &log, stop))
+                .and_then(|()| store::adopt(&fresh, &store::folder(paths, key)));
+            stored.map(|()| Hashes::new()).inspect_err(|_| discard(&fresh))
         }
-        Step::Draw { figure } => draw(paths, &surveys[*figure], &log, stop),
+        Step::Draw { figure } => {
+            let fresh = paths.output(&paths.fresh_tables(&surveys[*figure].figure.id));
+            disk::remove(&fresh)?;
+            draw(paths, &surveys[*figure], &fresh, &log, stop).inspect_err(|_| discard(&fresh))
+        }
     }
+}
+
+/// Removes what a failed node has made so far.
+fn discard(fresh: &Path) {
+    // what cannot be removed is removed by the next run; the failure that is on its way says more
+    let _ = disk::remove(fresh);
 }
 
 fn simulate(paths: &Paths, scene: &str, panel: &str, out: &Path, check: bool) -> Command {
@@ -93,29 +106,27 @@ fn simulate(paths: &Paths, scene: &str, panel: &str, out: &Path, check: bool) ->
 
 /// The tables are written into a folder of their own that then takes the place of the old one: no table of an earlier
 /// run stays behind.
-fn draw(paths: &Paths, survey: &Survey<'_>, log: &Path, stop: &AtomicBool) -> Result<Hashes, Failure> {
+fn draw(paths: &Paths, survey: &Survey<'_>, fresh: &Path, log: &Path, stop: &AtomicBool) -> Result<Hashes, Failure> {
     let figure = survey.figure;
-    let fresh = paths.output(&paths.fresh_tables(&figure.id));
     let report = paths.report(&figure.id);
     let pictures = match paths.scheme {
         Scheme::Adaptive => paths.output(&paths.pictures(&figure.slug, &figure.id)),
-        Scheme::Paper => fresh.clone(),
+        Scheme::Paper => fresh.to_path_buf(),
     };
     disk::remove(&report)?;
-    disk::remove(&fresh)?;
-    for folder in [Some(fresh.as_path()), Some(&pictures), report.parent()].into_iter().flatten() {
+    for folder in [Some(fresh), Some(&pictures), report.parent()].into_iter().flatten() {
         disk::create_folder(folder)?;
     }
     let mut command = Command::new(paths.binary(&figure.slug));
     command.current_dir(&paths.root).arg("--scene").arg(Paths::scene(&figure.slug));
-    command.arg("--tables").arg(&fresh).arg("--pictures").arg(pictures).arg("--report").arg(report);
+    command.arg("--tables").arg(fresh).arg("--pictures").arg(pictures).arg("--report").arg(report);
     for (panel, key) in &survey.runs {
         let mut run = OsString::from(format!("{panel}="));
         run.push(store::folder(paths, key));
         command.arg("--run").arg(run);
     }
     child::run_logged(command, log, stop)?;
-    put_in_place(paths, survey, &fresh)
+    put_in_place(paths, survey, fresh)
 }
 
 fn put_in_place(paths: &Paths, survey: &Survey<'_>, fresh: &Path) -> Result<Hashes, Failure> {
@@ -137,13 +148,57 @@ fn put_in_place(paths: &Paths, survey: &Survey<'_>, fresh: &Path) -> Result<Hash
 ///
 /// # Errors
 /// A folder cannot be read or removed.
-pub fn sweep(paths: &Paths) -> Result<(), Failure> {
-    for folder in [paths.store(), paths.data(), paths.scheme_data()] {
-        for name in disk::names(&folder)?.iter().filter(|name| name.contains(".tmp-")) {
-            disk::remove(&folder.join(name))?;
-        }
+pub fn sweep(paths: &Paths, all: &[Figure]) -> Result<(), Failure> {
+    leftovers(paths, all)?.iter().try_for_each(|path| disk::remove(path))
+}
+
+/// Temporary files and folders in the store, among the data of both schemes, and beside the pictures.
+///
+/// # Errors
+/// A folder cannot be read.
+pub fn leftovers(paths: &Paths, all: &[Figure]) -> Result<Vec<PathBuf>, Failure> {
+    let paper = paths.with_scheme(Scheme::Paper).scheme_data();
+    let mut folders = vec![paths.store(), paths.xtask(), paths.data(), paper];
+    folders.extend(all.iter().map(|figure| paths.output(&Paths::figure_folder(&figure.slug))));
+    let mut found = Vec::new();
+    for folder in folders {
+        let names = disk::names(&folder)?.into_iter().filter(|name| Paths::is_temporary(name));
+        found.extend(names.map(|name| folder.join(name)));
     }
-    Ok(())
+    Ok(found)
+}
+
+/// How the nodes of a plan ended, by name.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Ends {
+    /// Seconds of those that ended well.
+    pub seconds: BTreeMap<String, f64>,
+    /// Those that ended badly.
+    pub failed: BTreeSet<String>,
+    /// Those that were not started, or were stopped.
+    pub skipped: BTreeSet<String>,
+}
+
+impl Ends {
+    /// Sorts the outcomes of the nodes.
+    pub fn of(nodes: &[Node], outcomes: &[Outcome<Made>]) -> Ends {
+        let mut ends = Ends::default();
+        for (node, outcome) in nodes.iter().zip(outcomes) {
+            let name = node.name.clone();
+            match outcome {
+                Outcome::Done(made) => {
+                    ends.seconds.insert(name, made.seconds);
+                }
+                Outcome::Failed(_) => {
+                    ends.failed.insert(name);
+                }
+                Outcome::Skipped => {
+                    ends.skipped.insert(name);
+                }
+            }
+        }
+        ends
+    }
 }
 
 /// The code to end with when nodes have failed: that of the first.

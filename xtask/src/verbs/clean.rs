@@ -6,9 +6,11 @@ use crate::figure;
 use crate::lock::Lock;
 use crate::paths::{Paths, Scheme};
 use crate::print;
+use crate::work;
 use std::path::PathBuf;
 
-/// Runs the verb: stored runs, the runner's own records (not its lock), scratch folders, tables of both schemes.
+/// Runs the verb: stored runs, the runner's own records (not its lock), scratch folders, tables of both schemes,
+/// what a run that was broken off has left.
 ///
 /// # Errors
 /// Something cannot be removed.
@@ -17,13 +19,15 @@ pub fn run(paths: &Paths) -> Result<(), Failure> {
     let mut doomed: Vec<PathBuf> = vec![paths.store()];
     let own = disk::names(&paths.xtask())?.into_iter().map(|name| paths.xtask().join(name));
     doomed.extend(own.filter(|path| *path != paths.lock()));
-    let scratch = disk::names(&paths.target)?.into_iter().filter(|name| name.starts_with("verify-"));
+    let scratch = disk::names(&paths.target)?.into_iter().filter(|name| Paths::is_scratch(name));
     doomed.extend(scratch.map(|name| paths.target.join(name)));
-    for figure in figure::discover(paths)? {
+    let all = figure::discover(paths)?;
+    for figure in &all {
         for scheme in [Scheme::Adaptive, Scheme::Paper] {
             doomed.push(paths.output(&paths.with_scheme(scheme).tables(&figure.id)));
         }
     }
+    doomed.extend(work::leftovers(paths, &all)?);
     for path in doomed.iter().filter(|path| path.exists()) {
         disk::remove(path)?;
         print::out(&format!("removed {}\n", path.display()))?;

@@ -5,7 +5,7 @@ use crate::cli::JsonArgs;
 use crate::compile;
 use crate::disk;
 use crate::failure::Failure;
-use crate::paths::{Paths, TOOLCHAIN};
+use crate::paths::{FONTS_REMEDY, Paths, TOOLCHAIN};
 use crate::print;
 use serde_json::{Value, json};
 
@@ -48,7 +48,7 @@ fn findings(paths: &Paths) -> Result<Vec<Finding>, Failure> {
     Ok(vec![
         finding("cargo", true, child::first_line(&cargo, &["--version"]), "install Rust with rustup (rustup.rs)"),
         finding("rustc", true, pinned_rustc(paths)?, "rustup toolchain install, in this folder"),
-        finding("fonts", true, fonts, "part of the checkout: git restore crates/plot/fonts"),
+        finding("fonts", true, fonts, FONTS_REMEDY),
         finding("target folder", true, writable(paths), "free space, or CARGO_TARGET_DIR on another disk"),
         finding("git", false, child::first_line("git", &["--version"]), "needed by bless; install git"),
         finding(
@@ -81,7 +81,7 @@ pub fn numpy() -> Option<String> {
 }
 
 fn writable(paths: &Paths) -> Option<String> {
-    let probe = paths.xtask().join("probe");
+    let probe = paths.probe();
     disk::write(&probe, b"probe").and_then(|()| disk::remove(&probe)).ok().map(|()| "writable".to_owned())
 }
 

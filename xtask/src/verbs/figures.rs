@@ -16,7 +16,7 @@ use crate::print;
 use crate::record::{self, Record, Records, Survey};
 use crate::sources::Sources;
 use crate::store;
-use crate::work::{self, Made};
+use crate::work::{self, Ends, Made};
 use std::collections::BTreeMap;
 
 /// Seconds by the name of the node.
@@ -32,11 +32,12 @@ pub fn run(paths: &Paths, arguments: &FiguresArgs) -> Result<(), Failure> {
     let selected = choose(&all, arguments)?;
     // read before the work, so that a malformed list is told at once
     let committed = summary::Committed::read(paths)?;
+    manifest::read(paths)?;
     if arguments.dry_run {
         return dry_run(paths, &all, &selected, arguments);
     }
     let _lock = Lock::take(paths)?;
-    work::sweep(paths)?;
+    work::sweep(paths, &all)?;
     let sources = Sources::read(paths)?;
     compile::ensure(paths, &all, &sources)?;
     let mut records = Records::read(paths)?;
@@ -50,10 +51,11 @@ pub fn run(paths: &Paths, arguments: &FiguresArgs) -> Result<(), Failure> {
     if paths.scheme == Scheme::Adaptive {
         measure(paths, &all, &surveys, &sources, &mut records)?;
     }
-    let report = summary::Report::new(paths, &surveys, &records, &committed, seconds(&nodes, &outcomes));
-    report.print(paths, arguments.json)?;
-    work::verdict(&nodes, &outcomes)?;
-    report.verdict(paths, &committed, arguments.selection.ids.is_empty())
+    let whole = arguments.selection.ids.is_empty();
+    let report = summary::Report::new(paths, &surveys, &records, committed, &Ends::of(&nodes, &outcomes));
+    let verdict = work::verdict(&nodes, &outcomes).and_then(|()| report.verdict(paths, whole));
+    report.print(paths, arguments.json, whole, verdict.is_ok())?;
+    verdict
 }
 
 /// The figures meant; for the paper's scheme those with a run.
@@ -93,7 +95,7 @@ fn make(
 ) -> Result<Vec<Outcome<Made>>, Failure> {
     let mut times = read_times(paths)?;
     let mut made = |node: &Node, made: &Made| {
-        times.insert(node.name.clone(), made.seconds);
+        times.insert(paths.times_name(&node.name), made.seconds);
         if let Step::Draw { figure } = node.step {
             let survey = &surveys[figure];
             let record = Record::new(survey.inputs.clone(), made.outputs.clone());
@@ -119,7 +121,7 @@ fn measure(
     sources: &Sources,
     records: &mut Records,
 ) -> Result<(), Failure> {
-    let scenes = scenes(paths, all, &sources.numeric());
+    let scenes = record::scenes(paths, all, &sources.numeric());
     let mut estimates = BTreeMap::new();
     let mut changed = false;
     for survey in surveys.iter().filter(|survey| survey.reasons.is_empty()) {
@@ -149,17 +151,6 @@ fn checks_are_stored(paths: &Paths, survey: &Survey<'_>) -> bool {
     survey.runs.iter().all(|(_, key)| store::folder(paths, &store::check_key(key)).is_dir())
 }
 
-/// The scene under which a run's events are listed, by key: the first figure that has the run, and its panel.
-fn scenes(paths: &Paths, all: &[Figure], numeric: &str) -> BTreeMap<String, String> {
-    let mut scenes = BTreeMap::new();
-    for figure in all {
-        for (panel, key) in record::keys(paths, figure, numeric) {
-            scenes.entry(key).or_insert_with(|| format!("{}-{panel}", figure.id));
-        }
-    }
-    scenes
-}
-
 fn dry_run(paths: &Paths, all: &[Figure], selected: &[&Figure], arguments: &FiguresArgs) -> Result<(), Failure> {
     let sources = Sources::read(paths)?;
     let records = Records::read(paths)?;
@@ -187,15 +178,6 @@ fn dry_run(paths: &Paths, all: &[Figure], selected: &[&Figure], arguments: &Figu
 fn reason<'a>(survey: &'a Survey<'_>, arguments: &FiguresArgs) -> &'a str {
     let forced = if arguments.force { "forced" } else { "fresh" };
     survey.reasons.first().map_or(forced, String::as_str)
-}
-
-/// Seconds of the nodes that ran now.
-fn seconds(nodes: &[Node], outcomes: &[Outcome<Made>]) -> Times {
-    let seconds = |(node, outcome): (&Node, &Outcome<Made>)| match outcome {
-        Outcome::Done(made) => Some((node.name.clone(), made.seconds)),
-        _ => None,
-    };
-    nodes.iter().zip(outcomes).filter_map(seconds).collect()
 }
 
 /// Seconds of the last time each node ran.

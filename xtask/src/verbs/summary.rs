@@ -1,13 +1,14 @@
 //! What `figures` says at its end: a line for each figure, and whether everything is as committed.
 
-use super::figures::Times;
 use crate::failure::Failure;
-use crate::manifest::FLAGGED_ABOVE;
+use crate::figure::Figure;
+use crate::manifest::{FLAGGED_ABOVE, Measured};
 use crate::outputs;
-use crate::paths::Paths;
+use crate::paths::{OPEN_ALL, Paths, Scheme};
 use crate::print;
 use crate::record::{Records, Survey};
 use crate::sums::{State, Sums};
+use crate::work::Ends;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -41,126 +42,171 @@ impl Committed {
         let list = self.list(survey.figure.is_supplement()).cloned().unwrap_or_default();
         list.below(&outputs::beginnings(paths, survey.figure)).judge(&survey.outputs)
     }
+
+    /// Lines of the lists that belong to none of the figures. Only for all figures of a list; a list of which no figure
+    /// is given is left alone.
+    pub fn strays<'a>(&self, paths: &Paths, figures: impl Iterator<Item = &'a Figure> + Clone) -> Vec<String> {
+        let mut strays = Vec::new();
+        for supplement in [false, true] {
+            let mine = figures.clone().filter(|figure| figure.is_supplement() == supplement);
+            let starts: Vec<String> = mine.flat_map(|figure| outputs::beginnings(paths, figure)).collect();
+            let Some(list) = self.list(supplement).filter(|_| !starts.is_empty()) else { continue };
+            let known = list.below(&starts);
+            strays.extend(list.by_name.keys().filter(|name| !known.by_name.contains_key(*name)).cloned());
+        }
+        strays
+    }
 }
 
 /// One line of the summary.
 #[derive(Clone, Debug)]
-struct Line {
-    id: String,
-    label: String,
-    slug: String,
-    supplement: bool,
+struct Line<'a> {
+    figure: &'a Figure,
     /// Seconds of the figure's own program, if it ran now.
     seconds: Option<f64>,
     tables: usize,
-    /// It could not be made.
-    failed: bool,
+    /// `failed` or `skipped`: it could not be made, so what is there is not what was asked for.
+    lost: Option<&'static str>,
     states: BTreeMap<String, State>,
     error: Option<f64>,
+    /// Errors above the bound, in words.
+    flags: Vec<String>,
 }
 
-impl Line {
+impl<'a> Line<'a> {
+    fn new(paths: &Paths, survey: &Survey<'a>, records: &Records, committed: &Committed, ends: &Ends) -> Line<'a> {
+        let figure = survey.figure;
+        let lost = match () {
+            () if ends.failed.contains(&figure.slug) => Some("failed"),
+            () if ends.skipped.contains(&figure.slug) => Some("skipped"),
+            () => Some("failed").filter(|_| !survey.reasons.is_empty()),
+        };
+        let record = records.get(paths, figure).filter(|_| lost.is_none());
+        let measured = record.and_then(|record| record.measured.as_ref());
+        Line {
+            figure,
+            seconds: ends.seconds.get(&figure.slug).copied(),
+            tables: survey.outputs.keys().filter(|name| name.ends_with(".csv")).count(),
+            lost,
+            states: committed.judge(paths, survey),
+            error: measured.and_then(Measured::largest_error),
+            flags: measured.map(Measured::flags).unwrap_or_default(),
+        }
+    }
+
     fn state(&self) -> &'static str {
         let has = |state: State| self.states.values().any(|&other| other == state);
-        match [State::Missing, State::Differs, State::New].into_iter().find(|&state| has(state)) {
-            _ if self.failed => "failed",
-            Some(state) => state.word(),
-            None => State::Same.word(),
-        }
+        let worst = [State::Missing, State::Differs, State::New].into_iter().find(|&state| has(state));
+        self.lost.unwrap_or(worst.unwrap_or(State::Same).word())
     }
 
     fn to_json(&self) -> Value {
         let outputs: BTreeMap<&str, &str> =
             self.states.iter().map(|(name, state)| (name.as_str(), state.word())).collect();
         json!({
-            "figure": self.id, "label": self.label, "binary": self.slug, "seconds": self.seconds,
-            "cached": self.seconds.is_none() && !self.failed, "tables": self.tables, "state": self.state(),
-            "error": self.error.filter(|error| error.is_finite()), "outputs": outputs,
+            "figure": self.figure.id, "label": self.figure.label(), "binary": self.figure.slug, "seconds": self.seconds,
+            "cached": self.seconds.is_none() && self.lost.is_none(), "tables": self.tables, "state": self.state(),
+            "error": self.error.filter(|error| error.is_finite()), "flagged": self.flags, "outputs": outputs,
         })
     }
 
     fn to_row(&self) -> Vec<String> {
-        let cached = if self.failed { "-" } else { "cached" };
+        let cached = if self.lost.is_some() { "-" } else { "cached" };
         let seconds = self.seconds.map_or(cached.to_owned(), |seconds| format!("{seconds:.2}"));
         let error = self.error.map_or("-".to_owned(), |error| format!("{error:.1e}"));
         let flag = if self.error.is_some_and(|error| error > FLAGGED_ABOVE) { " !" } else { "" };
         let tables = self.tables.to_string();
-        print::row(&[&self.id, &self.label, &seconds, &tables, self.state(), &format!("{error}{flag}")])
+        print::row(&[&self.figure.id, self.figure.label(), &seconds, &tables, self.state(), &format!("{error}{flag}")])
     }
 }
 
 /// The summary of all figures that were asked for.
 #[derive(Clone, Debug)]
-pub struct Report {
-    lines: Vec<Line>,
+pub struct Report<'a> {
+    lines: Vec<Line<'a>>,
+    committed: Committed,
+    ends: Ends,
 }
 
-impl Report {
-    /// Judges the figures; `seconds` are those of the nodes that ran now.
+impl<'a> Report<'a> {
+    /// Judges the figures; `ends` are those of the nodes of this run.
     pub fn new(
         paths: &Paths,
-        surveys: &[Survey<'_>],
+        surveys: &[Survey<'a>],
         records: &Records,
-        committed: &Committed,
-        seconds: Times,
-    ) -> Report {
-        let line = |survey: &Survey<'_>| Line {
-            id: survey.figure.id.clone(),
-            label: survey.figure.label().to_owned(),
-            slug: survey.figure.slug.clone(),
-            supplement: survey.figure.is_supplement(),
-            seconds: seconds.get(&survey.figure.slug).copied(),
-            tables: survey.outputs.keys().filter(|name| name.ends_with(".csv")).count(),
-            failed: !survey.reasons.is_empty(),
-            states: committed.judge(paths, survey),
-            error: records.get(paths, survey.figure).and_then(|record| record.measured.as_ref()?.largest_error()),
-        };
-        Report { lines: surveys.iter().map(line).collect() }
+        committed: Committed,
+        ends: &Ends,
+    ) -> Report<'a> {
+        let lines = surveys.iter().map(|survey| Line::new(paths, survey, records, &committed, ends)).collect();
+        Report { lines, committed, ends: ends.clone() }
     }
 
-    /// Prints the summary as a table or as JSON.
+    /// Prints the summary as a table or as JSON; `ok` is whether the verb ends well, `whole` whether no figure was
+    /// picked.
     ///
     /// # Errors
     /// stdout cannot be written.
-    pub fn print(&self, paths: &Paths, as_json: bool) -> Result<(), Failure> {
+    pub fn print(&self, paths: &Paths, as_json: bool, whole: bool, ok: bool) -> Result<(), Failure> {
         if as_json {
             let figures: Vec<Value> = self.lines.iter().map(Line::to_json).collect();
-            let ok = self.lines.iter().all(|line| line.state() == State::Same.word());
-            return print::json(json!({ "figures": figures, "ok": ok }));
+            let (failed, skipped) = (&self.ends.failed, &self.ends.skipped);
+            return print::json(json!({ "figures": figures, "ok": ok, "failed": failed, "skipped": skipped }));
         }
         let mut rows = vec![print::row(&["figure", "label", "seconds", "tables", "state", "error"])];
         rows.extend(self.lines.iter().map(Line::to_row));
-        print::out(&format!("{}{}", print::table(&rows), self.open(paths)))
+        print::out(&format!("{}{}", print::table(&rows), self.open(paths, whole)))
     }
 
-    /// What to look at: the first figure that is not as committed, else the first that was made now, else the last.
-    fn open(&self, paths: &Paths) -> String {
-        let made: Vec<&Line> = self.lines.iter().filter(|line| !line.failed).collect();
-        let differs = made.iter().find(|line| line.state() != State::Same.word());
+    /// What to look at: everything when all figures are as committed; else the first figure that is not, else the first
+    /// that was made now, else the last.
+    fn open(&self, paths: &Paths, whole: bool) -> String {
+        let same = |line: &Line<'_>| line.state() == State::Same.word();
+        if whole && paths.scheme == Scheme::Adaptive && self.lines.iter().all(same) {
+            return format!("{OPEN_ALL}\n");
+        }
+        let made: Vec<&Line<'_>> = self.lines.iter().filter(|line| line.lost.is_none()).collect();
+        let differs = made.iter().find(|line| !same(line));
         let first = differs.or_else(|| made.iter().find(|line| line.seconds.is_some())).or(made.last());
-        first.map_or(String::new(), |line| format!("open {}/{}.png\n", paths.pictures(&line.slug, &line.id), line.id))
+        let [picture, _] = first.map(|line| outputs::pictures(paths, line.figure)).unwrap_or_default();
+        if picture.is_empty() { picture } else { format!("open {picture}\n") }
     }
 
-    /// Whether every output is as committed. With `whole`, entries of the list that belong to no figure count too.
+    /// Whether every output is as committed and every error below the bound. With `whole`, lines of the lists that
+    /// belong to no figure count too.
     ///
     /// # Errors
-    /// Differs, with the files that are not.
-    pub fn verdict(&self, paths: &Paths, committed: &Committed, whole: bool) -> Result<(), Failure> {
-        let absent = |line: &&Line| committed.list(line.supplement).is_none();
-        if let Some(line) = self.lines.iter().find(absent) {
-            let name = paths.sums(line.supplement);
-            return Err(Failure::Differs(format!("{name} does not exist yet; cargo xtask bless writes it")));
+    /// Differs, with the files that are not, and the tables, columns and errors.
+    pub fn verdict(&self, paths: &Paths, whole: bool) -> Result<(), Failure> {
+        let mut said: Vec<String> = self.lines.iter().flat_map(|line| line.flags.clone()).collect();
+        if !said.is_empty() {
+            said.push(format!("errors above {FLAGGED_ABOVE:e} of the drawn range, or unknown: {}", said.len()));
         }
+        let absent = |line: &&Line<'_>| self.committed.list(line.figure.is_supplement()).is_none();
+        if let Some(line) = self.lines.iter().find(absent) {
+            let name = paths.sums(line.figure.is_supplement());
+            said.push(format!("{name} does not exist yet; cargo xtask bless writes it"));
+        } else {
+            said.extend(self.not_as_committed(paths, whole));
+        }
+        if said.is_empty() { Ok(()) } else { Err(Failure::Differs(said.join("\n"))) }
+    }
+
+    /// A line for each output that is not, and their number.
+    fn not_as_committed(&self, paths: &Paths, whole: bool) -> Vec<String> {
         let states = self.lines.iter().flat_map(|line| &line.states).filter(|(_, state)| **state != State::Same);
         let mut wrong: Vec<String> = states.map(|(name, state)| format!("{}: {name}", state.word())).collect();
-        let known = |name: &str| self.lines.iter().any(|line| line.states.contains_key(name));
-        if whole && let Some(list) = committed.list(false) {
-            let strays = list.by_name.keys().filter(|name| !known(name));
-            wrong.extend(strays.map(|name| format!("belongs to no figure: {name}")));
+        if whole {
+            let strays = self.committed.strays(paths, self.lines.iter().map(|line| line.figure));
+            wrong.extend(strays.iter().map(|name| stray(name)));
         }
-        match wrong.len() {
-            0 => Ok(()),
-            count => Err(Failure::Differs(format!("{}\n{count} of the outputs not as committed", wrong.join("\n")))),
+        if !wrong.is_empty() {
+            wrong.push(format!("{} of the outputs not as committed", wrong.len()));
         }
+        wrong
     }
+}
+
+/// What is said of a line of a list that belongs to no figure.
+pub fn stray(name: &str) -> String {
+    format!("belongs to no figure: {name}")
 }

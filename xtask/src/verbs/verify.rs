@@ -1,23 +1,26 @@
 //! `verify`: recomputes into a scratch folder and judges bytes and numbers against what is committed.
 
-use super::summary::Committed;
+use super::summary::{Committed, stray};
 use crate::cli::VerifyArgs;
 use crate::compile;
 use crate::disk;
+use crate::estimate;
+use crate::events::{self, ByScene, Moved};
 use crate::failure::Failure;
-use crate::figure;
+use crate::figure::{self, Figure};
 use crate::golden::{self, Distances};
 use crate::lock::Lock;
 use crate::numbers::{Distance, Worst};
-use crate::paths::Paths;
+use crate::paths::{EVENTS, Paths};
 use crate::plan::{self, Wish};
 use crate::print;
 use crate::record::{self, Records, Survey};
 use crate::sources::Sources;
+use crate::store;
 use crate::sums::State;
 use crate::work;
 use serde_json::{Value, json};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The judgement of one figure.
 struct Verdict {
@@ -25,6 +28,16 @@ struct Verdict {
     label: String,
     bytes: BTreeMap<String, State>,
     numbers: Distances,
+    /// Events of its runs that are not as committed.
+    events: Vec<Moved>,
+}
+
+/// What the figures are judged against.
+struct Reference {
+    sums: Committed,
+    events: ByScene,
+    /// The scene of each run, by key.
+    scenes: BTreeMap<String, String>,
 }
 
 /// Runs the verb.
@@ -40,43 +53,91 @@ pub fn run(paths: &Paths, arguments: &VerifyArgs) -> Result<(), Failure> {
         let name = paths.sums(figure.is_supplement());
         return Err(Failure::Differs(format!("{name} does not exist yet: nothing to verify {} against", figure.id)));
     }
+    let events = committed_events(paths)?;
     let _lock = Lock::take(paths)?;
+    work::sweep(paths, &all)?;
     let sources = Sources::read(paths)?;
     compile::ensure(paths, &all, &sources)?;
     let scratch = paths.scratch();
     disk::remove(&scratch.base)?;
-    let surveys = record::survey(&scratch, &selected, &sources, &Records::default())?;
+    // what a failed figure has left in the scratch folder says nothing; its words are on stderr
+    let surveys = recompute(&scratch, &selected, &sources, arguments).inspect_err(|_| {
+        let _ = disk::remove(&scratch.base);
+    })?;
+    let reference = Reference { sums: committed, events, scenes: record::scenes(paths, &all, &sources.numeric()) };
+    let verdicts = judge(paths, &scratch, &surveys, &reference)?;
+    let strays = match arguments.selection.ids.is_empty() {
+        true => strays(paths, &reference, &selected),
+        false => Vec::new(),
+    };
+    show(&verdicts, &strays, arguments.json)?;
+    conclude(&verdicts, &strays, &scratch)
+}
+
+/// Makes everything that the figures need in the scratch folder.
+fn recompute<'a>(
+    scratch: &Paths,
+    selected: &[&'a Figure],
+    sources: &Sources,
+    arguments: &VerifyArgs,
+) -> Result<Vec<Survey<'a>>, Failure> {
+    let surveys = record::survey(scratch, selected, sources, &Records::default())?;
     let wishes = vec![Wish { draw: true, measure: false }; surveys.len()];
-    let nodes = plan::make(&scratch, &surveys, &wishes, true)?;
+    let nodes = plan::make(scratch, &surveys, &wishes, true)?;
     let effort = &arguments.effort;
-    let outcomes =
-        work::carry_out(&scratch, &surveys, &nodes, effort.threads(), effort.keep_going, &mut |_, _| Ok(()))?;
+    let outcomes = work::carry_out(scratch, &surveys, &nodes, effort.threads(), effort.keep_going, &mut |_, _| Ok(()))?;
     work::verdict(&nodes, &outcomes)?;
-    let surveys = record::survey(&scratch, &selected, &sources, &Records::default())?;
-    let verdicts = judge(paths, &scratch, &surveys, &committed)?;
-    show(&verdicts, arguments.json)?;
-    conclude(&verdicts, &scratch)
+    record::survey(scratch, selected, sources, &Records::default())
+}
+
+/// The table of events, before any work.
+fn committed_events(paths: &Paths) -> Result<ByScene, Failure> {
+    match disk::read_text(&paths.events())? {
+        Some(text) => events::parse_all(EVENTS, &text),
+        None => Err(Failure::Differs(format!("{EVENTS} does not exist: git restore it, or cargo xtask figures"))),
+    }
+}
+
+/// Lines of what is committed that belong to no figure.
+fn strays(paths: &Paths, reference: &Reference, selected: &[&Figure]) -> Vec<String> {
+    let scenes: BTreeSet<&String> = reference.scenes.values().collect();
+    let unknown = reference.events.keys().filter(|scene| !scenes.contains(scene));
+    let sums = reference.sums.strays(paths, selected.iter().copied());
+    sums.into_iter().chain(unknown.map(|scene| format!("{EVENTS}, scene {scene}"))).map(|name| stray(&name)).collect()
 }
 
 fn judge(
     paths: &Paths,
     scratch: &Paths,
     surveys: &[Survey<'_>],
-    committed: &Committed,
+    reference: &Reference,
 ) -> Result<Vec<Verdict>, Failure> {
     let verdict = |survey: &Survey<'_>| {
         Ok(Verdict {
             id: survey.figure.id.clone(),
             label: survey.figure.label().to_owned(),
-            bytes: committed.judge(scratch, survey),
+            bytes: reference.sums.judge(scratch, survey),
             numbers: golden::judge(paths, scratch, survey.figure)?,
+            events: moved_events(scratch, survey, reference)?,
         })
     };
     surveys.iter().map(verdict).collect()
 }
 
-fn conclude(verdicts: &[Verdict], scratch: &Paths) -> Result<(), Failure> {
-    let wrong: Vec<&str> = verdicts.iter().filter(|verdict| !verdict.is_same()).map(|verdict| &*verdict.id).collect();
+/// Compares the events of a figure's runs with the committed ones.
+fn moved_events(scratch: &Paths, survey: &Survey<'_>, reference: &Reference) -> Result<Vec<Moved>, Failure> {
+    let mut moved = Vec::new();
+    for (_, key) in &survey.runs {
+        let Some(scene) = reference.scenes.get(key) else { continue };
+        let committed = reference.events.get(scene).map_or(&[][..], Vec::as_slice);
+        moved.extend(events::compare(scene, committed, &estimate::events_of(&store::folder(scratch, key))?));
+    }
+    Ok(moved)
+}
+
+fn conclude(verdicts: &[Verdict], strays: &[String], scratch: &Paths) -> Result<(), Failure> {
+    let mut wrong: Vec<&str> = verdicts.iter().filter(|verdict| !verdict.is_same()).map(|one| &*one.id).collect();
+    wrong.extend((!strays.is_empty()).then_some("lines that belong to no figure"));
     if wrong.is_empty() {
         return disk::remove(&scratch.base);
     }
@@ -86,11 +147,12 @@ fn conclude(verdicts: &[Verdict], scratch: &Paths) -> Result<(), Failure> {
 
 impl Verdict {
     fn bytes_are_same(&self) -> bool {
-        self.bytes.values().all(|&state| state == State::Same)
+        self.bytes.values().all(|&state| state == State::Same) && self.events.is_empty()
     }
 
     fn numbers_are_same(&self) -> bool {
-        self.numbers.values().all(|distance| distance.as_ref().is_ok_and(|distance| distance.cells == 0))
+        let tables = self.numbers.values().all(|distance| distance.as_ref().is_ok_and(|distance| distance.cells == 0));
+        tables && self.events.iter().all(|moved| moved.ulp == Some(0))
     }
 
     fn is_same(&self) -> bool {
@@ -108,7 +170,7 @@ impl Verdict {
         json!({
             "figure": self.id, "label": self.label,
             "bytes": { "verdict": word(self.bytes_are_same()), "files": files },
-            "numbers": { "verdict": word(self.numbers_are_same()), "tables": tables },
+            "numbers": { "verdict": word(self.numbers_are_same()), "tables": tables, "events": self.events },
         })
     }
 
@@ -121,7 +183,10 @@ impl Verdict {
             Ok(distance) => Some(format!("  {name}: {}", describe(distance))),
             Err(problem) => Some(format!("  {name}: {problem}")),
         });
-        files.chain(tables).collect()
+        files
+            .chain(tables)
+            .chain(self.events.iter().map(|moved| format!("  {EVENTS}: {}", describe_event(moved))))
+            .collect()
     }
 }
 
@@ -137,14 +202,27 @@ pub fn describe(distance: &Distance) -> String {
     )
 }
 
+fn describe_event(moved: &Moved) -> String {
+    let Moved { scene, event, n, committed, found, absolute, ulp } = moved;
+    let place = format!("{scene}, {event} at pedestrian {n}");
+    match (committed, found, absolute, ulp) {
+        (Some(committed), Some(found), Some(absolute), Some(ulp)) => {
+            format!("{place}: t = {found} in place of {committed}; absolute {absolute:.2e}, ulp {ulp}")
+        }
+        (Some(committed), ..) => format!("{place}: did not occur at t = {committed}"),
+        (None, found, ..) => format!("{place}: new, at t = {}", found.as_deref().unwrap_or("?")),
+    }
+}
+
 fn word(same: bool) -> &'static str {
     if same { State::Same.word() } else { State::Differs.word() }
 }
 
-fn show(verdicts: &[Verdict], as_json: bool) -> Result<(), Failure> {
+fn show(verdicts: &[Verdict], strays: &[String], as_json: bool) -> Result<(), Failure> {
     if as_json {
         let figures: Vec<Value> = verdicts.iter().map(Verdict::to_json).collect();
-        return print::json(json!({ "figures": figures, "ok": verdicts.iter().all(Verdict::is_same) }));
+        let ok = strays.is_empty() && verdicts.iter().all(Verdict::is_same);
+        return print::json(json!({ "figures": figures, "strays": strays, "ok": ok }));
     }
     let mut rows = vec![print::row(&["figure", "label", "bytes", "numbers"])];
     for verdict in verdicts {
@@ -152,6 +230,7 @@ fn show(verdicts: &[Verdict], as_json: bool) -> Result<(), Failure> {
         let numbers = if verdict.numbers.is_empty() { "no tables" } else { numbers };
         rows.push(print::row(&[&verdict.id, &verdict.label, bytes, numbers]));
     }
-    let details: Vec<String> = verdicts.iter().flat_map(Verdict::details).map(|line| format!("{line}\n")).collect();
+    let details = verdicts.iter().flat_map(Verdict::details).chain(strays.iter().cloned());
+    let details: Vec<String> = details.map(|line| format!("{line}\n")).collect();
     print::out(&format!("{}{}", print::table(&rows), details.concat()))
 }

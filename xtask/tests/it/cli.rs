@@ -33,6 +33,18 @@ fn a_malformed_list_of_sums_is_told_before_any_work() {
 }
 
 #[test]
+fn a_manifest_that_cannot_be_read_is_told_before_any_work_and_kept() {
+    let shop = Shop::new("cli-manifest");
+    for text in ["{\"schema_version\": 1, \"outp", "{\"schema_version\": 2, \"outputs\": {}}"] {
+        shop.write("data/manifest.json", text);
+        let ended = shop.xtask(&["figures"]).expect(2);
+        assert!(ended.err.contains("data/manifest.json: ") && ended.err.contains("delete it"), "{}", ended.err);
+        assert_eq!(shop.read("data/manifest.json"), text);
+    }
+    assert!(shop.calls().is_empty());
+}
+
+#[test]
 fn a_scene_that_cannot_be_read_is_named_with_its_line() {
     let shop = Shop::new("cli-scene");
     shop.write("figures/fig05-exponential-map/scene.toml", "title = \"x\"\ncolour = 3\n");
@@ -49,9 +61,19 @@ fn no_jobs_at_a_time_are_refused() {
 #[test]
 fn missing_fonts_are_an_unsupported_environment() {
     let shop = Shop::new("cli-fonts");
-    std::fs::remove_file(shop.root.join("crates/plot/fonts/italic.otf")).expect("a font");
+    std::fs::remove_file(shop.root.join("crates/plot/fonts/LibertinusSerif-Italic.otf")).expect("a font");
     let ended = shop.xtask(&["figures"]).expect(5);
-    assert!(ended.err.contains("fonts"), "{}", ended.err);
+    assert!(ended.err.contains("LibertinusSerif-Italic.otf: no such font"), "{}", ended.err);
+    shop.xtask(&["doctor"]).expect(5);
+}
+
+#[test]
+fn a_damaged_font_is_named_before_anything_is_built() {
+    let shop = Shop::new("cli-font-damaged");
+    shop.write("crates/plot/fonts/LibertinusSerif-Regular.otf", "half a font");
+    let ended = shop.xtask(&["figures"]).expect(5);
+    assert!(ended.err.contains("LibertinusSerif-Regular.otf: damaged font"), "{}", ended.err);
+    assert!(shop.calls().is_empty());
     shop.xtask(&["doctor"]).expect(5);
 }
 

@@ -1,16 +1,6 @@
 //! `figures`, `status`, `verify`, `bless` and `clean` on a whole checkout.
 
-use crate::shop::Shop;
-
-/// A checkout whose figures are made and accepted.
-fn blessed(name: &str) -> Shop {
-    let shop = Shop::new(name);
-    shop.xtask(&["figures"]).expect(1);
-    shop.xtask(&["bless"]).expect(0);
-    shop.xtask(&["figures"]).expect(0);
-    shop.calls();
-    shop
-}
+use crate::shop::{Shop, blessed};
 
 #[test]
 fn a_shared_run_is_integrated_once() {
@@ -38,7 +28,11 @@ fn a_second_run_starts_nothing() {
     let shop = blessed("figures-second");
     let manifest = shop.read("data/manifest.json");
     let ended = shop.xtask(&["figures"]).expect(0);
-    assert!(ended.out.contains("cached") && ended.out.contains("open figures/"), "{}", ended.out);
+    assert!(
+        ended.out.contains("cached") && ended.out.contains("open README.md for the table of figures"),
+        "{}",
+        ended.out
+    );
     assert!(shop.calls().is_empty());
     assert_eq!(shop.read("data/manifest.json"), manifest);
     shop.xtask(&["status", "--exit-code"]).expect(0);

@@ -9,3 +9,4 @@ mod pool;
 mod record;
 mod shop;
 mod tables;
+mod troubles;

@@ -24,6 +24,12 @@ fn a_column_that_the_check_lacks_has_no_difference() {
 }
 
 #[test]
+fn what_could_not_be_compared_has_no_difference_of_zero() {
+    let apart = differences(&table("t,std\n0,1\n"), &table("t,std\n1,1\n"));
+    assert!(apart.0["std"].is_nan() && apart.1 == 2);
+}
+
+#[test]
 fn events_are_compared_with_those_of_the_check() {
     let run = events::parse("run", "event,t,n\nexchange,20.5,3\noverlap,12.5,7\noverlap,13,7\nblow_up,30,1\n")
         .expect("events");
