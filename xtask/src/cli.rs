@@ -80,7 +80,7 @@ impl Effort {
 }
 
 /// Options of `figures`.
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub struct FiguresArgs {
     /// Which figures.
     #[command(flatten)]

@@ -1,9 +1,9 @@
 //! `ci`: what continuous integration runs.
 
 use super::test::{self, step};
-use super::verify;
+use super::{figures, verify};
 use crate::child;
-use crate::cli::{CiArgs, VerifyArgs};
+use crate::cli::{CiArgs, FiguresArgs, VerifyArgs};
 use crate::failure::Failure;
 use crate::paths::{OTHER_MACHINES, Paths};
 use std::process::Command;
@@ -15,6 +15,9 @@ use std::process::Command;
 pub fn run(paths: &Paths, arguments: &CiArgs) -> Result<(), Failure> {
     cargo(paths, &["fmt", "--all", "--check"])?;
     cargo(paths, &["clippy", "--locked", "--workspace", "--all-targets", "--", "-D", "warnings"])?;
+    // the tables first: the NumPy checks of `test` read them
+    eprintln!("ci: figures");
+    figures::run(paths, &FiguresArgs::default())?;
     eprintln!("ci: test");
     test::run(paths)?;
     eprintln!("ci: verify");

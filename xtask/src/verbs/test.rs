@@ -5,6 +5,7 @@ use crate::child;
 use crate::failure::Failure;
 use crate::paths::{OTHER_MACHINES, Paths, SPOT_CHECK};
 use crate::print;
+use crate::sums::Sums;
 use std::process::Command;
 
 /// Runs the verb.
@@ -34,6 +35,11 @@ pub fn step(name: &str, command: &mut Command) -> Result<(), Failure> {
 fn spot_check(paths: &Paths) -> Result<(), Failure> {
     if !paths.root.join(SPOT_CHECK).is_file() {
         return print::out(&format!("skipped: NumPy spot checks: there is no {SPOT_CHECK}\n"));
+    }
+    let tables = Sums::read(&paths.root.join(paths.sums(false)), paths.sums(false))?;
+    let is_missing = |name: &String| name.ends_with(".csv") && !paths.root.join(name).is_file();
+    if tables.is_none_or(|sums| sums.by_name.keys().any(is_missing)) {
+        return print::out("skipped: NumPy spot checks: tables are missing; cargo xtask figures makes them\n");
     }
     if doctor::numpy().is_none() {
         return print::out("skipped: NumPy spot checks: python3 with numpy not found\n");
