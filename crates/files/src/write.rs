@@ -10,15 +10,7 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// The operating system's error with the path in its text. The temporary file is removed, the old file is untouched.
 pub fn atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let temporary = beside(path);
-    let written = File::create(&temporary)
-        .and_then(|mut file| file.write_all(bytes).and_then(|()| file.sync_all()))
-        .and_then(|()| fs::rename(&temporary, path));
-    written.map_err(|error| {
-        // a failed clean-up has nothing to add to the error that is already on its way
-        let _ = fs::remove_file(&temporary);
-        with_path(error, path)
-    })
+    replace(&[(path, bytes)])
 }
 
 /// Writes several files so that all of them appear or none: first each beside its place, then all are renamed.
@@ -26,13 +18,18 @@ pub fn atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
 /// # Errors
 /// As [`atomic`]; the old files are untouched and no temporary one is left, unless a rename fails half-way.
 pub fn atomic_all(files: &[(PathBuf, Vec<u8>)]) -> io::Result<()> {
-    let written: io::Result<()> = files.iter().try_for_each(|(path, bytes)| {
+    let borrowed: Vec<(&Path, &[u8])> = files.iter().map(|(path, bytes)| (path.as_path(), bytes.as_slice())).collect();
+    replace(&borrowed)
+}
+
+fn replace(files: &[(&Path, &[u8])]) -> io::Result<()> {
+    let written: io::Result<()> = files.iter().try_for_each(|&(path, bytes)| {
         let create =
             || File::create(beside(path)).and_then(|mut file| file.write_all(bytes).and_then(|()| file.sync_all()));
         create().map_err(|error| with_path(error, path))
     });
     let renamed = written.and_then(|()| {
-        files.iter().try_for_each(|(path, _)| fs::rename(beside(path), path).map_err(|error| with_path(error, path)))
+        files.iter().try_for_each(|&(path, _)| fs::rename(beside(path), path).map_err(|error| with_path(error, path)))
     });
     if renamed.is_err() {
         for (path, _) in files {

@@ -26,10 +26,10 @@ impl std::error::Error for NoUniformFlow {}
 /// with the speed.
 ///
 /// # Errors
-/// [`NoUniformFlow`] when the force has no room at any speed between standing and the desired one.
+/// [`NoUniformFlow`] when at no speed from -1e12 times the desired one up to it the drive balances the force with room left.
 pub fn steady_speed(model: &Model, headway: f64) -> Result<f64, NoUniformFlow> {
     let pushes = |speed: f64| {
-        let has_room = !matches!(model, Model::Algebraic(_)) || model.room(headway, speed, speed) > 0.0;
+        let has_room = !model.is_singular() || model.room(headway, speed, speed) > 0.0;
         has_room && model.acceleration(headway, speed, speed) > 0.0
     };
     let has_room = |speed: f64| model.room(headway, speed, speed) > 0.0;
