@@ -2,6 +2,7 @@
 
 use crate::control::Norm;
 use crate::system::System;
+use math::simd::{Kernel, dispatch};
 
 /// Where a step starts and how long it shall be.
 pub(crate) struct Trial<'a> {
@@ -24,6 +25,12 @@ pub(crate) trait Stepper {
     /// Writes the change of the state over the step and returns its error in units of the tolerance: infinite when a
     /// stage lies outside the domain, 0 without a norm.
     fn try_step(&mut self, system: &dyn System, from: Trial<'_>, change: &mut [f64], norm: Option<&Norm>) -> f64;
+
+    /// The length of the step to try first from a state with these rates, where the method knows one; the norm has been
+    /// started there. Else the driver follows the error of the step before.
+    fn propose(&mut self, _system: &dyn System, _state: &[f64], _rates: &[f64], _norm: &Norm) -> Option<f64> {
+        None
+    }
 
     /// Evaluations of the rates in one step, the one at its start not counted.
     fn evaluations(&self) -> u64;
@@ -95,11 +102,29 @@ impl Step<'_> {
 
 /// The cubic Hermite polynomial through both ends, written as corrections to the chord.
 pub(crate) fn cubic(ends: &Ends<'_>, theta: f64, result: &mut [f64]) {
-    let there = theta * (1.0 - theta);
-    for (i, result) in result.iter_mut().enumerate() {
-        let change = ends.after[i] - ends.before[i];
-        let bend_before = ends.h * ends.rates_before[i] - change;
-        let bend_after = change - ends.h * ends.rates_after[i];
-        *result = ends.before[i] + (theta * change + there * ((1.0 - theta) * bend_before + theta * bend_after));
+    dispatch(Cubic { ends, theta, result });
+}
+
+struct Cubic<'a> {
+    ends: &'a Ends<'a>,
+    theta: f64,
+    result: &'a mut [f64],
+}
+
+impl Kernel for Cubic<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let (h, theta) = (self.ends.h, self.theta);
+        let there = theta * (1.0 - theta);
+        let states = self.ends.before.iter().zip(self.ends.after);
+        let rates = self.ends.rates_before.iter().zip(self.ends.rates_after);
+        for ((result, (before, after)), (leaving, arriving)) in self.result.iter_mut().zip(states).zip(rates) {
+            let change = after - before;
+            let bend_before = h * leaving - change;
+            let bend_after = change - h * arriving;
+            *result = before + (theta * change + there * ((1.0 - theta) * bend_before + theta * bend_after));
+        }
     }
 }

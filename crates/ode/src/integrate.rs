@@ -8,6 +8,7 @@ use crate::methods::Method;
 use crate::observe::Observer;
 use crate::runge_kutta::RungeKutta;
 use crate::system::{Burst, System};
+use crate::taylor::Taylor;
 use crate::vector::{add, add_compensated};
 
 /// What shall be integrated, and how.
@@ -58,6 +59,8 @@ pub enum Failure {
         /// Its length.
         step: f64,
     },
+    /// The system gives no Taylor series.
+    NoSeries,
     /// The method has no error estimate and cannot choose its steps.
     NoErrorEstimate(Method),
 }
@@ -77,6 +80,12 @@ impl std::fmt::Display for Failure {
                     "in the step of {step:e} from t = {time:?} the state is no longer finite; a smaller step may help"
                 )
             }
+            Failure::NoSeries => {
+                write!(
+                    f,
+                    "taylor needs a system that gives its Taylor series; this one gives none: choose another method"
+                )
+            }
             Failure::NoErrorEstimate(method) => {
                 let names: Vec<&str> = Method::ALL.iter().filter(|m| m.is_adaptive()).map(|m| m.name()).collect();
                 write!(f, "{} has no error estimate: give it a step, or choose {}", method.name(), names.join(" or "))
@@ -92,6 +101,9 @@ impl std::error::Error for Failure {}
 /// # Errors
 /// See [`Failure`]. What the observer saw until then stands.
 pub fn integrate(problem: &Problem<'_>, observer: &mut dyn Observer) -> Result<Statistics, Failure> {
+    if problem.method.needs_series() && !problem.system.has_series() {
+        return Err(Failure::NoSeries);
+    }
     let mut run = Run::new(problem);
     match problem.control {
         Control::Fixed { step } => run.fixed(problem, step, observer)?,
@@ -124,6 +136,7 @@ impl<'a> Run<'a> {
         let stepper: Box<dyn Stepper> = match (problem.method, problem.method.tableau()) {
             (_, Some(tableau)) => Box::new(RungeKutta::new(tableau, n)),
             (Method::Ballistic, None) => Box::new(Ballistic::new(system)),
+            (Method::Taylor, None) => Box::new(Taylor::new(n, problem.control)),
             (_, None) => Box::new(Extrapolation::new(n)),
         };
         let mut rates = vec![0.0; n];
@@ -194,9 +207,10 @@ impl<'a> Run<'a> {
     fn adaptive(&mut self, problem: &Problem<'_>, tolerance: f64, observer: &mut dyn Observer) -> Result<(), Failure> {
         let mut norm = Norm::new(self.system, tolerance);
         let mut controller = Controller::new(self.stepper.error_power());
-        let mut carry = vec![0.0; self.state.len()];
+        let (mut carry, mut next_carry) = (vec![0.0; self.state.len()], vec![0.0; self.state.len()]);
         let (mut time, mut time_carry) = ([problem.begin], [0.0]);
         let mut h = self.first_step(problem, &mut norm);
+        h = self.propose(&norm).unwrap_or(h);
         while time[0] < problem.end {
             let left = (problem.end - time[0]) - time_carry[0];
             let is_last = h >= left;
@@ -204,8 +218,8 @@ impl<'a> Run<'a> {
             if length < SHORTEST {
                 return Err(Failure::StepTooSmall { time: time[0], step: h });
             }
-            norm.start(&self.state);
             let mut error = self.try_step(length, Some(&norm));
+            // without the carry: with it a step of no length could come ever nearer to the end of the domain
             add(&self.state, &self.change, &mut self.next);
             if !self.system.in_domain(&self.next) {
                 error = f64::INFINITY;
@@ -215,9 +229,10 @@ impl<'a> Run<'a> {
                 h = length * controller.reject(error);
                 continue;
             }
-            add_compensated(&self.state, &self.change, &mut carry, &mut self.next);
-            let start = time;
-            add_compensated(&start, &[length], &mut time_carry, &mut time);
+            add_compensated(&self.state, &self.change, &carry, &mut self.next, &mut next_carry);
+            std::mem::swap(&mut carry, &mut next_carry);
+            let (start, start_carry) = (time, time_carry);
+            add_compensated(&start, &[length], &start_carry, &mut time, &mut time_carry);
             let end = if is_last { problem.end } else { time[0] };
             if self.accept(start[0], end, length, observer).is_break() {
                 break;
@@ -225,9 +240,14 @@ impl<'a> Run<'a> {
             if is_last {
                 break;
             }
-            h = length * controller.accept(error);
+            norm.start(&self.state);
+            h = self.propose(&norm).unwrap_or_else(|| length * controller.accept(error));
         }
         Ok(())
+    }
+
+    fn propose(&mut self, norm: &Norm) -> Option<f64> {
+        self.stepper.propose(self.system, &self.state, &self.rates, norm)
     }
 
     fn try_step(&mut self, h: f64, norm: Option<&Norm>) -> f64 {

@@ -14,6 +14,7 @@ mod observe;
 mod runge_kutta;
 mod system;
 pub mod tableau;
+mod taylor;
 mod vector;
 
 pub use control::Control;

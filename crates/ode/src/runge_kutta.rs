@@ -4,7 +4,7 @@ use crate::control::Norm;
 use crate::dense::{Ends, Stepper, Trial, cubic};
 use crate::system::System;
 use crate::tableau::{Interpolant, Row, Tableau};
-use crate::vector::{add, weighted_sum};
+use crate::vector::{add_nested, add_weighted_sum, weighted_sum};
 
 pub(crate) struct RungeKutta {
     tableau: &'static Tableau,
@@ -38,8 +38,7 @@ impl RungeKutta {
     /// Evaluates stage `i` at `start + h * (row of earlier stages)`, a state that is left in `self.state`.
     fn stage(&mut self, system: &dyn System, start: &[f64], h: f64, row: Row, i: usize) {
         let (earlier, later) = self.stages.split_at_mut(i * self.n);
-        weighted_sum(h, row, earlier, &mut self.sum);
-        add(start, &self.sum, &mut self.state);
+        add_weighted_sum(start, h, row, earlier, &mut self.state);
         system.rates(&self.state, &mut later[..self.n]);
     }
 
@@ -97,20 +96,12 @@ impl Stepper for RungeKutta {
 
     fn interpolate(&mut self, system: &dyn System, ends: &Ends<'_>, theta: f64, result: &mut [f64]) -> u64 {
         cubic(ends, theta, result);
-        let Interpolant::Nested { stages, rows } = self.tableau.interpolant else { return 0 };
+        let Interpolant::Nested { stages, .. } = self.tableau.interpolant else { return 0 };
         let evaluations = if self.nested_is_ready { 0 } else { stages.len() as u64 };
         if !self.nested_is_ready {
             self.prepare_nested(system, ends);
         }
-        let quartic = theta * theta * (1.0 - theta) * (1.0 - theta);
-        for (i, result) in result.iter_mut().enumerate() {
-            let mut sum = 0.0;
-            for r in (0..rows.len()).rev() {
-                let factor = if r % 2 == 0 { theta } else { 1.0 - theta };
-                sum = self.nested[r * self.n + i] + factor * sum;
-            }
-            *result += quartic * sum;
-        }
+        add_nested(theta, &self.nested, result);
         evaluations
     }
 }

@@ -31,6 +31,15 @@ pub trait System {
         Burst::NotOffered
     }
 
+    /// Whether [`System::series`] gives the Taylor series of a solution.
+    fn has_series(&self) -> bool {
+        false
+    }
+
+    /// Writes the coefficients of the Taylor series in time of the solution through a state: `order + 1` rows of
+    /// `dimension()` numbers, of which the first two, the state and its rates, are given.
+    fn series(&self, _order: usize, _coefficients: &mut [f64]) {}
+
     /// All rates: [`System::kinematics`] and [`System::dynamics`].
     fn rates(&self, state: &[f64], rates: &mut [f64]) {
         self.kinematics(state, rates);

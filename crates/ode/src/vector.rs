@@ -5,36 +5,34 @@ use math::simd::{Kernel, dispatch};
 
 /// Writes `sum = factor * (w_a k_a + w_b k_b + ...)` where stage `j` is `stages[j * n .. (j + 1) * n]`, `n = sum.len()`.
 pub(crate) fn weighted_sum(factor: f64, weights: Row, stages: &[f64], sum: &mut [f64]) {
-    dispatch(WeightedSum { factor, weights, stages, sum });
+    dispatch(WeightedSum::<false> { start: &[], factor, weights, stages, result: sum });
+}
+
+/// Writes `result = start + factor * (w_a k_a + w_b k_b + ...)`, stages as in [`weighted_sum`].
+pub(crate) fn add_weighted_sum(start: &[f64], factor: f64, weights: Row, stages: &[f64], result: &mut [f64]) {
+    dispatch(WeightedSum::<true> { start, factor, weights, stages, result });
 }
 
 /// Writes `result = start + change`.
 pub(crate) fn add(start: &[f64], change: &[f64], result: &mut [f64]) {
-    for ((result, start), change) in result.iter_mut().zip(start).zip(change) {
-        *result = start + change;
-    }
+    dispatch(Sum { start, change, result });
 }
 
-/// Adds `change` to `state`; `carry` keeps what rounding drops (Kahan's sum) and brings it in the next time.
-pub(crate) fn add_compensated(state: &[f64], change: &[f64], carry: &mut [f64], result: &mut [f64]) {
-    for (((result, state), change), carry) in result.iter_mut().zip(state).zip(change).zip(carry) {
-        let change = change + *carry;
-        let sum = state + change;
-        *carry = change - (sum - state);
-        *result = sum;
-    }
+/// Writes `result = state + change + carry`, and what rounding drops of it to `dropped` (Kahan's sum): the carry of the
+/// next time.
+pub(crate) fn add_compensated(state: &[f64], change: &[f64], carry: &[f64], result: &mut [f64], dropped: &mut [f64]) {
+    dispatch(Compensated { state, change, carry, result, dropped });
+}
+
+/// Adds `theta^2 (1 - theta)^2 (r_0 + theta (r_1 + (1 - theta) (r_2 + theta r_3 ...)))` to `result`, where `r_j` is
+/// `nested[j * n .. (j + 1) * n]`, `n = result.len()`.
+pub(crate) fn add_nested(theta: f64, nested: &[f64], result: &mut [f64]) {
+    dispatch(Nested { theta, nested, result });
 }
 
 /// The largest absolute value; NaN if there is one.
 pub(crate) fn largest(values: &[f64]) -> f64 {
-    let mut largest = 0.0;
-    let mut sum = 0.0;
-    for value in values {
-        let size = value.abs();
-        largest = if size > largest { size } else { largest };
-        sum += size;
-    }
-    if sum.is_nan() { f64::NAN } else { largest }
+    dispatch(Largest(values))
 }
 
 /// The smallest absolute value.
@@ -42,37 +40,178 @@ pub(crate) fn smallest(values: &[f64]) -> f64 {
     values.iter().fold(f64::INFINITY, |least, value| if value.abs() < least { value.abs() } else { least })
 }
 
-struct WeightedSum<'a> {
+struct WeightedSum<'a, const STARTED: bool> {
+    start: &'a [f64],
     factor: f64,
     weights: Row,
     stages: &'a [f64],
-    sum: &'a mut [f64],
+    result: &'a mut [f64],
 }
 
-impl Kernel for WeightedSum<'_> {
-    type Output = ();
-
+impl<const STARTED: bool> WeightedSum<'_, STARTED> {
+    /// The components `from .. from + LANES`. Their sums stay in registers while the stages pass by.
     #[inline(always)]
-    fn run(self) {
-        let n = self.sum.len();
-        let stage = |j: usize| &self.stages[j * n..(j + 1) * n];
-        self.sum.fill(0.0);
+    fn lanes<const LANES: usize>(&mut self, from: usize) {
+        let n = self.result.len();
+        let stage = |j: usize| &self.stages[j * n + from..][..LANES];
+        let mut sum = [0.0; LANES];
         let blocks = self.weights.chunks_exact(4);
         let rest = blocks.remainder();
         for block in blocks {
             let [(a, wa), (b, wb), (c, wc), (d, wd)] = [block[0], block[1], block[2], block[3]];
             let (ka, kb, kc, kd) = (stage(a), stage(b), stage(c), stage(d));
-            for ((((sum, ka), kb), kc), kd) in self.sum.iter_mut().zip(ka).zip(kb).zip(kc).zip(kd) {
-                *sum += (wa * ka + wb * kb) + (wc * kc + wd * kd);
+            for lane in 0..LANES {
+                sum[lane] += (wa * ka[lane] + wb * kb[lane]) + (wc * kc[lane] + wd * kd[lane]);
             }
         }
         for &(j, weight) in rest {
-            for (sum, k) in self.sum.iter_mut().zip(stage(j)) {
-                *sum += weight * k;
+            let k = stage(j);
+            for lane in 0..LANES {
+                sum[lane] += weight * k[lane];
             }
         }
-        for sum in self.sum.iter_mut() {
-            *sum *= self.factor;
+        let result = &mut self.result[from..][..LANES];
+        if STARTED {
+            let start = &self.start[from..][..LANES];
+            for lane in 0..LANES {
+                result[lane] = start[lane] + sum[lane] * self.factor;
+            }
+        } else {
+            for lane in 0..LANES {
+                result[lane] = sum[lane] * self.factor;
+            }
         }
     }
 }
+
+impl<const STARTED: bool> Kernel for WeightedSum<'_, STARTED> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(mut self) {
+        let n = self.result.len();
+        if n < WIDE {
+            (0..n).for_each(|from| self.lanes::<1>(from));
+            return;
+        }
+        for from in (0..n).step_by(WIDE) {
+            // the last block begins earlier rather than be cut: what is written twice is the same
+            self.lanes::<WIDE>(from.min(n - WIDE));
+        }
+    }
+}
+
+struct Sum<'a> {
+    start: &'a [f64],
+    change: &'a [f64],
+    result: &'a mut [f64],
+}
+
+impl Kernel for Sum<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        for ((result, start), change) in self.result.iter_mut().zip(self.start).zip(self.change) {
+            *result = start + change;
+        }
+    }
+}
+
+struct Compensated<'a> {
+    state: &'a [f64],
+    change: &'a [f64],
+    carry: &'a [f64],
+    result: &'a mut [f64],
+    dropped: &'a mut [f64],
+}
+
+impl Kernel for Compensated<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let inputs = self.state.iter().zip(self.change).zip(self.carry);
+        let outputs = self.result.iter_mut().zip(self.dropped);
+        for (((state, change), carry), (result, dropped)) in inputs.zip(outputs) {
+            let change = change + carry;
+            let sum = state + change;
+            *dropped = change - (sum - state);
+            *result = sum;
+        }
+    }
+}
+
+struct Nested<'a> {
+    theta: f64,
+    nested: &'a [f64],
+    result: &'a mut [f64],
+}
+
+impl Nested<'_> {
+    #[inline(always)]
+    fn lanes<const LANES: usize>(&mut self, from: usize) {
+        let (n, theta) = (self.result.len(), self.theta);
+        let mut sum = [0.0; LANES];
+        for r in (0..self.nested.len() / n).rev() {
+            let factor = if r % 2 == 0 { theta } else { 1.0 - theta };
+            let nested = &self.nested[r * n + from..][..LANES];
+            for lane in 0..LANES {
+                sum[lane] = nested[lane] + factor * sum[lane];
+            }
+        }
+        let quartic = theta * theta * (1.0 - theta) * (1.0 - theta);
+        let result = &mut self.result[from..][..LANES];
+        for lane in 0..LANES {
+            result[lane] += quartic * sum[lane];
+        }
+    }
+}
+
+impl Kernel for Nested<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(mut self) {
+        let n = self.result.len();
+        let wide = n - n % LANES;
+        for from in (0..wide).step_by(LANES) {
+            self.lanes::<LANES>(from);
+        }
+        for from in wide..n {
+            self.lanes::<1>(from);
+        }
+    }
+}
+
+struct Largest<'a>(&'a [f64]);
+
+impl Kernel for Largest<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run(self) -> f64 {
+        let (mut largest, mut sum) = ([0.0; LANES], [0.0; LANES]);
+        let chunks = self.0.chunks_exact(LANES);
+        let rest = chunks.remainder();
+        for chunk in chunks {
+            for lane in 0..LANES {
+                let size = chunk[lane].abs();
+                largest[lane] = if size > largest[lane] { size } else { largest[lane] };
+                sum[lane] += size;
+            }
+        }
+        // the sums tell a number that is none, which no comparison finds
+        let sizes = largest.iter().zip(&sum).map(|(size, sum)| if sum.is_nan() { f64::NAN } else { *size });
+        sizes.chain(rest.iter().map(|value| value.abs())).fold(0.0, |largest: f64, size| {
+            let keeps = largest.is_nan() || largest >= size;
+            if keeps { largest } else { size }
+        })
+    }
+}
+
+/// So many components at a time where sums over stages stay in registers.
+const WIDE: usize = 16;
+
+/// So many components at a time where several numbers are gathered.
+const LANES: usize = 8;

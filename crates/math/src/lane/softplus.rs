@@ -66,6 +66,18 @@ pub struct SoftplusBase {
 }
 
 impl SoftplusBase {
+    /// The base at 0.
+    pub const ZERO: SoftplusBase = SoftplusBase {
+        point: 0.0,
+        sign: 1.0,
+        above: 1.0,
+        below: 0.0,
+        reach: -LOWEST,
+        decay: 1.0,
+        inverse: 0.5,
+        share: 0.5,
+    };
+
     /// The base at a finite point.
     pub fn new(point: f64) -> SoftplusBase {
         let (sign, above, below) = if point >= 0.0 { (1.0, 1.0, 0.0) } else { (-1.0, 0.0, 1.0) };

@@ -23,12 +23,21 @@ pub enum Method {
     Dop853,
     /// Order 16: extrapolated midpoint rule, an adaptive method that shares no coefficients with the others.
     Extrapolation,
+    /// The Taylor series of the solution, of an order that suits the tolerance; for systems that give theirs.
+    Taylor,
 }
 
 impl Method {
     /// All methods.
-    pub const ALL: [Method; 6] =
-        [Method::Euler, Method::Ballistic, Method::Heun, Method::Rk4, Method::Dop853, Method::Extrapolation];
+    pub const ALL: [Method; 7] = [
+        Method::Euler,
+        Method::Ballistic,
+        Method::Heun,
+        Method::Rk4,
+        Method::Dop853,
+        Method::Extrapolation,
+        Method::Taylor,
+    ];
 
     /// The name in scene files.
     pub fn name(self) -> &'static str {
@@ -39,6 +48,7 @@ impl Method {
             Method::Rk4 => "rk4",
             Method::Dop853 => "dop853",
             Method::Extrapolation => "extrapolation",
+            Method::Taylor => "taylor",
         }
     }
 
@@ -47,6 +57,7 @@ impl Method {
         match self {
             Method::Ballistic => 1,
             Method::Extrapolation => crate::extrapolation::ORDER,
+            Method::Taylor => crate::taylor::HIGHEST,
             _ => self.tableau().map_or(0, |tableau| tableau.order),
         }
     }
@@ -54,9 +65,14 @@ impl Method {
     /// Whether the method estimates its error and so can choose its steps.
     pub fn is_adaptive(self) -> bool {
         match self {
-            Method::Extrapolation => true,
+            Method::Extrapolation | Method::Taylor => true,
             _ => self.tableau().is_some_and(|tableau| !tableau.errors.is_empty()),
         }
+    }
+
+    /// Whether the method works only for systems that give their Taylor series ([`crate::System::series`]).
+    pub fn needs_series(self) -> bool {
+        self == Method::Taylor
     }
 
     /// The coefficients of a Runge-Kutta method.
@@ -66,7 +82,7 @@ impl Method {
             Method::Heun => Some(&HEUN),
             Method::Rk4 => Some(&RK4),
             Method::Dop853 => Some(&DOP853),
-            Method::Ballistic | Method::Extrapolation => None,
+            Method::Ballistic | Method::Extrapolation | Method::Taylor => None,
         }
     }
 }

@@ -76,7 +76,7 @@ fn chain() -> Equations {
 
 #[test]
 fn stability_polynomials_are_exponentials_up_to_the_order() {
-    for method in Method::ALL.into_iter().filter(|&method| method != Method::Ballistic) {
+    for method in Method::ALL.into_iter().filter(|&method| method != Method::Ballistic && !method.needs_series()) {
         let mut factorial = 1.0;
         for k in 1..=method.order() + 1 {
             factorial *= k as f64;

@@ -63,7 +63,7 @@ fn inside_a_step_the_error_is_of_the_size_at_its_ends() {
 
 #[test]
 fn at_the_ends_the_states_are_those_of_the_step() {
-    for method in Method::ALL {
+    for method in Method::ALL.into_iter().filter(|method| !method.needs_series()) {
         let mut state = [0.0; 2];
         watched(&oscillator(), &[1.0, 0.0], 1.0, method, Control::Fixed { step: 0.25 }, &mut |step| {
             step.at(step.start, &mut state);

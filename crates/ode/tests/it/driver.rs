@@ -60,7 +60,7 @@ fn the_time_gathers_no_rounding() {
 
 #[test]
 fn evaluations_are_counted() {
-    for method in Method::ALL {
+    for method in Method::ALL.into_iter().filter(|method| !method.needs_series()) {
         let system = oscillator();
         let statistics = solve(&system, &[1.0, 0.0], 1.0, method, Control::Fixed { step: 0.125 });
         assert_eq!(statistics.steps, 8);
@@ -110,6 +110,7 @@ fn names_and_orders() {
         ("rk4", 4, false),
         ("dop853", 8, true),
         ("extrapolation", 16, true),
+        ("taylor", 24, true),
     ];
     assert_eq!(known, expected);
 }

@@ -1,0 +1,151 @@
+//! Taylor's method: the series of the solution about the start of a step, of an order that suits the tolerance.
+//!
+//! The system gives the coefficients by recurrence ([`crate::System::series`]). The last two of them tell how long the
+//! step may be before it is made, so that none is rejected, and the series itself is the solution inside the step
+//! (A. Jorba, M. Zou, *A software package for the numerical integration of ODEs by means of high-order Taylor methods*,
+//! Experimental Mathematics 14 (2005) 99).
+
+use crate::control::{Control, Norm};
+use crate::dense::{Ends, Stepper, Trial};
+use crate::system::System;
+use math::lane;
+use math::simd::{Kernel, dispatch};
+
+pub(crate) struct Taylor {
+    order: usize,
+    dimension: usize,
+    /// Rows of coefficients, that of order 0 first.
+    coefficients: Vec<f64>,
+    /// Whether they belong to the state at hand.
+    are_ready: bool,
+}
+
+/// The order at a fixed step: higher ones gain nothing in double precision.
+pub(crate) const HIGHEST: usize = 24;
+
+/// The order for a tolerance. The step grows as tolerance^(1 / order), the work for it with the order and its square: half
+/// the natural logarithm of the tolerance, and a few more for what a step costs besides. Constants by counting
+/// instructions on the scene of figure 11; the minimum is flat.
+fn order(control: Control) -> usize {
+    match control {
+        Control::Fixed { .. } => HIGHEST,
+        Control::Adaptive { tolerance } => {
+            let best = OFFSET - PER_E_FOLD * math::ln(tolerance);
+            (best.round() as usize).clamp(4, HIGHEST)
+        }
+    }
+}
+
+/// Orders gained for a tolerance smaller by a factor of e.
+const PER_E_FOLD: f64 = 0.45;
+/// The order for a tolerance of 1.
+const OFFSET: f64 = 4.3;
+
+impl Taylor {
+    pub(crate) fn new(dimension: usize, control: Control) -> Taylor {
+        let order = order(control);
+        Taylor { order, dimension, coefficients: vec![0.0; (order + 1) * dimension], are_ready: false }
+    }
+
+    fn expand(&mut self, system: &dyn System, state: &[f64], rates: &[f64]) {
+        let n = self.dimension;
+        self.coefficients[..n].copy_from_slice(state);
+        self.coefficients[n..2 * n].copy_from_slice(rates);
+        system.series(self.order, &mut self.coefficients);
+        self.are_ready = true;
+    }
+
+    fn row(&self, k: usize) -> &[f64] {
+        &self.coefficients[k * self.dimension..(k + 1) * self.dimension]
+    }
+}
+
+impl Stepper for Taylor {
+    fn try_step(&mut self, system: &dyn System, from: Trial<'_>, change: &mut [f64], norm: Option<&Norm>) -> f64 {
+        // a shorter try from the same start has its series already; so does one whose length was proposed
+        if norm.is_none() || !self.are_ready {
+            self.expand(system, from.state, from.rates);
+        }
+        dispatch(Change { coefficients: &self.coefficients[self.dimension..], h: from.h, change });
+        norm.map_or(0.0, |norm| (0..self.order).fold(norm.of(self.row(self.order)), |error, _| error * from.h))
+    }
+
+    fn propose(&mut self, system: &dyn System, state: &[f64], rates: &[f64], norm: &Norm) -> Option<f64> {
+        self.expand(system, state, rates);
+        let limit = |k: usize| step_of_term(norm.of(self.row(k)), k);
+        let (last, before) = (limit(self.order)?, limit(self.order - 1)?);
+        Some(SAFETY * if last < before { last } else { before })
+    }
+
+    fn evaluations(&self) -> u64 {
+        self.order as u64 - 1
+    }
+
+    fn error_power(&self) -> usize {
+        self.order
+    }
+
+    fn interpolate(&mut self, _system: &dyn System, ends: &Ends<'_>, theta: f64, result: &mut [f64]) -> u64 {
+        dispatch(Change { coefficients: &self.coefficients[self.dimension..], h: theta * ends.h, change: result });
+        for (result, before) in result.iter_mut().zip(ends.before) {
+            *result += before;
+        }
+        0
+    }
+}
+
+/// The step over which a term of order `k` with this coefficient, in units of the tolerance, grows to 1. `None` for a
+/// coefficient that is no number; for one that vanishes, a step beyond every run.
+fn step_of_term(coefficient: f64, k: usize) -> Option<f64> {
+    if !coefficient.is_finite() {
+        return None;
+    }
+    let power = -1.0 / k as f64;
+    Some(if coefficient < LEAST { lane::pow(LEAST, power) } else { lane::pow(coefficient, power) })
+}
+
+/// Smaller coefficients are taken for this one.
+const LEAST: f64 = 1e-300;
+
+/// The step is so much shorter than that at which the last term meets the tolerance.
+const SAFETY: f64 = 0.95;
+
+/// Writes `c_1 h + c_2 h^2 + ...` (Horner).
+struct Change<'a> {
+    coefficients: &'a [f64],
+    h: f64,
+    change: &'a mut [f64],
+}
+
+impl Change<'_> {
+    #[inline(always)]
+    fn lanes<const LANES: usize>(&mut self, from: usize) {
+        let mut sum = [0.0; LANES];
+        for row in self.coefficients.rchunks_exact(self.change.len()) {
+            for (sum, coefficient) in sum.iter_mut().zip(&row[from..][..LANES]) {
+                *sum = (*sum + coefficient) * self.h;
+            }
+        }
+        self.change[from..][..LANES].copy_from_slice(&sum);
+    }
+}
+
+impl Kernel for Change<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(mut self) {
+        let n = self.change.len();
+        if n < LANES {
+            (0..n).for_each(|from| self.lanes::<1>(from));
+            return;
+        }
+        for from in (0..n).step_by(LANES) {
+            // the last block begins earlier rather than be cut: what is written twice is the same
+            self.lanes::<LANES>(from.min(n - LANES));
+        }
+    }
+}
+
+/// So many components at a time.
+const LANES: usize = 16;

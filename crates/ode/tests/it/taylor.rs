@@ -1,0 +1,123 @@
+//! Taylor's method on a system that gives its series.
+
+use crate::problems::oscillator;
+use ode::{Control, Failure, Group, Measure, Method, Problem, Statistics, Step, System, integrate};
+use std::ops::{ControlFlow, Range};
+
+/// `dy/dt = y (1 - y)` for every component: `1 / (1 + exp(-t))` from 1/2; nearest singularities at `t = +- i pi`.
+struct Logistic {
+    dimension: usize,
+}
+
+impl System for Logistic {
+    fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    fn kinematics(&self, _state: &[f64], _rates: &mut [f64]) {}
+
+    fn dynamics(&self, state: &[f64], rates: &mut [f64]) {
+        for (rate, y) in rates.iter_mut().zip(state) {
+            *rate = y * (1.0 - y);
+        }
+    }
+
+    fn positions(&self) -> Vec<Range<usize>> {
+        Vec::new()
+    }
+
+    fn groups(&self) -> Vec<Group> {
+        vec![Group { range: 0..self.dimension, measure: Measure::Largest, floor: 1.0 }]
+    }
+
+    fn has_series(&self) -> bool {
+        true
+    }
+
+    /// `(k + 1) c_{k+1} = c_k - (sum c_j c_{k-j})`
+    fn series(&self, order: usize, c: &mut [f64]) {
+        let n = self.dimension;
+        for k in 1..order {
+            for i in 0..n {
+                let square: f64 = (0..=k).map(|j| c[j * n + i] * c[(k - j) * n + i]).sum();
+                c[(k + 1) * n + i] = (c[k * n + i] - square) / (k + 1) as f64;
+            }
+        }
+    }
+}
+
+fn truth(t: f64) -> f64 {
+    1.0 / (1.0 + math::exp(-t))
+}
+
+/// Integrates `dimension` components from `value` to 8, calling `look` for every step.
+fn run(dimension: usize, value: f64, control: Control, look: &mut dyn FnMut(&mut Step<'_>)) -> Statistics {
+    let system = Logistic { dimension };
+    let start = vec![value; dimension];
+    let problem = Problem { system: &system, start: &start, begin: 0.0, end: 8.0, method: Method::Taylor, control };
+    let mut observer = |step: &mut Step<'_>| {
+        look(step);
+        ControlFlow::Continue(())
+    };
+    integrate(&problem, &mut observer).expect("nothing stands in the way")
+}
+
+/// The largest error at the ends of steps and at three fractions inside each, and the number of steps.
+fn largest_error(dimension: usize, control: Control) -> (f64, u64) {
+    let mut worst = 0.0;
+    let mut state = vec![0.0; dimension];
+    let statistics = run(dimension, 0.5, control, &mut |step| {
+        for theta in [0.25, 0.5, 0.9, 1.0] {
+            step.at_fraction(theta, &mut state);
+            let exact = truth(step.start + theta * step.length());
+            for value in &state {
+                worst = f64::max(worst, (value - exact).abs());
+            }
+        }
+    });
+    (worst, statistics.steps)
+}
+
+#[test]
+fn errors_follow_the_tolerance_inside_steps_too() {
+    for dimension in [1, 16, 37] {
+        for exponent in 4..=15 {
+            let tolerance = math::pow(10.0, -f64::from(exponent));
+            let (error, steps) = largest_error(dimension, Control::Adaptive { tolerance });
+            // each step adds an error of the size of its last term, which is the tolerance, times a factor of the series;
+            // and a rounding
+            let bound = 5.0 * steps as f64 * (tolerance + f64::EPSILON);
+            assert!(error < bound, "tolerance {tolerance:e}: {error:e} above {bound:e}");
+        }
+    }
+}
+
+/// Far below the radius of convergence pi a step is exact to rounding.
+#[test]
+fn short_fixed_steps_are_exact_to_rounding() {
+    let (error, steps) = largest_error(5, Control::Fixed { step: 0.25 });
+    assert!(steps == 32 && error < 32.0 * f64::EPSILON, "{error:e}");
+}
+
+#[test]
+fn no_step_is_rejected() {
+    let statistics = run(3, 0.5, Control::Adaptive { tolerance: 1e-10 }, &mut |_| {});
+    assert_eq!(statistics.rejected, 0);
+}
+
+/// A state at rest has a series of one term: the step reaches the end.
+#[test]
+fn a_state_at_rest_takes_one_step() {
+    let statistics = run(3, 1.0, Control::Adaptive { tolerance: 1e-10 }, &mut |_| {});
+    assert_eq!((statistics.steps, statistics.state), (1, vec![1.0; 3]));
+}
+
+#[test]
+fn a_system_without_series_is_refused() {
+    let system = oscillator();
+    let control = Control::Adaptive { tolerance: 1e-10 };
+    let problem =
+        Problem { system: &system, start: &[1.0, 0.0], begin: 0.0, end: 1.0, method: Method::Taylor, control };
+    let outcome = integrate(&problem, &mut |_: &mut Step<'_>| ControlFlow::Continue(()));
+    assert_eq!(outcome, Err(Failure::NoSeries));
+}
