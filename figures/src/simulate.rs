@@ -185,7 +185,6 @@ fn summary(scene: &Scene, outcome: &Outcome, seconds: f64) -> Value {
         .iter()
         .map(|happening| json!({ "event": happening.event.name(), "t": happening.time, "n": happening.pedestrian }))
         .collect();
-    let extents: Vec<f64> = outcome.drift.jams().iter().map(|jam| jam.extent).collect();
     json!({
         "schema_version": 1,
         "law": scene.model.name(),
@@ -201,12 +200,17 @@ fn summary(scene: &Scene, outcome: &Outcome, seconds: f64) -> Value {
         "t": outcome.statistics.time,
         "stop": outcome.stop().map_or("t_end", |happening| happening.event.name()),
         "events": events,
-        "jams": {
-            "number": extents.len(),
-            "extents": extents,
-            "speed": outcome.drift.speed().map(|(speed, _)| speed),
-            "measured_over": outcome.drift.speed().map(|(_, time)| time),
-        },
+        "jams": scene.keeps_trajectories.then(|| jams(outcome)),
+    })
+}
+
+fn jams(outcome: &Outcome) -> Value {
+    let extents: Vec<f64> = outcome.drift.jams().iter().map(|jam| jam.extent).collect();
+    json!({
+        "number": extents.len(),
+        "extents": extents,
+        "speed": outcome.drift.speed().map(|(speed, _)| speed),
+        "measured_over": outcome.drift.speed().map(|(_, time)| time),
     })
 }
 

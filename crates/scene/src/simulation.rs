@@ -23,7 +23,8 @@ pub struct Outcome {
     pub positions: Vec<f64>,
     /// See `positions`.
     pub speeds: Vec<f64>,
-    /// The jams at the last sample before the end or the first stop, and how they got there.
+    /// The jams at the last sample before the end or the first stop, and how they got there; nothing when the scene does
+    /// not keep trajectories.
     pub drift: jams::Drift,
 }
 
@@ -181,12 +182,13 @@ impl<'a> Record<'a> {
 
     fn take(&mut self, t: f64, state: &[f64]) {
         self.std.push(&[t, self.form.speed_deviation(state)]);
+        if !self.scene.keeps_trajectories {
+            return;
+        }
         self.form.write_positions(state, &mut self.positions);
         self.form.read(state, &mut self.gaps, &mut self.speeds);
-        if self.scene.keeps_trajectories {
-            for (n, (x, v)) in self.positions.iter().zip(&self.speeds).enumerate() {
-                self.trajectories.push(&[t, n as f64, *x, *v]);
-            }
+        for (n, (x, v)) in self.positions.iter().zip(&self.speeds).enumerate() {
+            self.trajectories.push(&[t, n as f64, *x, *v]);
         }
         let (desired, length) = (self.scene.model.desired_speed(), self.scene.ring.length);
         let found = jams::threshold(&self.speeds, desired)
