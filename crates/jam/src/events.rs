@@ -2,6 +2,7 @@
 
 use crate::laws::Model;
 use crate::states::Form;
+use math::simd::{Kernel, dispatch};
 use ode::{Step, first_crossing};
 
 /// What can happen to a pedestrian.
@@ -110,6 +111,8 @@ pub struct Watch<'a> {
     found: Vec<Happening>,
     before: Instant,
     after: Instant,
+    /// The time that `after` shows.
+    seen: Option<f64>,
 }
 
 /// A step in which an event may lie is searched in this many parts.
@@ -119,12 +122,13 @@ impl<'a> Watch<'a> {
     /// A watch over a ring of `pedestrians` in this form.
     pub fn new(model: Model, form: &'a dyn Form, pedestrians: usize) -> Watch<'a> {
         let instant = Instant::new(pedestrians);
-        Watch { model, form, found: Vec::new(), before: instant.clone(), after: instant }
+        Watch { model, form, found: Vec::new(), before: instant.clone(), after: instant, seen: None }
     }
 
     /// Goes on with the same ring in another form.
     pub fn change_form(&mut self, form: &'a dyn Form) {
         self.form = form;
+        self.seen = None;
     }
 
     /// The speeds at the end of the step looked at last.
@@ -139,7 +143,12 @@ impl<'a> Watch<'a> {
 
     /// Looks for events in a step; returns those that are new, in order of time.
     pub fn look(&mut self, step: &mut Step<'_>) -> Vec<Happening> {
-        self.before.read(self.form, &self.model, step.before(), step.rates_before());
+        if self.seen == Some(step.start) {
+            std::mem::swap(&mut self.before, &mut self.after);
+        } else {
+            self.before.read(self.form, &self.model, step.before(), step.rates_before());
+        }
+        self.seen = Some(step.end);
         self.after.read(self.form, &self.model, step.after(), step.rates_after());
         let mut new = Vec::new();
         for event in Event::ALL {
@@ -204,20 +213,33 @@ impl<'a> Watch<'a> {
 /// The control points of the cubic through both ends (its Bernstein coefficients) bound it from below. The solution is
 /// no cubic where the steps are long, so their spread is taken off once more; what passes here costs no interpolation.
 fn may_be_negative(before: (&[f64], &[f64]), after: (&[f64], &[f64]), h: f64) -> bool {
-    let third = h / 3.0;
-    let starts = before.0.iter().zip(before.1);
-    let ends = after.0.iter().zip(after.1);
-    // counted, not searched: a loop without an exit runs several pedestrians at a time
-    let count: u64 = starts
-        .zip(ends)
-        .map(|((start, leaving), (end, arriving))| {
+    dispatch(MayBeNegative { before, after, h })
+}
+
+struct MayBeNegative<'a> {
+    before: (&'a [f64], &'a [f64]),
+    after: (&'a [f64], &'a [f64]),
+    h: f64,
+}
+
+impl Kernel for MayBeNegative<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run(self) -> bool {
+        let third = self.h / 3.0;
+        let starts = self.before.0.iter().zip(self.before.1);
+        let ends = self.after.0.iter().zip(self.after.1);
+        // counted, not searched: a loop without an exit runs several pedestrians at a time
+        let mut count = 0;
+        for ((start, leaving), (end, arriving)) in starts.zip(ends) {
             let points = [*start, start + third * leaving, end - third * arriving, *end];
             let low = lower(lower(points[0], points[1]), lower(points[2], points[3]));
             let high = -lower(lower(-points[0], -points[1]), lower(-points[2], -points[3]));
-            u64::from(low < high - low)
-        })
-        .sum();
-    count > 0
+            count += u64::from(low < high - low);
+        }
+        count > 0
+    }
 }
 
 /// The lower of two numbers, as a selection that vectorises.

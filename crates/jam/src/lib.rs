@@ -10,6 +10,7 @@ pub mod laws;
 pub mod observe;
 pub mod ramp;
 pub mod ring;
+pub mod series;
 pub mod stability;
 pub mod states;
 pub mod uniform;

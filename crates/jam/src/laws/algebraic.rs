@@ -3,6 +3,7 @@
 
 use super::{Law, Visitor};
 use crate::ramp::smooth_ramp;
+use crate::series::{Block, lanes};
 use crate::stability::Linear;
 use math::lane::{self, SoftplusBase};
 use std::f64::consts::LN_2;
@@ -79,6 +80,14 @@ pub struct AlgebraicLaw<const RELATIVE: bool, const WIDENING: bool, const POWER:
     parameters: Algebraic,
 }
 
+/// Coefficients of the distance and of the force `mu^2 / d^q`; at order 0 also `1 / d_0`.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Terms {
+    distance: Block,
+    force: Block,
+    inverse: Block,
+}
+
 /// The uniform flow: `d'`, `1 / d'`, `1 / d'^q`, `gamma`, the ramp at equal speeds, and `1 / eps`.
 #[derive(Clone, Copy, Debug)]
 pub struct Base {
@@ -144,7 +153,7 @@ impl<const RELATIVE: bool, const WIDENING: bool, const POWER: u8> Law for Algebr
             inverse: 1.0 / gap,
             inverse_power: self.inverse_power(gap),
             gamma: self.parameters.gamma(),
-            ramp: SoftplusBase::new(0.0),
+            ramp: SoftplusBase::ZERO,
             slope: 1.0 / self.parameters.epsilon,
         }
     }
@@ -160,6 +169,38 @@ impl<const RELATIVE: bool, const WIDENING: bool, const POWER: u8> Law for Algebr
         }
         let force = delta * (epsilon * lane::softplus_difference(&base.ramp, (speed - ahead) * base.slope));
         -speed - (by_distance + force * (2.0 * base.gamma + force) * inverse_power)
+    }
+
+    const HAS_SERIES: bool = !RELATIVE && !WIDENING;
+
+    type Terms = Terms;
+
+    #[inline(always)]
+    fn start_terms(&self, clearance: &Block, terms: &mut Terms) {
+        let mu = self.parameters.strength;
+        terms.distance = *clearance;
+        terms.force = lanes(|lane| mu * mu * self.inverse_power(clearance[lane]));
+        terms.inverse = lanes(|lane| 1.0 / clearance[lane]);
+    }
+
+    /// From `d f' = -q f d'`: `k d_0 f_k = -sum (q (k - j) + j) d_{k-j} f_j` over `j < k`.
+    #[inline(always)]
+    fn next_terms(&self, earlier: &[Terms], clearance: &Block, terms: &mut Terms) -> Block {
+        let (q, k) = (self.parameters.power, earlier.len());
+        let (first, order) = (earlier[0], k as f64);
+        let mut sum = lanes(|lane| (q * order) * (first.force[lane] * clearance[lane]));
+        for (i, (there, back)) in earlier[1..].iter().zip(earlier[1..].iter().rev()).enumerate() {
+            let j = (i + 1) as f64;
+            let weight = q * (order - j) + j;
+            for ((sum, f), d) in sum.iter_mut().zip(&there.force).zip(&back.distance) {
+                *sum += weight * (f * d);
+            }
+        }
+        let scale = -1.0 / order;
+        let force = lanes(|lane| sum[lane] * (first.inverse[lane] * scale));
+        terms.distance = *clearance;
+        terms.force = force;
+        lanes(|lane| -force[lane])
     }
 
     #[inline(always)]

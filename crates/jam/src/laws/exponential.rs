@@ -3,6 +3,7 @@
 
 use super::{Law, Visitor};
 use crate::ramp::smooth_ramp;
+use crate::series::{Block, inner_product, lanes};
 use crate::stability::Linear;
 use math::lane::{self, SoftplusBase};
 
@@ -53,6 +54,13 @@ pub struct ExponentialLaw<const CONTACT: bool, const WIDENING: bool> {
     parameters: Exponential,
 }
 
+/// Coefficients of the force `a exp(y)`, `y = -d / b`, and of the rate of `y`.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Terms {
+    force: Block,
+    rate: Block,
+}
+
 /// The uniform flow: its force `a exp(-d' / b)`, `-1 / b`, the ramp at `d'`, and `-1 / eps`.
 #[derive(Clone, Copy, Debug)]
 pub struct Base {
@@ -83,7 +91,8 @@ impl<const CONTACT: bool, const WIDENING: bool> Law for ExponentialLaw<CONTACT, 
         Base {
             force: a * math::exp(-d / b),
             decay: -1.0 / b,
-            ramp: SoftplusBase::new(-d / epsilon),
+            // without contact nothing reads it
+            ramp: if CONTACT { SoftplusBase::new(-d / epsilon) } else { SoftplusBase::ZERO },
             slope: -1.0 / epsilon,
         }
     }
@@ -94,6 +103,28 @@ impl<const CONTACT: bool, const WIDENING: bool> Law for ExponentialLaw<CONTACT, 
         let change = if WIDENING { gap - a_v * (speed + ahead) } else { gap };
         let far = -speed - base.force * lane::exp_m1(change * base.decay);
         if CONTACT { far - c * (epsilon * lane::softplus_difference(&base.ramp, change * base.slope)) } else { far }
+    }
+
+    const HAS_SERIES: bool = !CONTACT && !WIDENING;
+
+    type Terms = Terms;
+
+    #[inline(always)]
+    fn start_terms(&self, clearance: &Block, terms: &mut Terms) {
+        let Exponential { strength: a, range: b, .. } = self.parameters;
+        terms.force = lanes(|lane| a * lane::exp(-clearance[lane] / b));
+    }
+
+    /// From `f' = f y'`, `y = -d / b`: `k f_k = sum f_j (k - j) y_{k-j}` over `j < k`.
+    #[inline(always)]
+    fn next_terms(&self, earlier: &[Terms], clearance: &Block, terms: &mut Terms) -> Block {
+        let (first, order) = (earlier[0], earlier.len() as f64);
+        let (slope, inverse_order) = (-order / self.parameters.range, 1.0 / order);
+        let rate = lanes(|lane| slope * clearance[lane]);
+        let sum = inner_product(earlier, |terms| &terms.force, |terms| &terms.rate);
+        let force = lanes(|lane| (first.force[lane] * rate[lane] + sum[lane]) * inverse_order);
+        *terms = Terms { force, rate };
+        lanes(|lane| -force[lane])
     }
 
     #[inline(always)]

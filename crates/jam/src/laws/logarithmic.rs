@@ -3,6 +3,7 @@
 
 use super::{Law, Visitor};
 use crate::ramp::smooth_ramp;
+use crate::series::{Block, inner_product, lanes};
 use crate::stability::Linear;
 use math::lane::{self, SoftplusBase};
 use std::f64::consts::E;
@@ -53,6 +54,17 @@ impl Logarithmic {
 pub struct LogarithmicLaw<const WIDENING: bool> {
     parameters: Logarithmic,
     slope: f64,
+}
+
+/// Coefficients of `e = exp(-|y|)` and of the ramp times `c eps`, and (each `k` times a coefficient) of the rates of the
+/// exponent, of `h = ln(1 + e)` and of `ln(1 + c R)`; see [`LogarithmicLaw::next_terms`].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Terms {
+    decay: Block,
+    exponent_rate: Block,
+    rest_rate: Block,
+    ramp: Block,
+    force_rate: Block,
 }
 
 /// The uniform flow: headway, `a'`, `1 / a'`, the ramp and `c eps / (1 + c R')`.
@@ -142,6 +154,46 @@ impl<const WIDENING: bool> Law for LogarithmicLaw<WIDENING> {
         let difference = self.ramp_difference(base, gap, speed, ahead);
         let r = lane::softplus_difference_of_change(&base.ramp, difference, half);
         -(self.parameters.desired_speed * lane::ln_1p(base.scale * r)) - speed
+    }
+
+    const HAS_SERIES: bool = !WIDENING;
+
+    type Terms = Terms;
+
+    /// At order 0 the rates have no meaning: their places hold constants of the recurrences.
+    #[inline(always)]
+    fn start_terms(&self, clearance: &Block, terms: &mut Terms) {
+        let a = C * self.parameters.epsilon;
+        let y = lanes(|lane| self.ramp_argument(clearance[lane], 0.0, 0.0));
+        let e = lanes(|lane| lane::decay(y[lane]));
+        terms.decay = e;
+        terms.exponent_rate = lanes(|lane| if y[lane] > 0.0 { -1.0 } else { 1.0 });
+        terms.rest_rate = lanes(|lane| 1.0 / (1.0 + e[lane]));
+        terms.force_rate = lanes(|lane| 1.0 / (1.0 + a * lane::softplus_of_decay(y[lane], e[lane])));
+    }
+
+    /// With `y = -(s / 2 - 1) / eps` the ramp is `eps (h + max(y, 0))`, `h = ln(1 + e)`, `e = exp(-|y|)`. From
+    /// `e' = -|y|' e`, `(1 + e) h' = e'`, and `(1 + a r) f' = a r'` for `f = ln(1 + a r)`, `r = h + max(y, 0)`, `a = c eps`.
+    #[inline(always)]
+    fn next_terms(&self, earlier: &[Terms], clearance: &Block, terms: &mut Terms) -> Block {
+        let Logarithmic { desired_speed: v0, epsilon, .. } = self.parameters;
+        let (order, a) = (earlier.len() as f64, C * epsilon);
+        let (slope, inverse_order) = (0.5 * order * self.slope, 1.0 / order);
+        let e_sum = inner_product(earlier, |terms| &terms.decay, |terms| &terms.exponent_rate);
+        let h_sum = inner_product(earlier, |terms| &terms.rest_rate, |terms| &terms.decay);
+        let f_sum = inner_product(earlier, |terms| &terms.force_rate, |terms| &terms.ramp);
+        let first = &earlier[0];
+        let y_rate = lanes(|lane| slope * clearance[lane]);
+        let above = lanes(|lane| if first.exponent_rate[lane] < 0.0 { y_rate[lane] } else { 0.0 });
+        let exponent_rate = lanes(|lane| first.exponent_rate[lane] * y_rate[lane]);
+        let e_rate = lanes(|lane| first.decay[lane] * exponent_rate[lane] + e_sum[lane]);
+        let rest_rate = lanes(|lane| (e_rate[lane] - h_sum[lane]) * first.rest_rate[lane]);
+        let ramp_rate = lanes(|lane| a * (rest_rate[lane] + above[lane]));
+        let force_rate = lanes(|lane| (ramp_rate[lane] - f_sum[lane]) * first.force_rate[lane]);
+        let decay = lanes(|lane| e_rate[lane] * inverse_order);
+        let ramp = lanes(|lane| ramp_rate[lane] * inverse_order);
+        *terms = Terms { decay, exponent_rate, rest_rate, ramp, force_rate };
+        lanes(|lane| -v0 * (force_rate[lane] * inverse_order))
     }
 
     #[inline(always)]

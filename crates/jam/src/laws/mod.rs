@@ -13,13 +13,14 @@ pub use algebraic::{Algebraic, AlgebraicLaw};
 pub use exponential::{Exponential, ExponentialLaw};
 pub use logarithmic::{C, Logarithmic, LogarithmicLaw};
 
+use crate::series::{Block, LANES};
 use crate::stability::Linear;
 
 /// A law of motion, all terms known at compile time. Functions are small and free of branches: loops over them
 /// vectorise.
 pub trait Law: Copy {
     /// What the uniform flow at one instant contributes to every pedestrian: computed once, used N times.
-    type Base: Copy;
+    type Base: Copy + std::fmt::Debug;
 
     /// Whether the force is infinite where the room ends.
     const SINGULAR: bool;
@@ -63,6 +64,24 @@ pub trait Law: Copy {
     #[inline(always)]
     fn deviation_rest(&self, base: &Self::Base, _half: f64, gap: f64, speed: f64, ahead: f64) -> f64 {
         self.deviation(base, gap, speed, ahead)
+    }
+
+    /// Whether the force depends on the gap alone: then there are recurrences for its Taylor coefficients along a motion
+    /// (see [`crate::series`]).
+    const HAS_SERIES: bool = false;
+
+    /// What the recurrences keep of each order.
+    type Terms: Copy + Default + std::fmt::Debug;
+
+    /// Fills the terms of order 0 from the clearances.
+    #[inline(always)]
+    fn start_terms(&self, _clearance: &Block, _terms: &mut Self::Terms) {}
+
+    /// The coefficient of the force, the drive included, of an order >= 1: from that of the clearance and the terms of all
+    /// earlier orders. Fills the terms of this order.
+    #[inline(always)]
+    fn next_terms(&self, _earlier: &[Self::Terms], _clearance: &Block, _terms: &mut Self::Terms) -> Block {
+        [0.0; LANES]
     }
 
     /// What must stay positive for the run to go on: `d_n` of eq:effDistn, or the gap for the logarithmic law.

@@ -8,28 +8,57 @@ use super::{Form, closing_rates};
 use crate::laws::Law;
 use crate::observe::spread;
 use crate::ring::{Ring, Start};
+use crate::series::{Motion, Workspace};
 use math::simd::{Kernel, dispatch};
 use ode::{Group, Measure, System};
+use std::cell::{Cell, RefCell};
 use std::ops::Range;
 
 /// The ring as deviations from its uniform flow.
-#[derive(Clone, Copy, Debug)]
-pub struct Deviations<L> {
+#[derive(Clone, Debug)]
+pub struct Deviations<L: Law> {
     law: L,
     pedestrians: usize,
     clearance: f64,
+    /// The uniform flow asked for last: once it is steady it is asked for again and again.
+    uniform: Cell<Uniform<L::Base>>,
+    workspace: RefCell<Workspace<L::Terms>>,
+}
+
+/// The uniform flow at one speed.
+#[derive(Clone, Copy, Debug)]
+struct Uniform<B> {
+    speed: f64,
+    base: B,
+    acceleration: f64,
 }
 
 impl<L: Law> Deviations<L> {
     /// The ring under this law.
     pub fn new(law: L, ring: Ring) -> Deviations<L> {
-        Deviations { law, pedestrians: ring.pedestrians, clearance: ring.headway() - L::CONTACT }
+        let clearance = ring.headway() - L::CONTACT;
+        let uniform = Cell::new(Uniform::new(&law, clearance, 0.0));
+        Deviations { law, pedestrians: ring.pedestrians, clearance, uniform, workspace: RefCell::default() }
+    }
+
+    fn uniform(&self, speed: f64) -> Uniform<L::Base> {
+        if self.uniform.get().speed != speed {
+            self.uniform.set(Uniform::new(&self.law, self.clearance, speed));
+        }
+        self.uniform.get()
     }
 
     /// Indices of `x_0 - X`, `X` and `V`.
     fn extras(&self) -> (usize, usize, usize) {
         let n = self.pedestrians;
         (2 * n, 2 * n + 1, 2 * n + 2)
+    }
+}
+
+impl<B> Uniform<B> {
+    fn new<L: Law<Base = B>>(law: &L, clearance: f64, speed: f64) -> Uniform<B> {
+        let acceleration = law.acceleration(clearance, speed, speed);
+        Uniform { speed, base: law.base(clearance, speed), acceleration }
     }
 }
 
@@ -49,11 +78,36 @@ impl<L: Law> System for Deviations<L> {
     fn dynamics(&self, state: &[f64], rates: &mut [f64]) {
         let n = self.pedestrians;
         let (_, _, speed) = self.extras();
-        let uniform = state[speed];
-        let base = self.law.base(self.clearance, uniform);
+        let Uniform { base, acceleration, .. } = self.uniform(state[speed]);
         let (gaps, speeds) = (&state[..n], &state[n..2 * n]);
         dispatch(Accelerations { law: self.law, base, gaps, speeds, rates: &mut rates[n..2 * n] });
-        rates[speed] = self.law.acceleration(self.clearance, uniform, uniform);
+        rates[speed] = acceleration;
+    }
+
+    fn has_series(&self) -> bool {
+        L::HAS_SERIES
+    }
+
+    /// Where the force depends on the gap alone, the uniform flow only relaxes: `dV/dt = f(Delta y) - V` with a constant.
+    fn series(&self, order: usize, coefficients: &mut [f64]) {
+        let (n, dimension) = (self.pedestrians, self.dimension());
+        let (first, distance, speed) = self.extras();
+        dispatch(Motion {
+            law: self.law,
+            pedestrians: n,
+            clearance: self.clearance,
+            order,
+            dimension,
+            coefficients,
+            workspace: &mut self.workspace.borrow_mut(),
+        });
+        for k in 1..order {
+            let (done, next) = coefficients[k * dimension..].split_at_mut(dimension);
+            let divisor = (k + 1) as f64;
+            next[first] = done[n] / divisor;
+            next[distance] = done[speed] / divisor;
+            next[speed] = -done[speed] / divisor;
+        }
     }
 
     fn positions(&self) -> Vec<Range<usize>> {
@@ -80,10 +134,29 @@ impl<L: Law> System for Deviations<L> {
         // how much room is left for deviations of gap and speeds
         let room = self.law.room(self.clearance, state[speed], state[speed]);
         let a_v = self.law.room_per_speed();
+        dispatch(IsOpen { room, a_v, gaps, speeds })
+    }
+}
+
+/// Whether everybody's `room + gap - a_v (speed + ahead)` is positive.
+struct IsOpen<'a> {
+    room: f64,
+    a_v: f64,
+    gaps: &'a [f64],
+    speeds: &'a [f64],
+}
+
+impl Kernel for IsOpen<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run(self) -> bool {
+        let IsOpen { room, a_v, gaps, speeds } = self;
+        let last = gaps.len() - 1;
         let closed = |gap: f64, speed: f64, ahead: f64| u64::from(room + (gap - a_v * (speed + ahead)) <= 0.0);
-        let mut count = closed(gaps[n - 1], speeds[n - 1], speeds[0]);
-        for (gap, pair) in gaps.iter().zip(speeds.windows(2)) {
-            count += closed(*gap, pair[0], pair[1]);
+        let mut count = closed(gaps[last], speeds[last], speeds[0]);
+        for ((gap, speed), ahead) in gaps.iter().zip(speeds).zip(&speeds[1..]) {
+            count += closed(*gap, *speed, *ahead);
         }
         count == 0
     }

@@ -5,22 +5,30 @@ use super::{Form, closing_rates};
 use crate::laws::Law;
 use crate::observe::spread;
 use crate::ring::{Ring, Start};
+use crate::series::{Motion, Workspace};
 use math::simd::{Kernel, dispatch};
 use ode::{Group, Measure, System};
+use std::cell::RefCell;
 use std::ops::Range;
 
 /// The ring as gaps and speeds.
-#[derive(Clone, Copy, Debug)]
-pub struct Gaps<L> {
+#[derive(Clone, Debug)]
+pub struct Gaps<L: Law> {
     law: L,
     pedestrians: usize,
     clearance: f64,
+    workspace: RefCell<Workspace<L::Terms>>,
 }
 
 impl<L: Law> Gaps<L> {
     /// The ring under this law.
     pub fn new(law: L, ring: Ring) -> Gaps<L> {
-        Gaps { law, pedestrians: ring.pedestrians, clearance: ring.headway() - L::CONTACT }
+        Gaps {
+            law,
+            pedestrians: ring.pedestrians,
+            clearance: ring.headway() - L::CONTACT,
+            workspace: RefCell::default(),
+        }
     }
 }
 
@@ -39,6 +47,27 @@ impl<L: Law> System for Gaps<L> {
         let n = self.pedestrians;
         let (clearances, speeds) = (&state[..n], &state[n..2 * n]);
         dispatch(Accelerations { law: self.law, clearances, speeds, rates: &mut rates[n..2 * n] });
+    }
+
+    fn has_series(&self) -> bool {
+        L::HAS_SERIES
+    }
+
+    fn series(&self, order: usize, coefficients: &mut [f64]) {
+        let (n, dimension) = (self.pedestrians, self.dimension());
+        dispatch(Motion {
+            law: self.law,
+            pedestrians: n,
+            clearance: 0.0,
+            order,
+            dimension,
+            coefficients,
+            workspace: &mut self.workspace.borrow_mut(),
+        });
+        for k in 1..order {
+            let (done, next) = coefficients[k * dimension..].split_at_mut(dimension);
+            next[2 * n] = done[n] / (k + 1) as f64;
+        }
     }
 
     fn positions(&self) -> Vec<Range<usize>> {

@@ -12,4 +12,5 @@ mod presets;
 mod ring;
 mod rings;
 mod sample;
+mod series;
 mod uniform;

@@ -80,6 +80,9 @@ fn run(
     look: &mut dyn FnMut(&[f64], &[f64]),
 ) {
     let form = kind.build(model, ring);
+    if method.needs_series() && !form.has_series() {
+        return;
+    }
     let start = form.start(Start { shift: 0.0 });
     let (mut gaps, mut speeds) = (vec![0.0; ring.pedestrians], vec![0.0; ring.pedestrians]);
     let problem = Problem { system: &*form, start: &start, begin: 0.0, end: 30.0, method, control };
