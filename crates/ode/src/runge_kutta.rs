@@ -4,7 +4,7 @@ use crate::control::Norm;
 use crate::dense::{Ends, Stepper, Trial, cubic};
 use crate::system::System;
 use crate::tableau::{Interpolant, Row, Tableau};
-use crate::vector::{add, weighted_sum};
+use crate::vector::{add, nested_sum, weighted_sum};
 
 pub(crate) struct RungeKutta {
     tableau: &'static Tableau,
@@ -122,18 +122,14 @@ impl Stepper for RungeKutta {
 
     fn interpolate(&mut self, system: &dyn System, ends: &Ends<'_>, theta: f64, result: &mut [f64]) -> u64 {
         cubic(ends, theta, result);
-        let Interpolant::Nested { stages, rows } = self.tableau.interpolant else { return 0 };
+        let Interpolant::Nested { stages, .. } = self.tableau.interpolant else { return 0 };
         let evaluations = if self.nested_is_ready { 0 } else { stages.len() as u64 };
         if !self.nested_is_ready {
             self.prepare_nested(system, ends);
         }
+        nested_sum(theta, &self.nested, &mut self.sum);
         let quartic = theta * theta * (1.0 - theta) * (1.0 - theta);
-        for (i, result) in result.iter_mut().enumerate() {
-            let mut sum = 0.0;
-            for r in (0..rows.len()).rev() {
-                let factor = if r % 2 == 0 { theta } else { 1.0 - theta };
-                sum = self.nested[r * self.n + i] + factor * sum;
-            }
+        for (result, sum) in result.iter_mut().zip(&self.sum) {
             *result += quartic * sum;
         }
         evaluations

@@ -8,6 +8,12 @@ pub(crate) fn weighted_sum(factor: f64, weights: Row, stages: &[f64], sum: &mut 
     dispatch(WeightedSum { factor, weights, stages, sum });
 }
 
+/// Writes `sum = r_0 + theta (r_1 + (1 - theta) (r_2 + theta (r_3 + ...)))` where `r_j` is `rows[j * n .. (j + 1) * n]`,
+/// `n = sum.len()`.
+pub(crate) fn nested_sum(theta: f64, rows: &[f64], sum: &mut [f64]) {
+    dispatch(NestedSum { theta, rows, sum });
+}
+
 /// Writes `result = start + change`.
 pub(crate) fn add(start: &[f64], change: &[f64], result: &mut [f64]) {
     for ((result, start), change) in result.iter_mut().zip(start).zip(change) {
@@ -73,6 +79,27 @@ impl Kernel for WeightedSum<'_> {
         }
         for sum in self.sum.iter_mut() {
             *sum *= self.factor;
+        }
+    }
+}
+
+struct NestedSum<'a> {
+    theta: f64,
+    rows: &'a [f64],
+    sum: &'a mut [f64],
+}
+
+impl Kernel for NestedSum<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        self.sum.fill(0.0);
+        for (r, row) in self.rows.chunks_exact(self.sum.len()).enumerate().rev() {
+            let factor = if r % 2 == 0 { self.theta } else { 1.0 - self.theta };
+            for (sum, row) in self.sum.iter_mut().zip(row) {
+                *sum = row + factor * *sum;
+            }
         }
     }
 }
