@@ -46,7 +46,7 @@ impl RungeKutta {
         system.rates(&self.state, &mut later[..self.n]);
     }
 
-    /// The rate at the end of the step, if the estimate counts it as a stage; false when the end is outside the domain.
+    /// Evaluates the rate at the end of the step, if the estimate counts it as a stage; false outside the domain.
     fn end(&mut self, system: &dyn System, start: &[f64], change: &[f64]) -> bool {
         if self.tableau.estimates_with_end() {
             add(start, change, &mut self.state);

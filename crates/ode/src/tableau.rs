@@ -14,8 +14,8 @@ pub struct Tableau {
     pub rows: &'static [Row],
     /// Weights of the solution.
     pub weights: Row,
-    /// Solution minus an embedded one, as weights: none (no step control), one, or the two of DOP853. The rate at the end of
-    /// the step may count as the stage after the last one ("first same as last").
+    /// Solution minus an embedded one, as weights: none (no step control), one, or the two of DOP853. The rate at the end
+    /// of the step may count as the stage after the last one ("first same as last").
     pub errors: &'static [Row],
     /// How the solution is continued inside the step.
     pub interpolant: Interpolant,

@@ -54,9 +54,9 @@ pub static DOPRI54: Tableau = Tableau {
 
 /// Order 5, estimate of order 4, interpolant of order 4 without a further stage.
 ///
-/// Ch. Tsitouras, *Runge-Kutta pairs of order 5(4) satisfying only the first column simplifying assumption*, Computers &
-/// Mathematics with Applications 62 (2011) 770. Of the published interpolant, whose weights are of degree 4 and meet rates
-/// and states at both ends, the coefficients of `theta^4` are all that the cubic lacks.
+/// Ch. Tsitouras, *Runge-Kutta pairs of order 5(4) satisfying only the first column simplifying assumption*,
+/// Computers & Mathematics with Applications 62 (2011) 770. Of the published interpolant, whose weights are of degree 4
+/// and meet rates and states at both ends, the coefficients of `theta^4` are all that the cubic lacks.
 pub static TSIT54: Tableau = Tableau {
     name: "tsit54",
     order: 5,

@@ -1,7 +1,8 @@
 //! Verner's pair 6(5), the "most efficient" one, with an interpolant of order 5.
 //!
 //! Coefficients: J. H. Verner, RKV65.IIIXb.Efficient.00000144617.081204, from the author's collection of pairs;
-//! the theory stands in J. H. Verner, *Numerically optimal Runge-Kutta pairs with interpolants*, Numerical Algorithms 53 (2010) 383.
+//! the theory stands in J. H. Verner, *Numerically optimal Runge-Kutta pairs with interpolants*, Numerical Algorithms
+//! 53 (2010) 383.
 //! The published interpolant gives the weights as polynomials in `theta`; here the same polynomials are written as
 //! corrections to the cubic, which rounds some hundred times less. Tests check every order condition.
 
