@@ -31,7 +31,8 @@ pub struct Arguments {
     /// Tables and summary only, no pictures
     #[arg(long)]
     tables_only: bool,
-    /// euler, ballistic, heun, rk4 (with --dt), dop853, extrapolation (with --tol or --dt)
+    /// euler, ballistic, heun, rk4 (with --dt), bs32, dopri54, tsit54, verner65, verner76, verner87, verner98, dop853,
+    /// extrapolation (with --tol or --dt)
     #[arg(long)]
     method: Option<String>,
     /// Largest local error, relative to the perturbation: 1e-15 to 1e-2

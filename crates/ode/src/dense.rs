@@ -32,8 +32,13 @@ pub(crate) trait Stepper {
         None
     }
 
-    /// Evaluations of the rates in one step, the one at its start not counted.
+    /// Evaluations of the rates in the step tried last, the one at its start not counted.
     fn evaluations(&self) -> u64;
+
+    /// The rates at the end of the step tried last, if it evaluated them.
+    fn rates_at_end(&self) -> Option<&[f64]> {
+        None
+    }
 
     /// The power of the step with which the estimated error falls.
     fn error_power(&self) -> usize;

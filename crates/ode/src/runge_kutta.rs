@@ -4,7 +4,7 @@ use crate::control::Norm;
 use crate::dense::{Ends, Stepper, Trial, cubic};
 use crate::system::System;
 use crate::tableau::{Interpolant, Row, Tableau};
-use crate::vector::{add_nested, add_weighted_sum, weighted_sum};
+use crate::vector::{add, add_nested, add_weighted_sum, weighted_sum};
 
 pub(crate) struct RungeKutta {
     tableau: &'static Tableau,
@@ -16,22 +16,25 @@ pub(crate) struct RungeKutta {
     /// `r_0, r_1, ...` of a nested interpolant, once they are wanted.
     nested: Vec<f64>,
     nested_is_ready: bool,
+    /// Whether the error of the last step took the rate at its end, which then need not be evaluated again.
+    end_is_known: bool,
 }
 
 impl RungeKutta {
     pub(crate) fn new(tableau: &'static Tableau, n: usize) -> RungeKutta {
         let (further, rows) = match tableau.interpolant {
             Interpolant::Cubic => (0, 0),
-            Interpolant::Nested { stages, rows } => (1 + stages.len(), rows.len()),
+            Interpolant::Nested { stages, rows } => (stages.len(), rows.len()),
         };
         RungeKutta {
             tableau,
             n,
-            stages: vec![0.0; (tableau.stages() + further) * n],
+            stages: vec![0.0; (tableau.stages() + 1 + further) * n],
             state: vec![0.0; n],
             sum: vec![0.0; n],
             nested: vec![0.0; rows * n],
             nested_is_ready: false,
+            end_is_known: false,
         }
     }
 
@@ -40,6 +43,20 @@ impl RungeKutta {
         let (earlier, later) = self.stages.split_at_mut(i * self.n);
         add_weighted_sum(start, h, row, earlier, &mut self.state);
         system.rates(&self.state, &mut later[..self.n]);
+    }
+
+    /// Evaluates the rate at the end of the step, if the estimate counts it as a stage; false outside the domain.
+    fn end(&mut self, system: &dyn System, start: &[f64], change: &[f64]) -> bool {
+        if self.tableau.estimates_with_end() {
+            add(start, change, &mut self.state);
+            if !system.in_domain(&self.state) {
+                return false;
+            }
+            let end = self.tableau.stages() * self.n;
+            system.rates(&self.state, &mut self.stages[end..end + self.n]);
+            self.end_is_known = true;
+        }
+        true
     }
 
     /// The error of the step in units of the tolerance. Of two estimates `e_5`, `e_3` the combination of DOP853 is
@@ -74,7 +91,7 @@ impl RungeKutta {
 
 impl Stepper for RungeKutta {
     fn try_step(&mut self, system: &dyn System, from: Trial<'_>, change: &mut [f64], norm: Option<&Norm>) -> f64 {
-        self.nested_is_ready = false;
+        (self.nested_is_ready, self.end_is_known) = (false, false);
         self.stages[..self.n].copy_from_slice(from.rates);
         for (i, row) in self.tableau.rows.iter().enumerate() {
             self.stage(system, from.state, from.h, row, i + 1);
@@ -83,13 +100,21 @@ impl Stepper for RungeKutta {
             }
         }
         weighted_sum(from.h, self.tableau.weights, &self.stages, change);
-        norm.map_or(0.0, |norm| self.error(from.h, norm))
+        let Some(norm) = norm else { return 0.0 };
+        if self.end(system, from.state, change) { self.error(from.h, norm) } else { f64::INFINITY }
     }
 
     fn evaluations(&self) -> u64 {
-        self.tableau.rows.len() as u64
+        self.tableau.rows.len() as u64 + u64::from(self.end_is_known)
     }
 
+    fn rates_at_end(&self) -> Option<&[f64]> {
+        let end = self.tableau.stages() * self.n;
+        self.end_is_known.then(|| &self.stages[end..end + self.n])
+    }
+
+    /// An embedded solution of order `q` errs by `step^(q + 1)` in one step. All pairs here have `q + 1 = order`, and the
+    /// two estimates of DOP853 together behave like one of order 7.
     fn error_power(&self) -> usize {
         self.tableau.order
     }

@@ -14,7 +14,8 @@ pub struct Tableau {
     pub rows: &'static [Row],
     /// Weights of the solution.
     pub weights: Row,
-    /// Solution minus an embedded one, as weights: none (no step control), one, or the two of DOP853.
+    /// Solution minus an embedded one, as weights: none (no step control), one, or the two of DOP853. The rate at the end
+    /// of the step may count as the stage after the last one ("first same as last").
     pub errors: &'static [Row],
     /// How the solution is continued inside the step.
     pub interpolant: Interpolant,
@@ -38,5 +39,10 @@ impl Tableau {
     /// The number of stages of a step, without those of the interpolant.
     pub fn stages(&self) -> usize {
         self.rows.len() + 1
+    }
+
+    /// Whether the error estimate counts the rate at the end of the step.
+    pub fn estimates_with_end(&self) -> bool {
+        self.errors.iter().any(|row| row.iter().any(|&(stage, _)| stage == self.stages()))
     }
 }

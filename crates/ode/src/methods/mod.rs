@@ -2,9 +2,19 @@
 
 mod classic;
 mod dop853;
+mod low;
+mod verner65;
+mod verner76;
+mod verner87;
+mod verner98;
 
 pub use classic::{EULER, HEUN, RK4};
 pub use dop853::DOP853;
+pub use low::{BS32, DOPRI54, TSIT54};
+pub use verner65::VERNER65;
+pub use verner76::VERNER76;
+pub use verner87::VERNER87;
+pub use verner98::VERNER98;
 
 use crate::tableau::Tableau;
 
@@ -19,6 +29,20 @@ pub enum Method {
     Heun,
     /// Order 4, Kutta's.
     Rk4,
+    /// Order 3 with error estimate, Bogacki and Shampine's.
+    Bs32,
+    /// Order 5 with error estimate, Dormand and Prince's.
+    Dopri54,
+    /// Order 5 with error estimate, Tsitouras'.
+    Tsit54,
+    /// Order 6 with error estimate, Verner's.
+    Verner65,
+    /// Order 7 with error estimate, Verner's.
+    Verner76,
+    /// Order 8 with error estimate, Verner's.
+    Verner87,
+    /// Order 9 with error estimate, Verner's.
+    Verner98,
     /// Order 8 with error estimate and interpolant of order 7.
     Dop853,
     /// Order 16: extrapolated midpoint rule, an adaptive method that shares no coefficients with the others.
@@ -29,11 +53,18 @@ pub enum Method {
 
 impl Method {
     /// All methods.
-    pub const ALL: [Method; 7] = [
+    pub const ALL: [Method; 14] = [
         Method::Euler,
         Method::Ballistic,
         Method::Heun,
         Method::Rk4,
+        Method::Bs32,
+        Method::Dopri54,
+        Method::Tsit54,
+        Method::Verner65,
+        Method::Verner76,
+        Method::Verner87,
+        Method::Verner98,
         Method::Dop853,
         Method::Extrapolation,
         Method::Taylor,
@@ -46,6 +77,13 @@ impl Method {
             Method::Ballistic => "ballistic",
             Method::Heun => "heun",
             Method::Rk4 => "rk4",
+            Method::Bs32 => "bs32",
+            Method::Dopri54 => "dopri54",
+            Method::Tsit54 => "tsit54",
+            Method::Verner65 => "verner65",
+            Method::Verner76 => "verner76",
+            Method::Verner87 => "verner87",
+            Method::Verner98 => "verner98",
             Method::Dop853 => "dop853",
             Method::Extrapolation => "extrapolation",
             Method::Taylor => "taylor",
@@ -81,6 +119,13 @@ impl Method {
             Method::Euler => Some(&EULER),
             Method::Heun => Some(&HEUN),
             Method::Rk4 => Some(&RK4),
+            Method::Bs32 => Some(&BS32),
+            Method::Dopri54 => Some(&DOPRI54),
+            Method::Tsit54 => Some(&TSIT54),
+            Method::Verner65 => Some(&VERNER65),
+            Method::Verner76 => Some(&VERNER76),
+            Method::Verner87 => Some(&VERNER87),
+            Method::Verner98 => Some(&VERNER98),
             Method::Dop853 => Some(&DOP853),
             Method::Ballistic | Method::Extrapolation | Method::Taylor => None,
         }

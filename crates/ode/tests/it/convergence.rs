@@ -1,9 +1,12 @@
 //! Errors fall with the step, or follow the tolerance, as the method says.
 
 use crate::problems::{
-    Equations, distance, driven, driven_solution, kepler, oscillation, oscillator, planet, power, solve,
+    Equations, distance, driven, driven_solution, general_methods, kepler, oscillation, oscillator, planet, power,
+    solve,
 };
+use ode::tableau::{Row, Tableau};
 use ode::{Control, Method};
+use std::ops::Range;
 
 /// Error at the end with `steps` steps.
 fn error(system: &Equations, start: &[f64], end: f64, truth: &[f64], method: Method, steps: u32) -> f64 {
@@ -11,16 +14,26 @@ fn error(system: &Equations, start: &[f64], end: f64, truth: &[f64], method: Met
     distance(&solve(system, start, end, method, control).state, truth)
 }
 
-/// The order between two numbers of steps, of which the second is larger by half, within `allowed` of the method's.
-fn assert_order(case: (&Equations, &[f64], f64, &[f64]), method: Method, steps: u32, allowed: f64) {
+/// By how much an observed order may differ from the method's.
+const CLOSE: Range<f64> = -0.2..0.2;
+
+/// The same for Verner's pairs with so small a leading term of the error that the next ones exceed it down to where
+/// rounding does: on smooth problems they look like methods one order higher.
+const OR_ONE_HIGHER: Range<f64> = -0.2..1.2;
+
+/// The order between two numbers of steps, of which the second is larger by half.
+fn assert_order(case: (&Equations, &[f64], f64, &[f64]), method: Method, steps: u32, allowed: Range<f64>) {
     let (system, start, end, truth) = case;
     let more = steps + steps / 2;
     let coarse = error(system, start, end, truth, method, steps);
     let fine = error(system, start, end, truth, method, more);
     let order = power(coarse, fine, f64::from(more) / f64::from(steps));
     println!("{}: errors {coarse:e}, {fine:e}: order {order:.3}", method.name());
-    let distance = (order - method.order() as f64).abs();
-    assert!(distance < allowed, "{}: {coarse:e}, {fine:e}: order {order}", method.name());
+    assert!(
+        allowed.contains(&(order - method.order() as f64)),
+        "{}: {coarse:e}, {fine:e}: order {order}",
+        method.name()
+    );
 }
 
 #[test]
@@ -31,11 +44,22 @@ fn orders_on_the_oscillator() {
     let case = (&oscillator(), &[1.0, 0.0][..], 10.0, &truth[..]);
     for (method, steps) in [(Method::Euler, 4000), (Method::Ballistic, 4000), (Method::Heun, 1000), (Method::Rk4, 200)]
     {
-        assert_order(case, method, steps, 0.2);
+        assert_order(case, method, steps, CLOSE);
     }
-    assert_order(case, Method::Dop853, 16, 0.2);
+    for (method, steps, allowed) in [
+        (Method::Bs32, 400, CLOSE),
+        (Method::Dopri54, 120, CLOSE),
+        (Method::Tsit54, 200, CLOSE),
+        (Method::Verner65, 30, OR_ONE_HIGHER),
+        (Method::Verner76, 24, CLOSE),
+        (Method::Verner87, 20, CLOSE),
+        (Method::Verner98, 30, CLOSE),
+        (Method::Dop853, 16, CLOSE),
+    ] {
+        assert_order(case, method, steps, allowed);
+    }
     // order 16 shows only in steps so long (2.5, 1.7) that the next term of the error counts as well
-    assert_order(case, Method::Extrapolation, 4, 0.5);
+    assert_order(case, Method::Extrapolation, 4, -0.5..0.5);
 }
 
 #[test]
@@ -44,9 +68,20 @@ fn orders_on_a_nonlinear_problem() {
     let case = (&driven(), &[1.0, 0.0, 1.0][..], 3.0, &truth[..]);
     for (method, steps) in [(Method::Euler, 4000), (Method::Ballistic, 4000), (Method::Heun, 1000), (Method::Rk4, 100)]
     {
-        assert_order(case, method, steps, 0.2);
+        assert_order(case, method, steps, CLOSE);
     }
-    assert_order(case, Method::Dop853, 8, 0.2);
+    for (method, steps, allowed) in [
+        (Method::Bs32, 200, CLOSE),
+        (Method::Dopri54, 60, CLOSE),
+        (Method::Tsit54, 60, CLOSE),
+        (Method::Verner65, 16, OR_ONE_HIGHER),
+        (Method::Verner76, 16, CLOSE),
+        (Method::Verner87, 8, OR_ONE_HIGHER),
+        (Method::Verner98, 12, CLOSE),
+        (Method::Dop853, 8, CLOSE),
+    ] {
+        assert_order(case, method, steps, allowed);
+    }
 }
 
 #[test]
@@ -56,7 +91,7 @@ fn orders_on_a_planet() {
     for (method, steps) in
         [(Method::Euler, 40_000), (Method::Ballistic, 40_000), (Method::Heun, 1000), (Method::Rk4, 200)]
     {
-        assert_order(case, method, steps, 0.2);
+        assert_order(case, method, steps, CLOSE);
     }
 }
 
@@ -74,9 +109,21 @@ fn chain() -> Equations {
     }
 }
 
+/// `|w| |A|^(k - 1) (1, 1, ...)`, which bounds the terms of the coefficient of `z^k`, times the roundings in each: those of
+/// `k` coefficients, products and sums of a term a stage.
+fn tall_tree_size(tableau: &Tableau, k: usize) -> f64 {
+    let stages = tableau.stages();
+    let size = |row: Row, of: &[f64]| row.iter().map(|&(stage, weight)| weight.abs() * of[stage]).sum::<f64>();
+    let mut sizes = vec![1.0; stages];
+    for _ in 1..k {
+        sizes = (0..stages).map(|i| if i == 0 { 0.0 } else { size(tableau.rows[i - 1], &sizes) }).collect();
+    }
+    ((stages + 2) * k) as f64 * size(tableau.weights, &sizes)
+}
+
 #[test]
 fn stability_polynomials_are_exponentials_up_to_the_order() {
-    for method in Method::ALL.into_iter().filter(|&method| method != Method::Ballistic && !method.needs_series()) {
+    for method in general_methods().filter(|&method| method != Method::Ballistic) {
         let mut factorial = 1.0;
         for k in 1..=method.order() + 1 {
             factorial *= k as f64;
@@ -84,11 +131,12 @@ fn stability_polynomials_are_exponentials_up_to_the_order() {
             start[k] = 1.0;
             let coefficient = solve(&chain(), &start, 1.0, method, Control::Fixed { step: 1.0 }).state[0];
             let error = (coefficient * factorial - 1.0).abs();
+            // for the extrapolation, a sum of rows whose weights reach some hundreds, each to a few units
+            let size = method.tableau().map_or(1000.0, |tableau| tall_tree_size(tableau, k) * factorial);
             if k <= method.order() {
-                // a sum of rows whose extrapolation weights (or stages) reach some hundreds, each to a few units
-                assert!(error < 1000.0 * f64::EPSILON, "{}: z^{k}: {error:e}", method.name());
+                assert!(error < size * f64::EPSILON, "{}: z^{k}: {error:e}", method.name());
             } else {
-                assert!(error > 1e-3, "{}: z^{k} is right as well", method.name());
+                assert!(error > 1e3 * size * f64::EPSILON, "{}: z^{k} is right as well", method.name());
             }
         }
     }

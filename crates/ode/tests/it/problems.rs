@@ -152,3 +152,8 @@ pub fn distance(a: &[f64], b: &[f64]) -> f64 {
 pub fn power(a: f64, b: f64, c: f64) -> f64 {
     math::ln(a / b) / math::ln(c)
 }
+
+/// The methods that ask nothing of a system but its rates.
+pub fn general_methods() -> impl Iterator<Item = Method> {
+    Method::ALL.into_iter().filter(|method| !method.needs_series())
+}

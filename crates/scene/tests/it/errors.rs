@@ -1,6 +1,7 @@
 //! Every complaint about a scene file, word for word: file, line, key, value, and what would be valid.
 
 use files::recipe::{self, Kind};
+use ode::Method;
 
 /// A run whose lines the messages name.
 const RUN: &str = r#"[law]
@@ -233,7 +234,7 @@ fn complaints_about_closed_gaps_and_flows_that_do_not_exist() {
 
 #[test]
 fn complaints_about_the_run() {
-    let methods = "euler, ballistic, heun, rk4, dop853, extrapolation";
+    let methods = Method::ALL.map(Method::name).join(", ");
     assert_complaints(
         RUN,
         &[
