@@ -60,8 +60,7 @@ fn main() -> ExitCode {
 fn work(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let Some(name) = &arguments.scene else { return all(&arguments.out) };
     let parameters = if arguments.decimals { Parameters::Decimals } else { Parameters::Doubles };
-    let scene =
-        scene(name, parameters).ok_or_else(|| format!("no scene {name}; there are {}", NAMES.join(", ")))?;
+    let scene = scene(name, parameters).ok_or_else(|| format!("no scene {name}; there are {}", NAMES.join(", ")))?;
     if arguments.growth {
         return print_growth(&scene);
     }
@@ -147,10 +146,12 @@ fn print_growth(scene: &Scene) -> Result<(), Box<dyn Error>> {
 /// All scenes, as processes of this program; what they print becomes the tables that they share.
 fn all(folder: &Path) -> Result<(), Box<dyn Error>> {
     let program = std::env::current_exe()?;
-    let jobs: Vec<Vec<&str>> = NAMES.iter().map(|&name| vec![name]).chain(NAMES.iter().map(|&name| vec![name, "--growth"])).collect();
+    let jobs: Vec<Vec<&str>> =
+        NAMES.iter().map(|&name| vec![name]).chain(NAMES.iter().map(|&name| vec![name, "--growth"])).collect();
     let mut printed = String::new();
     for pair in jobs.chunks(AT_ONCE) {
-        let start = |job: &Vec<&str>| Command::new(&program).args(job).arg("--out").arg(folder).stdout(Stdio::piped()).spawn();
+        let start =
+            |job: &Vec<&str>| Command::new(&program).args(job).arg("--out").arg(folder).stdout(Stdio::piped()).spawn();
         let children = pair.iter().map(start).collect::<Result<Vec<_>, _>>()?;
         for (job, child) in pair.iter().zip(children) {
             let output = child.wait_with_output()?;

@@ -96,7 +96,13 @@ impl Run {
             let left = -(self.time - limit);
             // two equal steps rather than a long and a short one
             let (is_last, is_near) = (left.hi <= self.h, left.hi < 2.0 * self.h);
-            let h = if is_last { left } else if is_near { left.times(0.5) } else { Twofold::from(self.h) };
+            let h = if is_last {
+                left
+            } else if is_near {
+                left.times(0.5)
+            } else {
+                Twofold::from(self.h)
+            };
             self.try_step(h);
             let error = self.error();
             // the estimate is that of the result with one row less

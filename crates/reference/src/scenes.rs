@@ -68,10 +68,8 @@ pub fn scene(name: &str, parameters: Parameters) -> Option<Scene> {
         law: Law::Exponential { strength: Twofold::from(strength), range: Twofold::from(1.5), desired_speed },
         pedestrians: 57,
     };
-    let logarithmic = Ring {
-        law: Law::Logarithmic { desired_speed: Twofold::ONE, epsilon: number(1.0, 100.0) },
-        pedestrians: 133,
-    };
+    let logarithmic =
+        Ring { law: Law::Logarithmic { desired_speed: Twofold::ONE, epsilon: number(1.0, 100.0) }, pedestrians: 133 };
     let name = *NAMES.iter().find(|known| **known == name)?;
     let (ring, shift, times) = match name {
         "algebraic_stable" => (algebraic(45.0), 1e4, STABLE),

@@ -103,7 +103,10 @@ fn exact_values_are_rounded_once_to_decimals() {
 fn decimals_are_read_to_98_bits() {
     let same = |text: &str, hi: f64, lo: f64| {
         let value = decimal::parse(text).expect("a number");
-        assert!((value - Twofold { hi, lo }).hi.abs() <= hi.abs() * f64::from_bits((1023 - 98) << 52), "{text}: {value:?}");
+        assert!(
+            (value - Twofold { hi, lo }).hi.abs() <= hi.abs() * f64::from_bits((1023 - 98) << 52),
+            "{text}: {value:?}"
+        );
     };
     same("3.1415926535897932384626433832795028842", std::f64::consts::PI, 1.2246467991473532e-16);
     same("-1e-1", -0.1, 5.551115123125783e-18);

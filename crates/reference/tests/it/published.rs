@@ -27,7 +27,10 @@ fn short_runs_reproduce_the_committed_digits() {
                 let speed = decimal::format(run.state[count + n], 20);
                 expected += &format!("{time},{n},{gap},{speed}\n");
             }
-            assert!(states.contains(&format!("\n{expected}")), "{name} at t = {time} has other digits than\n{expected}");
+            assert!(
+                states.contains(&format!("\n{expected}")),
+                "{name} at t = {time} has other digits than\n{expected}"
+            );
         }
     }
 }
