@@ -13,32 +13,51 @@ pub enum Direction {
     Random,
 }
 
-/// The size of the perturbation: so small that the growth is linear, so large that it keeps some ten digits.
+/// The size of the perturbation: so small that the growth is linear, so large that it keeps four digits.
 const SIZE: f64 = 1e-18;
 
-/// The largest component of a perturbation at the times of the scene, over that at the start.
+/// For each time of the scene and each direction: the largest component of the perturbation then, over that at the start.
 ///
 /// # Errors
 /// [`Stuck`].
-pub fn growth(scene: &Scene, precision: Precision, direction: Direction) -> Result<Vec<(u32, f64)>, Stuck> {
+pub fn growth(
+    scene: &Scene,
+    precision: Precision,
+    directions: &[Direction],
+) -> Result<Vec<(u32, Direction, f64)>, Stuck> {
     let ring = scene.ring;
     let start = ring.start(LENGTH, scene.shift);
-    let perturbation = direction.components(ring.pedestrians);
-    let largest = perturbation.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
-    let moved = start.iter().zip(&perturbation).map(|(state, change)| *state + change / largest * SIZE).collect();
-    let mut plain = Run::from_state(ring, start, precision);
-    let mut perturbed = Run::from_state(ring, moved, precision);
+    let mut perturbed: Vec<(Direction, Run)> = directions
+        .iter()
+        .map(|&direction| {
+            let changes = direction.components(ring.pedestrians);
+            let largest = changes.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+            let moved = start.iter().zip(&changes).map(|(state, change)| *state + change / largest * SIZE).collect();
+            (direction, Run::from_state(ring, moved, precision))
+        })
+        .collect();
+    let mut plain = Run::from_state(ring, start.clone(), precision);
     let mut rows = Vec::new();
     for &time in scene.times {
         plain.advance_to(f64::from(time))?;
-        perturbed.advance_to(f64::from(time))?;
-        let (gaps, speeds) = distances(&ring, &plain.state, &perturbed.state);
-        rows.push((time, gaps.max(speeds) / SIZE));
+        for (direction, run) in &mut perturbed {
+            run.advance_to(f64::from(time))?;
+            let (gaps, speeds) = distances(&ring, &plain.state, &run.state);
+            rows.push((time, *direction, gaps.max(speeds) / SIZE));
+        }
     }
     Ok(rows)
 }
 
 impl Direction {
+    /// As `growth.csv` names it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Direction::Shift => "shift",
+            Direction::Random => "random",
+        }
+    }
+
     /// Changes of clearances, of speeds and of `x_0`; those of clearances sum to 0.
     fn components(self, pedestrians: usize) -> Vec<f64> {
         let n = pedestrians;
