@@ -1,7 +1,7 @@
 //! The laws, written twice, agree to the rounding of a double.
 
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
-use math::twofold::Twofold;
+use math::twofold::{Twofold, decimal};
 use reference::scenes::{NAMES, Parameters, scene};
 
 /// The same law in double precision, parameters as the figures' scene files have them.
@@ -46,12 +46,33 @@ fn accelerations_are_those_of_jam_to_rounding() {
         for i in 0..n {
             let (gap, speed) = (state[i].hi + ring.law.contact(), state[n + i].hi);
             let expected = model.acceleration(gap, speed, state[n + (i + 1) % n].hi);
-            // every term is below the force at contact or the drive; a few units in the last place of the largest, and of
-            // exp(-x / eps), whose argument of up to 270 has a relative error of two units
+            // in doubles at most eight roundings of half a unit of the largest term, half of them in a function of two units
             let largest = expected.abs().max(speed.abs()).max(3.0);
-            let allowed = largest * (8.0 * f64::EPSILON + 2.0 * f64::EPSILON);
+            let allowed = 8.0 * f64::EPSILON * largest;
             assert!((rates[n + i] - expected).hi.abs() <= allowed, "{name}, {i}: {} for {expected}", rates[n + i].hi);
         }
+    }
+}
+
+#[test]
+fn accelerations_are_those_of_the_formulas_to_30_digits() {
+    // scene, gap, acceleration at the speed 1/2 (`laws.py`)
+    let table = [
+        ("algebraic_unstable", 2.75, "1.962222222222222135378110073765529"),
+        ("exponential_unstable", 2.75, "0.6804080208620997291886013950264586"),
+        ("logarithmic", 0.75, "-0.2294434981736844094336116603607219"),
+        ("logarithmic", 2.0625, "0.4992614274470694992658303432970979"),
+        ("logarithmic", 1.96875, "0.4703266129463340293770422332706964"),
+    ];
+    for (name, gap, expected) in table {
+        let ring = scene(name, Parameters::Doubles).expect("a scene").ring;
+        let mut state = vec![Twofold::from(0.5); ring.dimension()];
+        state[..ring.pedestrians].fill(Twofold::from(gap - ring.law.contact()));
+        let mut rates = state.clone();
+        ring.rates(&state, &mut rates);
+        let error = (rates[ring.pedestrians] - decimal::parse(expected).expect("a number")).hi.abs();
+        // functions have a relative error of 2^-100 or 8e-31, terms are below 3
+        assert!(error < 5e-30, "{name} at the gap {gap}: error {error:e}");
     }
 }
 
