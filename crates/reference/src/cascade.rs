@@ -18,7 +18,7 @@ pub struct BlowUp {
     pub throws: Vec<Happening>,
 }
 
-/// Follows the throw-backs. The times between them tend to halve, so Aitken's extrapolation of the last three ends them.
+/// Follows the throw-backs. The times between them tend to halve; Aitken's extrapolation of the last three ends them.
 ///
 /// # Errors
 /// [`Stuck`].

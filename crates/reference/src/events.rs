@@ -93,8 +93,8 @@ pub fn next(run: &mut Run, event: Event) -> Result<Happening, Stuck> {
 }
 
 /// Where the value is positive at both ends of a step, but has a minimum within, which is negative: a place left of the
-/// crossing from where Newton's method moves towards it (the value is convex there). Bisection of the slope's sign, until
-/// the tangents at both ends of the bracket meet above 0.
+/// crossing from where Newton's method moves towards it (the value is convex there). Bisection of the slope's sign,
+/// until the tangents at both ends of the bracket meet above 0.
 fn before_dip(run: &mut Run, event: Event, n: usize, ends: [(Twofold, Twofold); 2], h: Twofold) -> Option<Twofold> {
     let ([mut start, mut end], mut left, mut right) = (ends, 0.0, h.hi);
     let mut rates = run.rates.clone();

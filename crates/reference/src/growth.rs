@@ -16,7 +16,7 @@ pub enum Direction {
 /// The size of the perturbation: so small that the growth is linear, so large that it keeps four digits.
 const SIZE: f64 = 1e-18;
 
-/// For each time of the scene and each direction: the largest component of the perturbation then, over that at the start.
+/// For each time of the scene and each direction: the largest component of the perturbation, over that at the start.
 ///
 /// # Errors
 /// [`Stuck`].

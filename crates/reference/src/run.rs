@@ -8,7 +8,7 @@ use math::twofold::Twofold;
 /// How a run is made: two runs that differ in both share little.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Precision {
-    /// The largest difference between the results of a step with all rows and with one row less: relative for clearances
+    /// The largest difference between the results of a step with all rows and with one less: relative for clearances
     /// where the force is singular, else absolute or relative, whichever is larger.
     pub tolerance: f64,
     /// Rows of the extrapolation; the order is twice this.

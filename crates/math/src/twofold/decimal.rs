@@ -3,7 +3,7 @@
 use super::Twofold;
 use std::cmp::Ordering;
 
-/// The number with `digits` >= 1 significant decimal digits, rounded from its exact value (half to even), as `d.ddde-x`;
+/// The number with `digits` >= 1 significant decimal digits, rounded from its exact value (half to even), `d.ddde-x`;
 /// zero is `0`. For finite numbers.
 pub fn format(value: Twofold, digits: usize) -> String {
     // the double of larger size decides the sign
