@@ -109,6 +109,8 @@ if __name__ == "__main__":
     exponential(10)
     logarithm(7)
     split("ln 2 (33 bits, rest)", ln(mpf(2)), 33)
+    split("ln 2 (42 bits, rest)", ln(mpf(2)), 42)
+    pairs("ln 2 less its first 42 bits", [ln(mpf(2)) - mp.nint(ln(mpf(2)) * 2**42) / 2**42])
     pairs("ln 2, 1 / ln 10, pi / 2", [ln(mpf(2)), 1 / ln(mpf(10)), pi / 2])
     pairs("1 / n!", [1 / factorial(n) for n in range(26)])
     pairs("2 / (2n + 1)", [mpf(2) / (2 * n + 1) for n in range(18)])

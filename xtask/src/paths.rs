@@ -48,8 +48,8 @@ pub const NUMERIC_SOURCES: [&str; 7] = [
 pub const SHARED_SOURCES: [&str; 4] = ["crates/", "figures/src/", "figures/Cargo.toml", "data/reference/"];
 /// Folders that are searched for sources.
 pub const SOURCE_FOLDERS: [&str; 3] = ["crates", "figures", "data/reference"];
-/// Below the folders searched, what reaches no figure: the page for browsers.
-pub const NO_SOURCES: [&str; 1] = ["crates/browser/"];
+/// Below the folders searched, what reaches no figure: the page for browsers, and solutions to compare with.
+pub const NO_SOURCES: [&str; 3] = ["crates/browser/", "crates/reference/", "data/reference/solutions/"];
 /// How to get the fonts back.
 pub const FONTS_REMEDY: &str = "part of the checkout: git restore crates/plot/fonts";
 /// The fonts that the pictures embed, each with its SHA-256: a damaged one would be compiled in, and every picture would fail or differ.

@@ -14,7 +14,7 @@
 //! | [`lane`] | the body of a loop that the compiler vectorises | at most 2 units in the last place |
 //! | [`mod@slice`] | whole slices, built of lanes | as its lane |
 //! | [`simd`] | runs a loop with the widest registers the processor has | none: the same bits |
-//! | [`twofold`] | numbers of 106 bits as pairs of doubles | about 2^-104 |
+//! | [`twofold`] | numbers of 106 bits as pairs of doubles; functions in [`twofold::full`] | about 2^-104; 2^-100 |
 
 pub mod complex;
 pub mod lane;

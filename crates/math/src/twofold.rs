@@ -6,6 +6,9 @@
 //! blocks of double-word arithmetic", ACM Trans. Math. Softw. 44 (2017), with
 //! products split after Dekker, so no fused multiply-add is needed.
 
+pub mod decimal;
+pub mod full;
+
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// The number `hi + lo`, where `hi` is the double nearest to that sum.

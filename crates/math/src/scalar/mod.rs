@@ -15,6 +15,7 @@ mod trigonometric;
 pub use exponential::{exp, exp_m1};
 pub use logarithm::{ln, ln_1p, log10};
 pub use power::pow;
+pub(crate) use series::INVERSE_FACTORIALS;
 pub use trigonometric::{cos, sin};
 
 /// 2^k for -1022 <= k <= 1023.

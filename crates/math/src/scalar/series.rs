@@ -35,7 +35,7 @@ const fn pair(hi: f64, lo: f64) -> Twofold {
 
 /// 1 / n!
 #[rustfmt::skip]
-pub(super) const INVERSE_FACTORIALS: [Twofold; 26] = [
+pub(crate) const INVERSE_FACTORIALS: [Twofold; 26] = [
     pair(1.0, 0.0),
     pair(1.0, 0.0),
     pair(0.5, 0.0),

@@ -3,6 +3,7 @@
 
 mod complex;
 mod difference;
+mod full;
 mod lane;
 mod pinned;
 mod sample;

@@ -1,0 +1,124 @@
+//! The elementary functions of twofold numbers against mpmath, their widths, and decimal text.
+
+use crate::sample::Random;
+use math::simd::{Kernel, Width, dispatch_up_to};
+use math::twofold::{Twofold, decimal, full};
+
+/// Function, argument, value with 40 digits (`functions.py`).
+const TABLE: &str = include_str!("../functions.csv");
+
+#[test]
+fn functions_have_100_bits() {
+    let mut worst = [("exp", 0.0_f64), ("exp_m1", 0.0), ("ln", 0.0), ("ln_1p", 0.0)];
+    for line in TABLE.lines().skip(1) {
+        let cells: Vec<&str> = line.split(',').collect();
+        let x = Twofold::from(cells[1].parse::<f64>().expect("a double"));
+        let value = match cells[0] {
+            "exp" => full::exp(x),
+            "exp_m1" => full::exp_m1(x),
+            "ln" => full::ln(x),
+            _ => full::ln_1p(x),
+        };
+        let truth = decimal::parse(cells[2]).expect(line);
+        // ln 1 = 0 is exact
+        let error = if value == truth { 0.0 } else { ((value - truth).hi / truth.hi).abs() };
+        let entry = worst.iter_mut().find(|entry| entry.0 == cells[0]).expect("a known name");
+        entry.1 = entry.1.max(error);
+        assert!(error < f64::from_bits((1023 - 100) << 52), "{line}: relative error {error:e}");
+    }
+    println!("largest relative errors: {worst:?}");
+}
+
+#[test]
+fn logarithms_undo_exponentials_of_twofold_arguments() {
+    let mut random = Random(80);
+    for _ in 0..100_000 {
+        let x = Twofold::sum(random.uniform(-5.0, 5.0), random.uniform(-1e-17, 1e-17));
+        // what the value of the exponential leaves out counts for its logarithm as an absolute error
+        let allowed = f64::from_bits((1023 - 96) << 52);
+        let near = |value: Twofold| (value - x).hi.abs() <= allowed * x.hi.abs().max(1.0);
+        assert!(near(full::ln(full::exp(x))), "{x:?}");
+        // e^x - 1 near -1 has lost the digits
+        assert!(x.hi < -1.0 || near(full::ln_1p(full::exp_m1(x))), "{x:?}");
+        let difference = full::softplus(x) - full::softplus(-x);
+        assert!(near(difference), "ln(1 + e^x) - ln(1 + e^-x) is not x = {x:?}");
+    }
+    let tiny = full::ln_1p(full::exp_m1(Twofold::sum(1e-12, 3e-29)));
+    assert!((tiny - Twofold::sum(1e-12, 3e-29)).hi.abs() < 1e-12 * 1e-29, "{tiny:?}");
+}
+
+/// One function of twofold numbers over a slice.
+struct Map<'a, F> {
+    f: F,
+    x: &'a [Twofold],
+    out: &'a mut [Twofold],
+}
+
+impl<F: Fn(Twofold) -> Twofold> Kernel for Map<'_, F> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        for (out, x) in self.out.iter_mut().zip(self.x) {
+            *out = (self.f)(*x);
+        }
+    }
+}
+
+#[test]
+fn twofold_functions_have_the_same_bits_at_every_width() {
+    let mut random = Random(81);
+    let x: Vec<Twofold> =
+        (0..1001).map(|_| Twofold::sum(random.signed_spread(1e-20, 600.0), random.uniform(-1e-40, 1e-40))).collect();
+    let bits = |values: &[Twofold]| values.iter().map(|v| [v.hi.to_bits(), v.lo.to_bits()]).collect::<Vec<_>>();
+    for f in [full::exp, full::exp_m1, full::softplus] {
+        let single: Vec<Twofold> = x.iter().map(|x| f(std::hint::black_box(*x))).collect();
+        for width in [Width::Baseline, Width::Four, Width::Eight] {
+            let mut out = vec![Twofold::ZERO; x.len()];
+            dispatch_up_to(width, Map { f: |x| f(x), x: &x, out: &mut out });
+            assert_eq!(bits(&out), bits(&single), "{width:?}");
+        }
+    }
+}
+
+#[test]
+fn exact_values_are_rounded_once_to_decimals() {
+    let text = |hi: f64, lo: f64, digits: usize| decimal::format(Twofold { hi, lo }, digits);
+    assert_eq!(text(0.1, 0.0, 20), "1.0000000000000000555e-1");
+    assert_eq!(text(1.0, -1e-30, 20), "1.0000000000000000000");
+    assert_eq!(text(1.0, -1e-20, 20), "9.9999999999999999999e-1");
+    assert_eq!(text(1.0, -1e-20, 19), "1.000000000000000000");
+    assert_eq!(text(-1234.5, 0.0, 5), "-1.2345e3");
+    assert_eq!(text(0.125, 0.0, 2), "1.2e-1", "a tie goes to the even digit");
+    assert_eq!(text(0.375, 0.0, 2), "3.8e-1");
+    assert_eq!(text(0.125, 1e-300, 2), "1.3e-1", "a little more than a tie");
+    assert_eq!(text(0.125, -1e-300, 2), "1.2e-1");
+    assert_eq!(text(0.0, 0.0, 20), "0");
+    assert_eq!(text(5e-324, 0.0, 3), "4.94e-324");
+    assert_eq!(text(9007199254740993.0, 1.0, 16), "9.007199254740993e15");
+    assert_eq!(text(7.0, 0.0, 1), "7");
+}
+
+#[test]
+fn decimals_are_read_to_98_bits() {
+    let same = |text: &str, hi: f64, lo: f64| {
+        let value = decimal::parse(text).expect("a number");
+        assert!(
+            (value - Twofold { hi, lo }).hi.abs() <= hi.abs() * f64::from_bits((1023 - 98) << 52),
+            "{text}: {value:?}"
+        );
+    };
+    same("3.1415926535897932384626433832795028842", std::f64::consts::PI, 1.2246467991473532e-16);
+    same("-1e-1", -0.1, 5.551115123125783e-18);
+    same("100", 100.0, 0.0);
+    for text in ["", "-", "1e", "nan", "1.2.3", "0x1"] {
+        assert_eq!(decimal::parse(text), None, "{text}");
+    }
+    let mut random = Random(82);
+    for _ in 0..1000 {
+        let value = Twofold::sum(random.signed_spread(1e-30, 1e30), 0.0);
+        let value = Twofold { lo: value.hi * random.uniform(-1e-17, 1e-17), ..value };
+        let read = decimal::parse(&decimal::format(value, 34)).expect("a number");
+        assert!((read - value).hi.abs() <= value.hi.abs() * f64::from_bits((1023 - 98) << 52), "{value:?}");
+    }
+}

@@ -1,0 +1,15 @@
+//! Solutions of the paper's scenes in numbers of 106 bits, to judge the double precision of the other crates by.
+//!
+//! Nothing is shared with `jam` and `ode` but the arithmetic of `math`: the laws are written a second time, straight
+//! from the paper and with just the terms that the scenes have; the state is clearances and speeds, not deviations; the
+//! method is extrapolation of a much higher order, in twofold numbers.
+
+pub mod cascade;
+pub mod events;
+pub mod extrapolation;
+pub mod growth;
+pub mod laws;
+pub mod ring;
+pub mod run;
+pub mod scenes;
+pub mod table;
