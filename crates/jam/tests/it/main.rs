@@ -13,3 +13,4 @@ mod ring;
 mod rings;
 mod sample;
 mod uniform;
+mod walls;
