@@ -1,6 +1,7 @@
 //! A figure's binary: tables first, from runs and laws; then the picture, from the tables alone.
 
 use crate::failure::{Failure, exit};
+use crate::hard::rows::Rows;
 use clap::Parser;
 use files::recipe::{self, Kind, Panel, Recipe};
 use files::table::Table;
@@ -141,6 +142,14 @@ impl Job {
     /// It is missing or damaged.
     pub fn reference(&self, name: &str) -> Result<Table, Failure> {
         Ok(Table::read(&self.arguments.reference.join(format!("{name}.csv")))?)
+    }
+
+    /// Reads a table of the report of accuracy, which lies beside the values from outside.
+    ///
+    /// # Errors
+    /// It is missing.
+    pub fn accuracy(&self, name: &str) -> Result<Rows, Failure> {
+        Rows::read(&self.arguments.reference.with_file_name("accuracy").join(format!("{name}.csv")))
     }
 
     /// The panel of this name.

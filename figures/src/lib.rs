@@ -1,8 +1,9 @@
 //! What the figures' binaries share: the command line and where tables and pictures go ([`job`]), panels that several
 //! figures draw ([`panels`]), exit codes ([`failure`]); and the two programs for scenes of one's own ([`simulate`],
-//! [`map`]).
+//! [`map`]); the tables of the hard cases ([`hard`]).
 
 pub mod failure;
+pub mod hard;
 pub mod job;
 pub mod map;
 pub mod panels;

@@ -184,7 +184,15 @@ fn summary(scene: &Scene, outcome: &Outcome, seconds: f64) -> Value {
     let events: Vec<Value> = outcome
         .events
         .iter()
-        .map(|happening| json!({ "event": happening.event.name(), "t": happening.time, "n": happening.pedestrian }))
+        .map(|happening| {
+            json!({
+                "event": happening.event.name(),
+                "t": happening.time,
+                "n": happening.pedestrian,
+                "gap": happening.gap,
+                "step": happening.step,
+            })
+        })
         .collect();
     json!({
         "schema_version": 1,
@@ -231,10 +239,12 @@ fn in_words(scene: &Scene, outcome: &Outcome, seconds: f64) -> String {
     for happening in &outcome.events {
         let _ = write!(
             text,
-            "\n{} at t = {:?}, pedestrian {}",
+            "\n{} at t = {:?}, pedestrian {}, gap {:?}, within a step of {:e}",
             happening.event.name(),
             happening.time,
-            happening.pedestrian
+            happening.pedestrian,
+            happening.gap,
+            happening.step
         );
     }
     if let Some((speed, time)) = outcome.drift.speed() {

@@ -139,8 +139,8 @@ impl Table {
     }
 }
 
-/// Shortest decimal form that reads back to the same bits; whole numbers below 2^53 without a point.
-fn push_number(text: &mut String, number: f64) {
+/// Appends the shortest decimal form that reads back to the same bits; whole numbers below 2^53 without a point.
+pub fn push_number(text: &mut String, number: f64) {
     const EXACT_WHOLE: f64 = 9_007_199_254_740_992.0;
     if number.fract() == 0.0 && number.abs() < EXACT_WHOLE && (number != 0.0 || number.is_sign_positive()) {
         // writing to a String cannot fail

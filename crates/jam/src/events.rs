@@ -8,7 +8,8 @@ use ode::{Step, first_crossing};
 /// What can happen to a pedestrian.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Event {
-    /// The room is used up: `d_n < 0`, for the logarithmic law `s_n < 0`.
+    /// The room is used up: `d_n < 0`, for the logarithmic law `s_n < 0`. Also a step of fixed length that asks for the
+    /// force beyond the wall of a singular law and comes back, which no solution does.
     Overlap,
     /// `v_n < 0`.
     NegativeSpeed,
@@ -53,6 +54,10 @@ pub struct Happening {
     pub time: f64,
     /// To whom, counted from 0.
     pub pedestrian: usize,
+    /// The gap `s_n` to the pedestrian ahead then.
+    pub gap: f64,
+    /// The length of the step in which it lies.
+    pub step: f64,
 }
 
 /// Gaps, speeds and rooms with their rates at one instant.
@@ -157,6 +162,10 @@ impl<'a> Watch<'a> {
                 new.extend(self.locate(event, step));
             }
         }
+        let mut overlaps = self.found.iter().chain(&new);
+        if step.is_beyond() && overlaps.all(|happening| happening.event != Event::Overlap) {
+            new.push(self.back_from_beyond(step));
+        }
         new.sort_by(|a, b| a.time.total_cmp(&b.time));
         self.found.extend(&new);
         new
@@ -189,7 +198,19 @@ impl<'a> Watch<'a> {
         let mut state = vec![0.0; step.before().len()];
         step.at_fraction(theta, &mut state);
         let (_, pedestrian) = lowest(&state);
-        Some(Happening { event, time: step.start + theta * step.length(), pedestrian })
+        self.form.read(&state, &mut gaps, &mut speeds);
+        let (time, gap) = (step.start + theta * step.length(), gaps[pedestrian]);
+        Some(Happening { event, time, pedestrian, gap, step: step.length() })
+    }
+
+    /// The overlap in a step that was beyond a wall at none but its stages: at its end, of the pedestrian with the least
+    /// room at its start.
+    fn back_from_beyond(&self, step: &Step<'_>) -> Happening {
+        let rooms = self.before.rooms.iter().enumerate();
+        let (pedestrian, _) =
+            rooms.fold((0, f64::INFINITY), |least, (n, &room)| if room < least.1 { (n, room) } else { least });
+        let gap = self.before.gaps[pedestrian];
+        Happening { event: Event::Overlap, time: step.end, pedestrian, gap, step: step.length() }
     }
 
     /// Negative once the event has happened.
@@ -236,7 +257,8 @@ impl Kernel for MayBeNegative<'_> {
             let points = [*start, start + third * leaving, end - third * arriving, *end];
             let low = lower(lower(points[0], points[1]), lower(points[2], points[3]));
             let high = -lower(lower(-points[0], -points[1]), lower(-points[2], -points[3]));
-            count += u64::from(low < high - low);
+            // beyond a wall a rate may be no number; the value at the end then decides
+            count += u64::from(low < high - low) | u64::from(*end < 0.0);
         }
         count > 0
     }

@@ -2,6 +2,7 @@
 
 use crate::control::Norm;
 use crate::system::System;
+use crate::vector::largest;
 use math::simd::{Kernel, dispatch};
 
 /// Where a step starts and how long it shall be.
@@ -23,7 +24,7 @@ pub(crate) struct Ends<'a> {
 /// A method that makes steps. Kept within the crate: callers choose a [`crate::Method`].
 pub(crate) trait Stepper {
     /// Writes the change of the state over the step and returns its error in units of the tolerance: infinite when a
-    /// stage lies outside the domain, 0 without a norm.
+    /// stage lies outside the domain, else 0 without a norm.
     fn try_step(&mut self, system: &dyn System, from: Trial<'_>, change: &mut [f64], norm: Option<&Norm>) -> f64;
 
     /// The length of the step to try first from a state with these rates, where the method knows one; the norm has been
@@ -53,6 +54,7 @@ pub struct Step<'a> {
     pub(crate) stepper: &'a mut dyn Stepper,
     pub(crate) ends: Ends<'a>,
     pub(crate) evaluations: u64,
+    pub(crate) is_beyond: bool,
     /// Time at the start of the step.
     pub start: f64,
     /// Time at its end.
@@ -88,6 +90,11 @@ impl Step<'_> {
         self.ends.h
     }
 
+    /// Whether a stage of this step, of fixed length, lay outside the domain of the equations: its end means nothing.
+    pub fn is_beyond(&self) -> bool {
+        self.is_beyond
+    }
+
     /// Writes the state at the time `t` within the step.
     pub fn at(&mut self, t: f64, state: &mut [f64]) {
         self.at_fraction((t - self.start) / self.ends.h, state);
@@ -101,6 +108,21 @@ impl Step<'_> {
             state.copy_from_slice(self.ends.after);
         } else {
             self.evaluations += self.stepper.interpolate(self.system, &self.ends, theta, state);
+            self.mend(theta, state);
+        }
+    }
+}
+
+impl Step<'_> {
+    /// Takes the chord where the interpolant is not finite: a step of fixed length may end where the rates are not.
+    fn mend(&self, theta: f64, state: &mut [f64]) {
+        if largest(state).is_finite() {
+            return;
+        }
+        for (value, (before, after)) in state.iter_mut().zip(self.ends.before.iter().zip(self.ends.after)) {
+            if !value.is_finite() {
+                *value = before + theta * (after - before);
+            }
         }
     }
 }

@@ -30,16 +30,19 @@ impl Extrapolation {
         Extrapolation { scheme: vec![zeros(); ROWS], earlier: zeros(), change: zeros(), state: zeros(), rates: zeros() }
     }
 
-    /// The midpoint rule with `substeps`: leaves the change of the state in `self.change`; false outside the domain.
+    /// The midpoint rule with `substeps`: leaves the change of the state in `self.change`; false if it leaves the domain,
+    /// where it goes on unless `guarded`.
     fn midpoint(&mut self, system: &dyn System, from: &Trial<'_>, substeps: usize, guarded: bool) -> bool {
         let h = from.h / substeps as f64;
         self.earlier.fill(0.0);
         for (change, rate) in self.change.iter_mut().zip(from.rates) {
             *change = h * rate;
         }
+        let mut is_inside = true;
         for _ in 1..substeps {
             add(from.state, &self.change, &mut self.state);
-            if guarded && !system.in_domain(&self.state) {
+            is_inside &= system.in_domain(&self.state);
+            if guarded && !is_inside {
                 return false;
             }
             system.rates(&self.state, &mut self.rates);
@@ -49,7 +52,7 @@ impl Extrapolation {
                 *change = next;
             }
         }
-        true
+        is_inside
     }
 
     /// Takes `self.change` as row `i` into the scheme; `scheme[i]` becomes the best value so far.
@@ -70,8 +73,10 @@ impl Extrapolation {
 
 impl Stepper for Extrapolation {
     fn try_step(&mut self, system: &dyn System, from: Trial<'_>, change: &mut [f64], norm: Option<&Norm>) -> f64 {
+        let mut is_beyond = false;
         for i in 0..ROWS {
-            if !self.midpoint(system, &from, 2 * (i + 1), norm.is_some()) {
+            is_beyond |= !self.midpoint(system, &from, 2 * (i + 1), norm.is_some());
+            if is_beyond && norm.is_some() {
                 return f64::INFINITY;
             }
             self.extrapolate(i);
@@ -82,7 +87,7 @@ impl Stepper for Extrapolation {
         {
             *difference = best - next;
         }
-        norm.map_or(0.0, |norm| norm.of(&self.change))
+        norm.map_or(if is_beyond { f64::INFINITY } else { 0.0 }, |norm| norm.of(&self.change))
     }
 
     fn evaluations(&self) -> u64 {

@@ -106,12 +106,16 @@ pub fn integrate(problem: &Problem<'_>, observer: &mut dyn Observer) -> Result<S
         return Err(Failure::NoSeries);
     }
     let mut run = Run::new(problem);
-    match problem.control {
-        Control::Fixed { step } => run.fixed(problem, step, observer)?,
+    let made = match problem.control {
+        Control::Fixed { step } => run.fixed(problem, step, observer),
         Control::Adaptive { .. } if !problem.method.is_adaptive() => {
             return Err(Failure::NoErrorEstimate(problem.method));
         }
-        Control::Adaptive { tolerance } => run.adaptive(problem, tolerance, observer)?,
+        Control::Adaptive { tolerance } => run.adaptive(problem, tolerance, observer),
+    };
+    if let Err(failure) = made {
+        observer.stuck(&run.state);
+        return Err(failure);
     }
     run.statistics.state = run.state;
     Ok(run.statistics)
@@ -126,6 +130,7 @@ struct Run<'a> {
     next: Vec<f64>,
     next_rates: Vec<f64>,
     change: Vec<f64>,
+    is_beyond: bool,
     statistics: Statistics,
 }
 
@@ -150,6 +155,7 @@ impl<'a> Run<'a> {
             next: vec![0.0; n],
             next_rates: vec![0.0; n],
             change: vec![0.0; n],
+            is_beyond: false,
             statistics: Statistics { evaluations: 1, time: problem.begin, ..Statistics::default() },
         }
     }
@@ -176,7 +182,7 @@ impl<'a> Run<'a> {
             let start = problem.begin + k as f64 * h;
             let end = if k + 1 == whole { problem.end } else { problem.begin + (k + 1) as f64 * h };
             let length = if k + 1 == whole && !is_multiple { end - start } else { h };
-            self.try_step(length, None);
+            self.is_beyond = self.try_step(length, None).is_infinite();
             add(&self.state, &self.change, &mut self.next);
             if !self.next.iter().all(|component| component.is_finite()) {
                 return Err(Failure::NotFinite { time: start, step: length });
@@ -275,7 +281,8 @@ impl<'a> Run<'a> {
             rates_after: &self.next_rates,
             h,
         };
-        let mut step = Step { system: self.system, stepper: &mut *self.stepper, ends, evaluations: 0, start, end };
+        let (system, stepper, is_beyond) = (self.system, &mut *self.stepper, self.is_beyond);
+        let mut step = Step { system, stepper, ends, evaluations: 0, is_beyond, start, end };
         let flow = observer.after(&mut step);
         self.statistics.evaluations += step.evaluations;
         self.statistics.steps += 1;

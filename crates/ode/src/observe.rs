@@ -13,6 +13,9 @@ pub trait Observer {
     fn next_sample(&self) -> f64 {
         0.0
     }
+
+    /// Sees the last state that was reached when no step leads on from it, before the failure is returned.
+    fn stuck(&mut self, _state: &[f64]) {}
 }
 
 impl<F: FnMut(&mut Step<'_>) -> ControlFlow<()>> Observer for F {

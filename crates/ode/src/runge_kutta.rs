@@ -93,14 +93,16 @@ impl Stepper for RungeKutta {
     fn try_step(&mut self, system: &dyn System, from: Trial<'_>, change: &mut [f64], norm: Option<&Norm>) -> f64 {
         (self.nested_is_ready, self.end_is_known) = (false, false);
         self.stages[..self.n].copy_from_slice(from.rates);
+        let mut is_beyond = false;
         for (i, row) in self.tableau.rows.iter().enumerate() {
             self.stage(system, from.state, from.h, row, i + 1);
-            if norm.is_some() && !system.in_domain(&self.state) {
+            is_beyond |= !system.in_domain(&self.state);
+            if is_beyond && norm.is_some() {
                 return f64::INFINITY;
             }
         }
         weighted_sum(from.h, self.tableau.weights, &self.stages, change);
-        let Some(norm) = norm else { return 0.0 };
+        let Some(norm) = norm else { return if is_beyond { f64::INFINITY } else { 0.0 } };
         if self.end(system, from.state, change) { self.error(from.h, norm) } else { f64::INFINITY }
     }
 

@@ -5,7 +5,7 @@ use files::table::Table;
 use jam::events::{Event, Happening, Watch};
 use jam::jams;
 use jam::states::{Form, FormKind, gaps_state};
-use ode::{Control, Failure, Observer, Problem, Sampler, Statistics, Step, integrate};
+use ode::{Control, Observer, Problem, Sampler, Statistics, Step, integrate};
 use std::ops::ControlFlow;
 
 /// What a run gives.
@@ -35,11 +35,44 @@ impl Outcome {
     }
 }
 
+/// A run that could not go on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Broken {
+    /// Why, with the time reached and the step.
+    pub failure: ode::Failure,
+    /// Who had the least room in the last state that was reached; `None` when no step was tried.
+    pub narrowest: Option<Place>,
+}
+
+/// A pedestrian at one instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// Who, counted from 0.
+    pub pedestrian: usize,
+    /// `s_n`.
+    pub gap: f64,
+    /// What must stay positive (see [`jam::laws::Law::room`]).
+    pub room: f64,
+    /// `v_n`.
+    pub speed: f64,
+}
+
+impl std::fmt::Display for Broken {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}", self.failure)?;
+        self.narrowest.map_or(Ok(()), |Place { pedestrian, gap, room, speed }| {
+            write!(f, "; least room then: pedestrian {pedestrian}, gap {gap:?}, room {room:?}, speed {speed:?}")
+        })
+    }
+}
+
+impl std::error::Error for Broken {}
+
 /// Runs a scene to its end, or to the event that ends it.
 ///
 /// # Errors
 /// The integration failed before anything stopped it, with the time it reached.
-pub fn run(scene: &Scene) -> Result<Outcome, Failure> {
+pub fn run(scene: &Scene) -> Result<Outcome, Broken> {
     let form = scene.form.build(&scene.model, scene.ring);
     let near_walls = FormKind::Gaps.build(&scene.model, scene.ring);
     let mut recorder = Recorder::new(scene, &*form);
@@ -89,6 +122,7 @@ struct Recorder<'a> {
     record: Record<'a>,
     is_stopped: bool,
     is_near_walls: bool,
+    narrowest: Option<Place>,
 }
 
 impl<'a> Recorder<'a> {
@@ -100,13 +134,15 @@ impl<'a> Recorder<'a> {
             record: Record::new(scene, form),
             is_stopped: false,
             is_near_walls: false,
+            narrowest: None,
         }
     }
 
     /// Integrates from this time and state to the end of the run, or until an event or the walls break it off.
-    fn leg(&mut self, form: &dyn Form, begin: f64, state: &[f64]) -> Result<Statistics, Failure> {
+    fn leg(&mut self, form: &dyn Form, begin: f64, state: &[f64]) -> Result<Statistics, Broken> {
         let Scene { t_end: end, method, control, .. } = *self.scene;
         integrate(&Problem { system: form, start: state, begin, end, method, control }, self)
+            .map_err(|failure| Broken { failure, narrowest: self.narrowest })
     }
 
     /// Goes on in another form of the same state.
@@ -150,6 +186,16 @@ impl Observer for Recorder<'_> {
 
     fn next_sample(&self) -> f64 {
         self.sampler.next()
+    }
+
+    fn stuck(&mut self, state: &[f64]) {
+        let Record { form, gaps, speeds, .. } = &mut self.record;
+        form.read(state, gaps, speeds);
+        let places = (0..gaps.len()).map(|n| {
+            let (gap, speed, ahead) = (gaps[n], speeds[n], speeds[(n + 1) % speeds.len()]);
+            Place { pedestrian: n, gap, room: self.scene.model.room(gap, speed, ahead), speed }
+        });
+        self.narrowest = places.min_by(|a, b| a.room.total_cmp(&b.room));
     }
 }
 

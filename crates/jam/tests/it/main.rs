@@ -14,3 +14,4 @@ mod rings;
 mod sample;
 mod series;
 mod uniform;
+mod walls;

@@ -4,6 +4,7 @@
 mod contours;
 mod errors;
 mod figures;
+mod hard;
 mod maps;
 mod overrides;
 mod project;
