@@ -5,7 +5,7 @@ use crate::control::{Control, Controller, Norm};
 use crate::dense::{Ends, SAME, Step, Stepper, Trial};
 use crate::extrapolation::Extrapolation;
 use crate::methods::Method;
-use crate::observe::Observer;
+use crate::observe::{Mark, Observer, Place};
 use crate::runge_kutta::RungeKutta;
 use crate::system::{Burst, System};
 use crate::vector::{add, add_compensated};
@@ -60,6 +60,8 @@ pub enum Failure {
     },
     /// The method has no error estimate and cannot choose its steps.
     NoErrorEstimate(Method),
+    /// Only steps of fixed length are resumed from a mark.
+    NotResumable,
 }
 
 impl std::fmt::Display for Failure {
@@ -81,6 +83,7 @@ impl std::fmt::Display for Failure {
                 let names: Vec<&str> = Method::ALL.iter().filter(|m| m.is_adaptive()).map(|m| m.name()).collect();
                 write!(f, "{} has no error estimate: give it a step, or choose {}", method.name(), names.join(" or "))
             }
+            Failure::NotResumable => write!(f, "only steps of fixed length can be resumed"),
         }
     }
 }
@@ -94,14 +97,26 @@ impl std::error::Error for Failure {}
 pub fn integrate(problem: &Problem<'_>, observer: &mut dyn Observer) -> Result<Statistics, Failure> {
     let mut run = Run::new(problem);
     match problem.control {
-        Control::Fixed { step } => run.fixed(problem, step, observer)?,
+        Control::Fixed { step } => run.fixed(problem, step, Place::default(), observer)?,
         Control::Adaptive { .. } if !problem.method.is_adaptive() => {
             return Err(Failure::NoErrorEstimate(problem.method));
         }
         Control::Adaptive { tolerance } => run.adaptive(problem, tolerance, observer)?,
     }
-    run.statistics.state = run.state;
-    Ok(run.statistics)
+    Ok(run.end())
+}
+
+/// Goes on from a mark of the same problem to the same bits, counts included, as the run that showed it: for steps of
+/// fixed length, whose methods look back no further than the step itself. The observer must be as it was then.
+///
+/// # Errors
+/// [`Failure::NotResumable`] for adaptive steps; else as [`integrate`].
+pub fn resume(problem: &Problem<'_>, mark: &Mark<'_>, observer: &mut dyn Observer) -> Result<Statistics, Failure> {
+    let Control::Fixed { step } = problem.control else { return Err(Failure::NotResumable) };
+    let mut run = Run::new(&Problem { start: mark.state, ..*problem });
+    run.statistics = mark.statistics.clone();
+    run.fixed(problem, step, mark.place, observer)?;
+    Ok(run.end())
 }
 
 /// An integration under way.
@@ -140,13 +155,30 @@ impl<'a> Run<'a> {
         }
     }
 
+    fn end(mut self) -> Statistics {
+        self.statistics.state = self.state;
+        self.statistics
+    }
+
     /// Step `k` runs from `begin + k h` to `begin + (k + 1) h`: the time is a product, so that it gathers no rounding.
-    fn fixed(&mut self, problem: &Problem<'_>, h: f64, observer: &mut dyn Observer) -> Result<(), Failure> {
+    fn fixed(
+        &mut self,
+        problem: &Problem<'_>,
+        h: f64,
+        from: Place,
+        observer: &mut dyn Observer,
+    ) -> Result<(), Failure> {
         let count = (problem.end - problem.begin) / h;
         let is_multiple = (count - count.round()).abs() < SAME * count;
         let whole = if is_multiple { count.round() } else { count.ceil() } as u64;
-        let (mut k, mut slow_until) = (0, 0);
+        let Place { step: mut k, mut slow_until } = from;
+        let mut next_mark = k + LONGEST_BURST;
         while k < whole {
+            if k >= next_mark {
+                let place = Place { step: k, slow_until };
+                observer.between(&Mark { place, statistics: &self.statistics, state: &self.state });
+                next_mark = k + LONGEST_BURST;
+            }
             if problem.method == Method::Heun && k >= slow_until {
                 let sample = ((observer.next_sample() - problem.begin) / h) as u64;
                 let count = sample.min(whole).saturating_sub(k + 1).min(LONGEST_BURST);
@@ -265,7 +297,7 @@ impl<'a> Run<'a> {
     }
 }
 
-/// Steps of a burst: enough to make its start cheap, few enough to make again one by one.
+/// Steps of a burst: enough to make its start cheap, few enough to make again one by one. Marks are no closer.
 const LONGEST_BURST: u64 = 4096;
 
 /// Shorter steps are taken for a sign that the tolerance cannot be met. The equations do not know the time and its sum

@@ -10,4 +10,5 @@ mod failures;
 mod order_conditions;
 mod pedestrians;
 mod problems;
+mod resume;
 mod trees;
