@@ -1,6 +1,7 @@
 //! The binaries as a user meets them: sums, redrawing, exit codes, what is left behind.
 
 mod failures;
+mod resume;
 mod sums;
 
 use std::path::{Path, PathBuf};
