@@ -91,10 +91,10 @@ pub struct FiguresArgs {
     /// The scene's own method, or the paper's word for word (tables and pictures in a folder of their own)
     #[arg(long, value_enum, default_value_t)]
     pub scheme: Scheme,
-    /// Do everything again
+    /// Do everything again, from the start: runs that were killed do not go on
     #[arg(long)]
     pub force: bool,
-    /// Show the plan and run nothing
+    /// Show the plan and how long it takes, and run nothing
     #[arg(long)]
     pub dry_run: bool,
     /// Print JSON

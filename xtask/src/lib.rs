@@ -21,6 +21,7 @@ pub mod paths;
 pub mod plan;
 pub mod pool;
 pub mod print;
+pub mod progress;
 pub mod record;
 pub mod sources;
 pub mod store;

@@ -219,6 +219,11 @@ impl Paths {
         if self.base == self.root { self.target.join("store") } else { self.base.join("store") }
     }
 
+    /// From where a run that was killed goes on.
+    pub fn checkpoint(&self, key: &str) -> PathBuf {
+        self.store().join(format!("{key}.checkpoint"))
+    }
+
     /// The runner's own folder.
     pub fn xtask(&self) -> PathBuf {
         self.target.join("xtask")

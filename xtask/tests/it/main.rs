@@ -6,6 +6,7 @@ mod figures;
 mod ids;
 mod judging;
 mod pool;
+mod progress;
 mod record;
 mod shop;
 mod tables;
