@@ -4,6 +4,7 @@ use super::summary;
 use crate::cli::FiguresArgs;
 use crate::compile;
 use crate::disk;
+use crate::distance;
 use crate::estimate::Estimate;
 use crate::failure::Failure;
 use crate::figure::{self, Figure};
@@ -60,6 +61,9 @@ pub fn run(paths: &Paths, arguments: &FiguresArgs) -> Result<(), Failure> {
     let report = summary::Report::new(paths, &surveys, &records, committed, &Ends::of(&nodes, &outcomes));
     let verdict = work::verdict(&nodes, &outcomes).and_then(|()| report.verdict(paths, whole));
     report.print(paths, arguments.json, whole, verdict.is_ok())?;
+    if paths.scheme == Scheme::Paper {
+        tell_distances(paths, &all, arguments.json)?;
+    }
     verdict
 }
 
@@ -152,6 +156,17 @@ fn measure(
         .filter_map(|survey| Some((survey.figure, records.get(paths, survey.figure)?.measured.as_ref()?)))
         .collect();
     manifest::write(paths, all, &measured)
+}
+
+/// Compares what the paper's scheme gave with the accurate runs and the published curves, wherever both are there.
+fn tell_distances(paths: &Paths, all: &[Figure], as_json: bool) -> Result<(), Failure> {
+    let distances = distance::of(paths, all)?;
+    if distances.is_empty() {
+        eprintln!("cargo xtask figures makes the tables that tell how far these are from the accurate ones");
+        return Ok(());
+    }
+    disk::write_if_changed(&paths.distances(), distance::to_csv(&distances).as_bytes())?;
+    if as_json { Ok(()) } else { print::out(&distance::to_text(&distances)) }
 }
 
 fn checks_are_stored(paths: &Paths, survey: &Survey<'_>) -> bool {
