@@ -1,7 +1,8 @@
 //! What the figures' binaries share: the command line and where tables and pictures go ([`job`]), panels that several
-//! figures draw ([`panels`]), exit codes ([`failure`]); and the two programs for scenes of one's own ([`simulate`],
-//! [`map`]); the tables of the hard cases ([`hard`]).
+//! figures draw ([`panels`]), exit codes ([`failure`]); and the two programs for scenes of one's own ([`simulate`] with
+//! [`checkpoint`], [`map`]); the tables of the hard cases ([`hard`]).
 
+pub mod checkpoint;
 pub mod failure;
 pub mod hard;
 pub mod job;

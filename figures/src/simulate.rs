@@ -1,8 +1,8 @@
 //! Running a scene from the command line: tables, events and a summary.
 
+use crate::checkpoint::{Care, Ended};
 use crate::failure::{Failure, print};
 use crate::panels::{points, trajectories};
-use cpu_time::ProcessTime;
 use files::recipe::{self, Kind};
 use files::table::Table;
 use files::write::atomic_all;
@@ -11,7 +11,7 @@ use plot::style::COLUMN_WIDTH;
 use plot::{Axis, ColorScale, Legend, Lines, Picture, Series, SpaceTime};
 use scene::Overrides;
 use scene::run::Scene;
-use scene::simulation::{Outcome, run};
+use scene::simulation::Outcome;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -56,6 +56,9 @@ pub struct Arguments {
     /// The independent run that estimates the error: another method at a tighter tolerance
     #[arg(long, conflicts_with_all = ["method", "tol", "dt"])]
     check: bool,
+    /// Progress and checkpoints.
+    #[command(flatten)]
+    care: Care,
     /// Print the summary as JSON
     #[arg(long)]
     json: bool,
@@ -67,10 +70,9 @@ pub struct Arguments {
 /// A bad scene or option (nothing is written), a failed integration, a file that cannot be written.
 pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     let scene = read_scene(arguments)?;
-    let clock = ProcessTime::now();
-    let outcome = run(&scene).map_err(Failure::work)?;
-    let seconds = clock.elapsed().as_secs_f64();
-    let summary = summary(&scene, &outcome, seconds);
+    let ended = arguments.care.run(&scene)?;
+    let summary = summary(&scene, &ended);
+    let Ended { outcome, seconds, .. } = ended;
     let mut files = Vec::new();
     if let Some(folder) = &arguments.out {
         files.extend(tables(folder, &scene, &outcome));
@@ -82,6 +84,7 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     }
     files.extend(arguments.state.iter().map(|file| (file.clone(), state(&outcome).to_csv())));
     atomic_all(&files)?;
+    arguments.care.remove()?;
     let words = if arguments.json { summary.to_string() } else { in_words(&scene, &outcome, seconds) };
     print(&words)
 }
@@ -176,7 +179,8 @@ fn pretty(summary: &Value) -> String {
     format!("{summary:#}\n")
 }
 
-fn summary(scene: &Scene, outcome: &Outcome, seconds: f64) -> Value {
+fn summary(scene: &Scene, ended: &Ended) -> Value {
+    let Ended { outcome, seconds, resumed_steps } = ended;
     let control = match scene.control {
         Control::Fixed { step } => json!({ "dt": step }),
         Control::Adaptive { tolerance } => json!({ "tolerance": tolerance }),
@@ -203,6 +207,7 @@ fn summary(scene: &Scene, outcome: &Outcome, seconds: f64) -> Value {
         "method": scene.method.name(),
         "control": control,
         "steps": outcome.statistics.steps,
+        "resumed_steps": resumed_steps,
         "rejected": outcome.statistics.rejected,
         "right_hand_sides": outcome.statistics.evaluations,
         "seconds": seconds,

@@ -2,7 +2,8 @@
 //! is started by. Every call is noted in `calls.log` in the current folder.
 //!
 //! A scene whose title begins with `exit N` makes its figure end with that code. In the current folder, `full` names
-//! programs that end with code 4 after half their work, `report.json` is what figures without runs report.
+//! programs that end with code 4 after half their work (`killed`: a run that leaves its checkpoint), `report.json` is
+//! what figures without runs report.
 
 use std::env;
 use std::fs;
@@ -27,12 +28,18 @@ fn note(name: &str, arguments: &[String]) -> io::Result<()> {
     let panel = value(arguments, "--panel").unwrap_or_default();
     let check = if arguments.iter().any(|argument| argument == "--check") { " check" } else { "" };
     let scheme = if arguments.iter().any(|argument| argument == "--scheme") { " scheme" } else { "" };
-    log.write_all(format!("{name} {panel}{check}{scheme}\n").as_bytes())
+    let resumed = if checkpoint(arguments).exists() { " resumed" } else { "" };
+    log.write_all(format!("{name} {panel}{check}{scheme}{resumed}\n").as_bytes())
 }
 
 fn value(arguments: &[String], option: &str) -> Option<String> {
     let at = arguments.iter().position(|argument| argument == option)?;
     arguments.get(at + 1).cloned()
+}
+
+/// The file given by `--checkpoint`; without one a name that no file has.
+fn checkpoint(arguments: &[String]) -> PathBuf {
+    value(arguments, "--checkpoint").map_or_else(|| "no checkpoint".into(), PathBuf::from)
 }
 
 /// "Builds" every binary: a link to this one. A source that says so does not build.
@@ -69,6 +76,14 @@ fn simulate(arguments: &[String]) -> io::Result<()> {
     let rows: Vec<String> = (0..5000).map(|t| format!("{t},{:?}\n", f64::from(t % 3) + shift)).collect();
     let name = if shift > 0.0 { "check" } else { "simulate" };
     fill_disk(name, &out.join("half.csv"))?;
+    let checkpoint = checkpoint(arguments);
+    if checkpoint.exists() {
+        eprintln!("resumed 0.5000");
+        fs::remove_file(&checkpoint)?;
+    } else if name == "simulate" {
+        eprintln!("progress 0.5000");
+        fill_disk("killed", &checkpoint)?;
+    }
     fs::write(out.join("std.csv"), format!("t,std\n{}", rows.concat()))?;
     fs::write(out.join("events.csv"), format!("event,t,n\noverlap,{:?},7\n", 12.5 + shift))?;
     let tolerance = if shift > 0.0 { 1e-13 } else { 1e-11 };

@@ -3,7 +3,7 @@
 use crate::disk;
 use crate::failure::Failure;
 use std::fs::File;
-use std::io::ErrorKind;
+use std::io::{BufRead, BufReader, ErrorKind, Read, Write};
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -13,21 +13,53 @@ use std::time::Duration;
 /// How often a waiting thread looks whether its program has ended.
 const PATIENCE: Duration = Duration::from_millis(3);
 
-/// Runs a program with its words in the file `log`; kills it when `stop` becomes true.
+/// What a program says on stderr of the part of its work that is done, 0 to 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Word {
+    /// It goes on where another one was killed: `resumed 0.40`.
+    Resumed(f64),
+    /// It has come so far: `progress 0.42`.
+    Progress(f64),
+}
+
+impl Word {
+    /// Reads a line; `None` when it is about something else.
+    pub fn parse(line: &str) -> Option<Word> {
+        let (word, number) = line.split_once(' ')?;
+        let fraction = number.parse().ok()?;
+        match word {
+            "resumed" => Some(Word::Resumed(fraction)),
+            "progress" => Some(Word::Progress(fraction)),
+            _ => None,
+        }
+    }
+}
+
+/// Runs a program with its words in the file `log`, except those about progress, which go to `heard`; kills it when
+/// `stop` becomes true.
 ///
 /// # Errors
 /// The program is missing (5), cannot be started (4), or ends badly: its own code when that is 2 or 5, else 4, with
 /// what it printed.
-pub fn run_logged(mut command: Command, log: &Path, stop: &AtomicBool) -> Result<(), Failure> {
+pub fn run_logged(
+    mut command: Command,
+    log: &Path,
+    stop: &AtomicBool,
+    heard: &(dyn Fn(Word) + Sync),
+) -> Result<(), Failure> {
     let name = command.get_program().to_string_lossy().into_owned();
     if let Some(folder) = log.parent() {
         disk::create_folder(folder)?;
     }
     let file = File::create(log).map_err(Failure::at(log))?;
     let twin = file.try_clone().map_err(Failure::at(log))?;
-    let child = command.stdin(Stdio::null()).stdout(file).stderr(twin).spawn();
+    let child = command.stdin(Stdio::null()).stdout(file).stderr(Stdio::piped()).spawn();
     let mut child = child.map_err(|error| not_started(&name, &error))?;
-    let status = wait(&mut child, stop).map_err(|error| Failure::Failed(format!("{name}: {error}")))?;
+    let words = child.stderr.take();
+    let status = thread::scope(|scope| {
+        scope.spawn(|| words.map(|words| listen(words, twin, heard)));
+        wait(&mut child, stop).map_err(|error| Failure::Failed(format!("{name}: {error}")))
+    })?;
     if status.success() {
         return Ok(());
     }
@@ -59,6 +91,19 @@ pub fn first_line(program: &str, arguments: &[&str]) -> Option<String> {
     let output = Command::new(program).args(arguments).stdin(Stdio::null()).output().ok()?;
     let text = String::from_utf8_lossy(&output.stdout).lines().next().unwrap_or("").trim().to_owned();
     output.status.success().then_some(text)
+}
+
+/// Passes lines on to the log until the program closes its stderr.
+fn listen(words: impl Read, mut log: File, heard: &(dyn Fn(Word) + Sync)) {
+    for line in BufReader::new(words).split(b'\n').map_while(Result::ok) {
+        match Word::parse(&String::from_utf8_lossy(&line)) {
+            Some(word) => heard(word),
+            None => {
+                // a log that cannot be written keeps no figure from being made
+                let _ = log.write_all(&[&line[..], b"\n"].concat());
+            }
+        }
+    }
 }
 
 fn wait(child: &mut Child, stop: &AtomicBool) -> std::io::Result<ExitStatus> {

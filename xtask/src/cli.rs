@@ -32,6 +32,8 @@ pub enum Verb {
     List(ListArgs),
     /// Accept new sums after showing what changes
     Bless(BlessArgs),
+    /// Measure seconds and instructions of the laws, of steps and of whole runs; against another commit, their ratios
+    Bench(BenchArgs),
     /// Run a scene: cargo xtask simulate SCENE.toml [options]; --help shows the options
     #[command(disable_help_flag = true)]
     Simulate(ForwardArgs),
@@ -91,10 +93,10 @@ pub struct FiguresArgs {
     /// The scene's own method, or the paper's word for word (tables and pictures in a folder of their own)
     #[arg(long, value_enum, default_value_t)]
     pub scheme: Scheme,
-    /// Do everything again
+    /// Do everything again, from the start: runs that were killed do not go on
     #[arg(long)]
     pub force: bool,
-    /// Show the plan and run nothing
+    /// Show the plan and how long it takes, and run nothing
     #[arg(long)]
     pub dry_run: bool,
     /// Print JSON
@@ -163,6 +165,32 @@ pub struct BlessArgs {
     /// Accept figures whose numbers moved
     #[arg(long)]
     pub numbers: bool,
+}
+
+/// Options of `bench`.
+#[derive(Debug, Args)]
+pub struct BenchArgs {
+    /// Only benchmarks whose names contain one of these: heun, run/fig11
+    pub names: Vec<String>,
+    /// Another commit, measured in turn with this tree; ends with code 1 when this tree is slower
+    #[arg(long, value_name = "COMMIT")]
+    pub against: Option<String>,
+    /// How much slower counts: the whole interval of the ratio of seconds above it, or the ratio of instructions
+    #[arg(long, value_name = "PERCENT", default_value = "5%", value_parser = percent)]
+    pub fail_above: f64,
+    /// Samples of each benchmark; intervals need 6
+    #[arg(long, value_name = "N", default_value_t = 15, value_parser = clap::value_parser!(u16).range(1..))]
+    pub rounds: u16,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `5%` or `5` as 0.05.
+fn percent(text: &str) -> Result<f64, String> {
+    let number: Option<f64> = text.strip_suffix('%').unwrap_or(text).parse().ok();
+    let fraction = number.filter(|number| number.is_finite() && *number >= 0.0).map(|number| number / 100.0);
+    fraction.ok_or_else(|| format!("{text}: must be a percentage such as 5%"))
 }
 
 /// Arguments that another program reads.

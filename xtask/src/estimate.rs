@@ -63,37 +63,56 @@ impl Estimate {
 /// The largest absolute difference of each column that both tables have and that names no row, over the rows with equal
 /// [`KEYS`] (NaN when a difference is none, or no rows are equal); and the number of rows without a partner. Both tables are sorted by their keys.
 pub fn differences(run: &Table, check: &Table) -> (BTreeMap<String, f64>, usize) {
-    let index = |table: &Table, name: &str| table.columns.iter().position(|column| column == name);
-    let pair = |name: &str| Some((index(run, name)?, index(check, name)?));
-    let keys: Vec<(usize, usize)> = KEYS.iter().filter_map(|name| pair(name)).collect();
-    let values = run.columns.iter().filter(|name| !KEYS.contains(&name.as_str()));
-    let columns: Vec<(&String, (usize, usize))> = values.filter_map(|name| Some((name, pair(name)?))).collect();
+    let columns = common_values(run, check);
     let mut largest = vec![0.0_f64; columns.len()];
-    let (mut unmatched, mut matched) = (0, run.is_empty() && check.is_empty());
-    let (mut left, mut right) = (run.rows().peekable(), check.rows().peekable());
-    while let (Some(&mine), Some(&theirs)) = (left.peek(), right.peek()) {
-        let order = keys.iter().map(|&(a, b)| mine[a].total_cmp(&theirs[b])).find(|order| order.is_ne());
-        match order.unwrap_or(Ordering::Equal) {
-            Ordering::Less => drop(left.next()),
-            Ordering::Greater => drop(right.next()),
-            Ordering::Equal => {
-                for (largest, &(_, (a, b))) in largest.iter_mut().zip(&columns) {
-                    let difference = (mine[a] - theirs[b]).abs();
-                    *largest = if largest.is_nan() || difference <= *largest { *largest } else { difference };
-                }
-                matched = true;
-                left.next();
-                right.next();
-                continue;
-            }
+    let (rows, unmatched) = matched(run, check);
+    for (mine, theirs) in &rows {
+        for (largest, &(_, (a, b))) in largest.iter_mut().zip(&columns) {
+            let difference = (mine[a] - theirs[b]).abs();
+            *largest = if largest.is_nan() || difference <= *largest { *largest } else { difference };
         }
-        unmatched += 1;
     }
-    unmatched += left.count() + right.count();
-    if !matched {
+    if rows.is_empty() && !(run.is_empty() && check.is_empty()) {
         largest.fill(f64::NAN);
     }
     (columns.into_iter().zip(largest).map(|((name, _), largest)| (name.clone(), largest)).collect(), unmatched)
+}
+
+/// The place of a column in each of two tables, if both have it.
+fn places(one: &Table, other: &Table, name: &str) -> Option<(usize, usize)> {
+    let index = |table: &Table| table.columns.iter().position(|column| column == name);
+    Some((index(one)?, index(other)?))
+}
+
+/// The columns that both tables have and that name no row, each with its places.
+pub fn common_values<'a>(one: &'a Table, other: &Table) -> Vec<(&'a String, (usize, usize))> {
+    let values = one.columns.iter().filter(|name| !KEYS.contains(&name.as_str()));
+    values.filter_map(|name| Some((name, places(one, other, name)?))).collect()
+}
+
+/// Pairs of rows, one of each table.
+pub type RowPairs<'a> = Vec<(&'a [f64], &'a [f64])>;
+
+/// The rows with equal [`KEYS`], in pairs, and the number of rows without a partner. Both tables are sorted by their keys.
+pub fn matched<'a>(one: &'a Table, other: &'a Table) -> (RowPairs<'a>, usize) {
+    let keys: Vec<(usize, usize)> = KEYS.iter().filter_map(|name| places(one, other, name)).collect();
+    let (mut pairs, mut unmatched) = (Vec::new(), 0);
+    let (mut left, mut right) = (one.rows().peekable(), other.rows().peekable());
+    while let (Some(&mine), Some(&theirs)) = (left.peek(), right.peek()) {
+        let order = keys.iter().map(|&(a, b)| mine[a].total_cmp(&theirs[b])).find(|order| order.is_ne());
+        let order = order.unwrap_or(Ordering::Equal);
+        match order {
+            Ordering::Equal => pairs.push((mine, theirs)),
+            Ordering::Less | Ordering::Greater => unmatched += 1,
+        }
+        if order.is_le() {
+            left.next();
+        }
+        if order.is_ge() {
+            right.next();
+        }
+    }
+    (pairs, unmatched + left.count() + right.count())
 }
 
 /// Reads a table that a program of ours has written.

@@ -3,10 +3,12 @@
 //! It links no physics. `verbs` holds one file for each verb of the command line; the modules beside it are what the
 //! verbs share. Data flows `figure -> sources -> freshness -> plan -> pool -> outputs -> sums, manifest`.
 
+pub mod benchmarks;
 pub mod child;
 pub mod cli;
 pub mod compile;
 pub mod disk;
+pub mod distance;
 pub mod estimate;
 pub mod events;
 pub mod failure;
@@ -17,10 +19,12 @@ pub mod lock;
 pub mod manifest;
 pub mod numbers;
 pub mod outputs;
+pub mod pairs;
 pub mod paths;
 pub mod plan;
 pub mod pool;
 pub mod print;
+pub mod progress;
 pub mod record;
 pub mod sources;
 pub mod store;

@@ -65,6 +65,8 @@ pub const OPEN_ALL: &str = "open README.md for the table of figures, figures/*/f
 pub const SPOT_CHECK: &str = "checks/spot.py";
 /// Checks that need more than Rust: other processors.
 pub const OTHER_MACHINES: &str = "checks/other-machines.sh";
+/// What is measured by `bench`.
+pub const COST_SOURCE: &str = "crates/jam/examples/cost.rs";
 /// The list of sums inside a stored run.
 pub const STORE_SUMS: &str = "SHA256SUMS";
 /// The events of a stored run.
@@ -194,6 +196,16 @@ impl Paths {
         }
     }
 
+    /// How far the paper's scheme is from the accurate runs and from the published curves.
+    pub fn distances(&self) -> PathBuf {
+        self.with_scheme(Scheme::Paper).scheme_data().join("distance.csv")
+    }
+
+    /// A table of values from outside.
+    pub fn reference(&self, name: &str) -> PathBuf {
+        self.root.join("data/reference").join(format!("{name}.csv"))
+    }
+
     /// The committed samples of a figure's tables, by name.
     pub fn golden(id: &str) -> String {
         format!("data/golden/{id}")
@@ -217,6 +229,22 @@ impl Paths {
     /// The folder of stored runs.
     pub fn store(&self) -> PathBuf {
         if self.base == self.root { self.target.join("store") } else { self.base.join("store") }
+    }
+
+    /// From where a run that was killed goes on.
+    pub fn checkpoint(&self, key: &str) -> PathBuf {
+        self.store().join(format!("{key}.checkpoint"))
+    }
+
+    /// Where programs to be measured are built and lie.
+    pub fn bench(&self) -> PathBuf {
+        self.target.join("bench")
+    }
+
+    /// What was measured of a commit, alone or against another one.
+    pub fn bench_archive(&self, commit: &str, against: Option<&str>) -> PathBuf {
+        let against = against.map_or(String::new(), |against| format!("-against-{against}"));
+        self.root.join("data/timing/bench").join(format!("{commit}{against}.json"))
     }
 
     /// The runner's own folder.

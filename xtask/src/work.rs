@@ -1,6 +1,6 @@
 //! Carrying out a plan: programs are started, their outputs put in place, progress goes to stderr.
 
-use crate::child;
+use crate::child::{self, Word};
 use crate::disk;
 use crate::failure::Failure;
 use crate::figure::Figure;
@@ -8,6 +8,7 @@ use crate::outputs::{self, Hashes};
 use crate::paths::{Paths, Scheme};
 use crate::plan::{Node, Step};
 use crate::pool::{self, Job, Outcome};
+use crate::progress::Board;
 use crate::record::Survey;
 use crate::store;
 use std::collections::{BTreeMap, BTreeSet};
@@ -22,6 +23,8 @@ use std::time::Instant;
 pub struct Made {
     /// Seconds of the wall clock.
     pub seconds: f64,
+    /// Whether a part of it was made before, by a run that was killed: the seconds are those of the rest.
+    pub resumed: bool,
     /// For a figure, the hashes of its outputs.
     pub outputs: Hashes,
 }
@@ -40,11 +43,15 @@ pub fn carry_out(
     made: &mut dyn FnMut(&Node, &Made) -> Result<(), Failure>,
 ) -> Result<Vec<Outcome<Made>>, Failure> {
     let jobs: Vec<Job> = nodes.iter().map(|node| node.job.clone()).collect();
+    let board = Board::new();
     let work = |index: usize, stop: &AtomicBool| {
         // seconds are shown, and kept below target; they reach no output
         let start = Instant::now();
-        let outputs = perform(paths, surveys, &nodes[index], stop)?;
-        Ok(Made { seconds: start.elapsed().as_secs_f64(), outputs })
+        let node = &nodes[index];
+        board.start(&node.name);
+        let outputs = perform(paths, surveys, node, stop, &|word| board.hear(&node.name, word));
+        let resumed = board.end(&node.name);
+        Ok(Made { seconds: start.elapsed().as_secs_f64(), resumed, outputs: outputs? })
     };
     let (mut count, mut trouble) = (0, Ok(()));
     let mut ended = |index: usize, outcome: &Outcome<Made>| {
@@ -52,13 +59,15 @@ pub fn carry_out(
         count += 1;
         match outcome {
             Outcome::Done(result) => {
-                eprintln!("{count:>3}/{}  {:<38} {:>8.2} s", nodes.len(), node.name, result.seconds);
+                let rest = if result.resumed { ", the rest of a run that was killed" } else { "" };
+                let (all, name, seconds) = (nodes.len(), &node.name, result.seconds);
+                board.line(&format!("{count:>3}/{all}  {name:<38} {seconds:>8.2} s{rest}"));
                 if trouble.is_ok() {
                     trouble = made(node, result);
                 }
             }
             Outcome::Failed(failure) => {
-                eprintln!("{count:>3}/{}  {:<38}   FAILED\n{}", nodes.len(), node.name, failure.text());
+                board.line(&format!("{count:>3}/{}  {:<38}   FAILED\n{}", nodes.len(), node.name, failure.text()));
             }
             Outcome::Skipped => {}
         }
@@ -67,14 +76,23 @@ pub fn carry_out(
     trouble.map(|()| outcomes)
 }
 
-fn perform(paths: &Paths, surveys: &[Survey<'_>], node: &Node, stop: &AtomicBool) -> Result<Hashes, Failure> {
+fn perform(
+    paths: &Paths,
+    surveys: &[Survey<'_>],
+    node: &Node,
+    stop: &AtomicBool,
+    heard: &(dyn Fn(Word) + Sync),
+) -> Result<Hashes, Failure> {
     let log = paths.log(&node.name);
     match &node.step {
         Step::Simulate { scene, panel, key, check } => {
+            let mut command = simulate(paths, scene, panel, *check);
+            command.arg("--checkpoint").arg(paths.checkpoint(key));
             let fresh = store::fresh(paths, key);
+            command.arg("--out").arg(&fresh);
             disk::remove(&fresh)?;
             let stored = disk::create_folder(&fresh)
-                .and_then(|()| child::run_logged(simulate(paths, scene, panel, &fresh, *check), &log, stop))
+                .and_then(|()| child::run_logged(command, &log, stop, heard))
                 .and_then(|()| store::adopt(&fresh, &store::folder(paths, key)));
             stored.map(|()| Hashes::new()).inspect_err(|_| discard(&fresh))
         }
@@ -92,9 +110,9 @@ fn discard(fresh: &Path) {
     let _ = disk::remove(fresh);
 }
 
-fn simulate(paths: &Paths, scene: &str, panel: &str, out: &Path, check: bool) -> Command {
+fn simulate(paths: &Paths, scene: &str, panel: &str, check: bool) -> Command {
     let mut command = Command::new(paths.binary("simulate"));
-    command.current_dir(&paths.root).arg(scene).args(["--panel", panel, "--tables-only", "--out"]).arg(out);
+    command.current_dir(&paths.root).arg(scene).args(["--panel", panel, "--tables-only", "--progress"]);
     if check {
         command.arg("--check");
     }
@@ -125,7 +143,7 @@ fn draw(paths: &Paths, survey: &Survey<'_>, fresh: &Path, log: &Path, stop: &Ato
         run.push(store::folder(paths, key));
         command.arg("--run").arg(run);
     }
-    child::run_logged(command, log, stop)?;
+    child::run_logged(command, log, stop, &|_| {})?;
     put_in_place(paths, survey, fresh)
 }
 
@@ -150,6 +168,17 @@ fn put_in_place(paths: &Paths, survey: &Survey<'_>, fresh: &Path) -> Result<Hash
 /// A folder cannot be read or removed.
 pub fn sweep(paths: &Paths, all: &[Figure]) -> Result<(), Failure> {
     leftovers(paths, all)?.iter().try_for_each(|path| disk::remove(path))
+}
+
+/// Removes the checkpoints of the nodes, so that they begin anew.
+///
+/// # Errors
+/// One cannot be removed.
+pub fn forget(paths: &Paths, nodes: &[Node]) -> Result<(), Failure> {
+    nodes.iter().try_for_each(|node| match &node.step {
+        Step::Simulate { key, .. } => disk::remove(&paths.checkpoint(key)),
+        Step::Draw { .. } => Ok(()),
+    })
 }
 
 /// Temporary files and folders in the store, among the data of both schemes, and beside the pictures.

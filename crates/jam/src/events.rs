@@ -136,6 +136,11 @@ impl<'a> Watch<'a> {
         self.seen = None;
     }
 
+    /// Goes on where a watch stood that had found these.
+    pub fn resume(&mut self, found: Vec<Happening>) {
+        self.found = found;
+    }
+
     /// The speeds at the end of the step looked at last.
     pub fn speeds(&self) -> &[f64] {
         &self.after.speeds

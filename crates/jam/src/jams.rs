@@ -55,11 +55,14 @@ pub fn find(positions: &[f64], speeds: &[f64], length: f64, threshold: f64) -> V
 }
 
 /// How far jams travel on the average, followed from snapshot to snapshot as long as their number stays the same.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drift {
-    before: Vec<Jam>,
-    distance: f64,
-    time: f64,
+    /// The jams of the last snapshot.
+    pub before: Vec<Jam>,
+    /// How far they have travelled since their number changed, on the average.
+    pub distance: f64,
+    /// The time this took.
+    pub time: f64,
 }
 
 impl Drift {

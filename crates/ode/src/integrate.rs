@@ -5,7 +5,7 @@ use crate::control::{Control, Controller, Norm};
 use crate::dense::{Ends, SAME, Step, Stepper, Trial};
 use crate::extrapolation::Extrapolation;
 use crate::methods::Method;
-use crate::observe::Observer;
+use crate::observe::{Mark, Observer, Place};
 use crate::runge_kutta::RungeKutta;
 use crate::system::{Burst, System};
 use crate::taylor::Taylor;
@@ -63,6 +63,8 @@ pub enum Failure {
     NoSeries,
     /// The method has no error estimate and cannot choose its steps.
     NoErrorEstimate(Method),
+    /// Only steps of fixed length are resumed from a mark.
+    NotResumable,
 }
 
 impl std::fmt::Display for Failure {
@@ -91,6 +93,7 @@ impl std::fmt::Display for Failure {
                 let name = method.name();
                 write!(f, "{name} has no error estimate: give it a step, or choose one of {}", names.join(", "))
             }
+            Failure::NotResumable => write!(f, "only steps of fixed length can be resumed"),
         }
     }
 }
@@ -107,18 +110,26 @@ pub fn integrate(problem: &Problem<'_>, observer: &mut dyn Observer) -> Result<S
     }
     let mut run = Run::new(problem);
     let made = match problem.control {
-        Control::Fixed { step } => run.fixed(problem, step, observer),
+        Control::Fixed { step } => run.fixed(problem, step, Place::default(), observer),
         Control::Adaptive { .. } if !problem.method.is_adaptive() => {
             return Err(Failure::NoErrorEstimate(problem.method));
         }
         Control::Adaptive { tolerance } => run.adaptive(problem, tolerance, observer),
     };
-    if let Err(failure) = made {
-        observer.stuck(&run.state);
-        return Err(failure);
-    }
-    run.statistics.state = run.state;
-    Ok(run.statistics)
+    run.end(made, observer)
+}
+
+/// Goes on from a mark of the same problem to the same bits, counts included, as the run that showed it: for steps of
+/// fixed length, whose methods look back no further than the step itself. The observer must be as it was then.
+///
+/// # Errors
+/// [`Failure::NotResumable`] for adaptive steps; else as [`integrate`].
+pub fn resume(problem: &Problem<'_>, mark: &Mark<'_>, observer: &mut dyn Observer) -> Result<Statistics, Failure> {
+    let Control::Fixed { step } = problem.control else { return Err(Failure::NotResumable) };
+    let mut run = Run::new(&Problem { start: mark.state, ..*problem });
+    run.statistics = mark.statistics.clone();
+    let made = run.fixed(problem, step, mark.place, observer);
+    run.end(made, observer)
 }
 
 /// An integration under way.
@@ -160,13 +171,34 @@ impl<'a> Run<'a> {
         }
     }
 
+    /// What it took; or why it ended early, after the observer has seen the last state.
+    fn end(mut self, made: Result<(), Failure>, observer: &mut dyn Observer) -> Result<Statistics, Failure> {
+        if made.is_err() {
+            observer.stuck(&self.state);
+        }
+        self.statistics.state = self.state;
+        made.map(|()| self.statistics)
+    }
+
     /// Step `k` runs from `begin + k h` to `begin + (k + 1) h`: the time is a product, so that it gathers no rounding.
-    fn fixed(&mut self, problem: &Problem<'_>, h: f64, observer: &mut dyn Observer) -> Result<(), Failure> {
+    fn fixed(
+        &mut self,
+        problem: &Problem<'_>,
+        h: f64,
+        from: Place,
+        observer: &mut dyn Observer,
+    ) -> Result<(), Failure> {
         let count = (problem.end - problem.begin) / h;
         let is_multiple = (count - count.round()).abs() < SAME * count;
         let whole = if is_multiple { count.round() } else { count.ceil() } as u64;
-        let (mut k, mut slow_until) = (0, 0);
+        let Place { step: mut k, mut slow_until } = from;
+        let mut next_mark = k + LONGEST_BURST;
         while k < whole {
+            if k >= next_mark {
+                let place = Place { step: k, slow_until };
+                observer.between(&Mark { place, statistics: &self.statistics, state: &self.state });
+                next_mark = k + LONGEST_BURST;
+            }
             if problem.method == Method::Heun && k >= slow_until {
                 let sample = ((observer.next_sample() - problem.begin) / h) as u64;
                 let count = sample.min(whole).saturating_sub(k + 1).min(LONGEST_BURST);
@@ -301,7 +333,7 @@ impl<'a> Run<'a> {
     }
 }
 
-/// Steps of a burst: enough to make its start cheap, few enough to make again one by one.
+/// Steps of a burst: enough to make its start cheap, few enough to make again one by one. Marks are no closer.
 const LONGEST_BURST: u64 = 4096;
 
 /// Shorter steps are taken for a sign that the tolerance cannot be met. The equations do not know the time and its sum

@@ -19,7 +19,7 @@ mod vector;
 
 pub use control::Control;
 pub use dense::Step;
-pub use integrate::{Failure, Problem, Statistics, integrate};
+pub use integrate::{Failure, Problem, Statistics, integrate, resume};
 pub use methods::Method;
-pub use observe::{Observer, Sampler, first_crossing};
+pub use observe::{Mark, Observer, Place, Sampler, first_crossing};
 pub use system::{Burst, Group, Measure, System};

@@ -1,6 +1,7 @@
 //! Looking at a solution while it is made: samples at regular times, the first crossing of zero.
 
 use crate::dense::{SAME, Step};
+use crate::integrate::Statistics;
 use std::ops::ControlFlow;
 
 /// Sees every accepted step.
@@ -16,6 +17,29 @@ pub trait Observer {
 
     /// Sees the last state that was reached when no step leads on from it, before the failure is returned.
     fn stuck(&mut self, _state: &[f64]) {}
+
+    /// Looks at a place between two steps of fixed length, every few thousand of them, from which the run can be resumed.
+    fn between(&mut self, _mark: &Mark<'_>) {}
+}
+
+/// Where an integration by steps of fixed length is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Place {
+    /// The number of the next step, from 0.
+    pub step: u64,
+    /// The step up to which steps are made one by one, because something happened in a burst of them.
+    pub slow_until: u64,
+}
+
+/// All that an integration by steps of fixed length has to know to go on, the rates being those of the state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mark<'a> {
+    /// Between which steps.
+    pub place: Place,
+    /// The counts so far, and the end of the last step that was shown. Its own state is of no meaning.
+    pub statistics: &'a Statistics,
+    /// The state there.
+    pub state: &'a [f64],
 }
 
 impl<F: FnMut(&mut Step<'_>) -> ControlFlow<()>> Observer for F {
@@ -36,6 +60,11 @@ impl Sampler {
     /// Samples every `interval` (> 0), the first after time 0, of a system of `dimension` components.
     pub fn new(interval: f64, dimension: usize) -> Sampler {
         Sampler { interval, next: 1, state: vec![0.0; dimension] }
+    }
+
+    /// Goes on where a sampler stood whose next sample is at `next` intervals.
+    pub fn resume(&mut self, next: u64) {
+        self.next = next;
     }
 
     /// Goes on with a system of another number of components.

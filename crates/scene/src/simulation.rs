@@ -1,11 +1,12 @@
 //! Running a scene: the tables of its standard deviation and trajectories, its events, its statistics.
 
+use crate::checkpoint::{Checkpoint, Underway};
 use crate::run::Scene;
 use files::table::Table;
 use jam::events::{Event, Happening, Watch};
 use jam::jams;
 use jam::states::{Form, FormKind, gaps_state};
-use ode::{Control, Observer, Problem, Sampler, Statistics, Step, integrate};
+use ode::{Control, Mark, Observer, Problem, Sampler, Statistics, Step, integrate, resume};
 use std::ops::ControlFlow;
 
 /// What a run gives.
@@ -73,12 +74,30 @@ impl std::error::Error for Broken {}
 /// # Errors
 /// The integration failed before anything stopped it, with the time it reached.
 pub fn run(scene: &Scene) -> Result<Outcome, Broken> {
+    run_from(scene, None, &mut |_| {})
+}
+
+/// As [`run`], from a checkpoint of the same scene to the same bits. `keep` is shown the run every few thousand steps,
+/// where these are of fixed length; a run by adaptive steps takes seconds and is not shown.
+///
+/// # Errors
+/// As [`run`]; or a checkpoint for a scene by adaptive steps.
+pub fn run_from(
+    scene: &Scene,
+    from: Option<Checkpoint>,
+    keep: &mut dyn FnMut(&Underway<'_>),
+) -> Result<Outcome, Broken> {
     let form = scene.form.build(&scene.model, scene.ring);
     let near_walls = FormKind::Gaps.build(&scene.model, scene.ring);
-    let mut recorder = Recorder::new(scene, &*form);
-    let start = form.start(scene.start);
-    recorder.record.take(0.0, &start);
-    let mut statistics = recorder.leg(&*form, 0.0, &start)?;
+    let mut recorder = Recorder::new(scene, &*form, keep);
+    let mut statistics = match from {
+        Some(checkpoint) => recorder.resume(&*form, checkpoint)?,
+        None => {
+            let start = form.start(scene.start);
+            recorder.record.take(0.0, &start);
+            recorder.leg(&*form, 0.0, &start)?
+        }
+    };
     let mut last: &dyn Form = &*form;
     let count = scene.ring.pedestrians;
     let (mut positions, mut gaps, mut speeds) = (vec![0.0; count], vec![0.0; count], vec![0.0; count]);
@@ -120,18 +139,20 @@ struct Recorder<'a> {
     sampler: Sampler,
     watch: Watch<'a>,
     record: Record<'a>,
+    keep: &'a mut dyn FnMut(&Underway<'_>),
     is_stopped: bool,
     is_near_walls: bool,
     narrowest: Option<Place>,
 }
 
 impl<'a> Recorder<'a> {
-    fn new(scene: &'a Scene, form: &'a dyn Form) -> Recorder<'a> {
+    fn new(scene: &'a Scene, form: &'a dyn Form, keep: &'a mut dyn FnMut(&Underway<'_>)) -> Recorder<'a> {
         Recorder {
             scene,
             sampler: Sampler::new(scene.sample, form.dimension()),
             watch: Watch::new(scene.model, form, scene.ring.pedestrians),
             record: Record::new(scene, form),
+            keep,
             is_stopped: false,
             is_near_walls: false,
             narrowest: None,
@@ -140,9 +161,28 @@ impl<'a> Recorder<'a> {
 
     /// Integrates from this time and state to the end of the run, or until an event or the walls break it off.
     fn leg(&mut self, form: &dyn Form, begin: f64, state: &[f64]) -> Result<Statistics, Broken> {
+        integrate(&self.problem(form, begin, state), self).map_err(|failure| self.broken(failure))
+    }
+
+    /// Goes on from a checkpoint as [`Recorder::leg`] would have.
+    fn resume(&mut self, form: &dyn Form, checkpoint: Checkpoint) -> Result<Statistics, Broken> {
+        let Checkpoint { place, statistics, state, found, std, trajectories, drift } = checkpoint;
+        // one sample for each multiple of the interval, from 0; none after a stop
+        self.sampler.resume(std.len() as u64);
+        self.is_stopped = found.iter().any(|happening| happening.event.is_stop());
+        self.watch.resume(found);
+        (self.record.std, self.record.trajectories, self.record.drift) = (std, trajectories, drift);
+        let mark = Mark { place, statistics: &statistics, state: &state };
+        resume(&self.problem(form, 0.0, &state), &mark, self).map_err(|failure| self.broken(failure))
+    }
+
+    fn broken(&self, failure: ode::Failure) -> Broken {
+        Broken { failure, narrowest: self.narrowest }
+    }
+
+    fn problem<'b>(&self, form: &'b dyn Form, begin: f64, start: &'b [f64]) -> Problem<'b> {
         let Scene { t_end: end, method, control, .. } = *self.scene;
-        integrate(&Problem { system: form, start: state, begin, end, method, control }, self)
-            .map_err(|failure| Broken { failure, narrowest: self.narrowest })
+        Problem { system: form, start, begin, end, method, control }
     }
 
     /// Goes on in another form of the same state.
@@ -197,6 +237,21 @@ impl Observer for Recorder<'_> {
         });
         self.narrowest = places.min_by(|a, b| a.room.total_cmp(&b.room));
     }
+
+    fn between(&mut self, mark: &Mark<'_>) {
+        let Record { std, trajectories, drift, .. } = &self.record;
+        (self.keep)(&Underway { scene: self.scene, mark, found: self.watch.found(), std, trajectories, drift });
+    }
+}
+
+/// The table of standard deviations, empty.
+pub(crate) fn std_table() -> Table {
+    Table::new(&["t", "std"])
+}
+
+/// The table of trajectories, empty.
+pub(crate) fn trajectories_table() -> Table {
+    Table::new(&["t", "n", "x", "v"])
 }
 
 /// The tables under way.
@@ -217,8 +272,8 @@ impl<'a> Record<'a> {
         Record {
             scene,
             form,
-            std: Table::new(&["t", "std"]),
-            trajectories: Table::new(&["t", "n", "x", "v"]),
+            std: std_table(),
+            trajectories: trajectories_table(),
             positions: zeros(),
             gaps: zeros(),
             speeds: zeros(),

@@ -2,6 +2,7 @@
 
 mod failures;
 mod hard;
+mod resume;
 mod sums;
 
 use std::path::{Path, PathBuf};

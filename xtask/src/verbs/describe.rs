@@ -22,7 +22,7 @@ const KEY_CRATES: [&str; 9] =
 /// The lock file cannot be read.
 pub fn run(paths: &Paths, arguments: &JsonArgs) -> Result<(), Failure> {
     let lock = disk::read_text(&paths.root.join(LOCK_FILE))?.unwrap_or_default();
-    let facts = [("processor", processor()), ("system", system()), ("rustc", rustc())];
+    let facts = facts();
     let (features, crates) = (features(), crate_versions(&lock));
     let processors = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     if arguments.json {
@@ -42,6 +42,11 @@ pub fn run(paths: &Paths, arguments: &JsonArgs) -> Result<(), Failure> {
     rows.push(print::row(&["profile", "release"]));
     rows.extend(crates.iter().map(|(name, version)| print::row(&[name, version])));
     print::out(&print::table(&rows))
+}
+
+/// What tells machines and toolchains apart.
+pub fn facts() -> [(&'static str, String); 3] {
+    [("processor", processor()), ("system", system()), ("rustc", rustc())]
 }
 
 /// The versions of [`KEY_CRATES`] in a lock file.

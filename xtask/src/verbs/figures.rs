@@ -4,6 +4,7 @@ use super::summary;
 use crate::cli::FiguresArgs;
 use crate::compile;
 use crate::disk;
+use crate::distance;
 use crate::estimate::Estimate;
 use crate::failure::Failure;
 use crate::figure::{self, Figure};
@@ -13,11 +14,13 @@ use crate::paths::{Paths, Scheme};
 use crate::plan::{self, Node, Step, Wish};
 use crate::pool::Outcome;
 use crate::print;
+use crate::progress::duration;
 use crate::record::{self, Record, Records, Survey};
 use crate::sources::Sources;
 use crate::store;
 use crate::work::{self, Ends, Made};
 use std::collections::BTreeMap;
+use std::fmt::{Display, Formatter};
 
 /// Seconds by the name of the node.
 pub type Times = BTreeMap<String, f64>;
@@ -44,6 +47,9 @@ pub fn run(paths: &Paths, arguments: &FiguresArgs) -> Result<(), Failure> {
     let mut surveys = record::survey(paths, &selected, &sources, &records)?;
     let wishes = wishes(paths, &surveys, &records, arguments);
     let nodes = plan::make(paths, &surveys, &wishes, arguments.force)?;
+    if arguments.force {
+        work::forget(paths, &nodes)?;
+    }
     let outcomes = make(paths, &surveys, &nodes, arguments, &mut records)?;
     if !nodes.is_empty() {
         surveys = record::survey(paths, &selected, &sources, &records)?;
@@ -55,6 +61,9 @@ pub fn run(paths: &Paths, arguments: &FiguresArgs) -> Result<(), Failure> {
     let report = summary::Report::new(paths, &surveys, &records, committed, &Ends::of(&nodes, &outcomes));
     let verdict = work::verdict(&nodes, &outcomes).and_then(|()| report.verdict(paths, whole));
     report.print(paths, arguments.json, whole, verdict.is_ok())?;
+    if paths.scheme == Scheme::Paper {
+        tell_distances(paths, &all, arguments.json)?;
+    }
     verdict
 }
 
@@ -95,7 +104,9 @@ fn make(
 ) -> Result<Vec<Outcome<Made>>, Failure> {
     let mut times = read_times(paths)?;
     let mut made = |node: &Node, made: &Made| {
-        times.insert(paths.times_name(&node.name), made.seconds);
+        if !made.resumed {
+            times.insert(paths.times_name(&node.name), made.seconds);
+        }
         if let Step::Draw { figure } = node.step {
             let survey = &surveys[figure];
             let record = Record::new(survey.inputs.clone(), made.outputs.clone());
@@ -147,6 +158,17 @@ fn measure(
     manifest::write(paths, all, &measured)
 }
 
+/// Compares what the paper's scheme gave with the accurate runs and the published curves, wherever both are there.
+fn tell_distances(paths: &Paths, all: &[Figure], as_json: bool) -> Result<(), Failure> {
+    let distances = distance::of(paths, all)?;
+    if distances.is_empty() {
+        eprintln!("cargo xtask figures makes the tables that tell how far these are from the accurate ones");
+        return Ok(());
+    }
+    disk::write_if_changed(&paths.distances(), distance::to_csv(&distances).as_bytes())?;
+    if as_json { Ok(()) } else { print::out(&distance::to_text(&distances)) }
+}
+
 fn checks_are_stored(paths: &Paths, survey: &Survey<'_>) -> bool {
     survey.runs.iter().all(|(_, key)| store::folder(paths, &store::check_key(key)).is_dir())
 }
@@ -159,20 +181,62 @@ fn dry_run(paths: &Paths, all: &[Figure], selected: &[&Figure], arguments: &Figu
     let build = compile::is_needed(paths, all, &sources)?;
     let states: Vec<(&str, &str)> =
         surveys.iter().map(|survey| (&*survey.figure.slug, reason(survey, arguments))).collect();
+    let times = read_times(paths)?;
+    let last = |node: &Node| times.get(&paths.times_name(&node.name)).copied();
+    let forecast = forecast(&nodes, arguments.effort.threads(), &last);
     if arguments.json {
         let steps: Vec<&str> = nodes.iter().map(|node| node.name.as_str()).collect();
         let figures: BTreeMap<&str, &str> = states.into_iter().collect();
-        return print::json(serde_json::json!({ "build": build, "figures": figures, "nodes": steps }));
+        let Forecast { seconds, unknown } = forecast;
+        return print::json(serde_json::json!({
+            "build": build, "figures": figures, "nodes": steps, "seconds": seconds, "nodes_without_time": unknown,
+        }));
     }
     let mut rows = vec![print::row(&["build", if build { compile::COMMAND } else { "fresh" }])];
     rows.extend(
         nodes
             .iter()
             .filter(|node| matches!(node.step, Step::Simulate { .. }))
-            .map(|node| print::row(&[&node.name, "to run"])),
+            .map(|node| print::row(&[&node.name, "to run", &last(node).map_or(String::new(), duration)])),
     );
     rows.extend(states.iter().map(|(slug, state)| print::row(&[slug, state])));
-    print::out(&print::table(&rows))
+    print::out(&format!("{}{forecast}\n", print::table(&rows)))
+}
+
+/// How long a plan will take.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Forecast {
+    /// Seconds, if the nodes take as long as the last time.
+    pub seconds: f64,
+    /// Nodes of which no time is known: they are not in the seconds.
+    pub unknown: usize,
+}
+
+/// The time that the nodes need on so many threads by the seconds of their last runs: that of the longest chain, but not
+/// below an even share for each thread.
+pub fn forecast(nodes: &[Node], threads: usize, last: &dyn Fn(&Node) -> Option<f64>) -> Forecast {
+    let seconds: Vec<f64> = nodes.iter().map(|node| last(node).unwrap_or(0.0)).collect();
+    // a node needs only earlier ones
+    let mut ends: Vec<f64> = Vec::new();
+    for (node, own) in nodes.iter().zip(&seconds) {
+        let before = node.job.after.iter().map(|&index| ends[index]).max_by(f64::total_cmp);
+        ends.push(before.unwrap_or(0.0) + own);
+    }
+    let chain = ends.into_iter().max_by(f64::total_cmp).unwrap_or(0.0);
+    let share = seconds.iter().sum::<f64>() / threads.max(1) as f64;
+    let unknown = nodes.iter().filter(|node| last(node).is_none()).count();
+    Forecast { seconds: if chain > share { chain } else { share }, unknown }
+}
+
+impl Display for Forecast {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        write!(f, "about {} as the last time", duration(self.seconds))?;
+        if self.unknown > 0 {
+            write!(f, "; {} nodes not counted, they were not timed yet", self.unknown)
+        } else {
+            Ok(())
+        }
+    }
 }
 
 fn reason<'a>(survey: &'a Survey<'_>, arguments: &FiguresArgs) -> &'a str {

@@ -1,11 +1,14 @@
 //! The runner's tests: its parts alone, then the whole of it on a small checkout with stand-ins for every program.
 
+mod bench;
 mod cli;
 mod data;
+mod distance;
 mod figures;
 mod ids;
 mod judging;
 mod pool;
+mod progress;
 mod record;
 mod shop;
 mod tables;

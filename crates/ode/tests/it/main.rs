@@ -10,5 +10,6 @@ mod failures;
 mod order_conditions;
 mod pedestrians;
 mod problems;
+mod resume;
 mod taylor;
 mod trees;

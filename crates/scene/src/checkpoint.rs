@@ -1,0 +1,180 @@
+//! A run by steps of fixed length on its way, as bytes, to be gone on with later to the same bits. Pure: who writes them
+//! where, and how often, is the caller's business.
+//!
+//! The bytes are 64-bit words, low byte first, numbers by their bits: place, counts, state, events, samples, jams. What
+//! follows from the scene and the rest is left out: the times and numbers in the table of trajectories, and whether the
+//! run has come to a stop. Nothing guards them against damage; a file should hold their hash.
+
+use crate::run::Scene;
+use files::table::Table;
+use jam::events::{Event, Happening};
+use jam::jams::{Drift, Jam};
+use ode::{Control, Mark, Place, Statistics};
+
+/// A run between two of its steps.
+#[derive(Clone, Copy, Debug)]
+pub struct Underway<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) mark: &'a Mark<'a>,
+    pub(crate) found: &'a [Happening],
+    pub(crate) std: &'a Table,
+    pub(crate) trajectories: &'a Table,
+    pub(crate) drift: &'a Drift,
+}
+
+impl Underway<'_> {
+    /// The part of its time that is done, 0 to 1.
+    pub fn fraction(&self) -> f64 {
+        fraction(self.scene, self.mark.place.step)
+    }
+
+    /// Everything that [`Checkpoint::parse`] needs.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let Mark { place, statistics, state } = *self.mark;
+        let mut words = Words::default();
+        words.whole(&[place.step, place.slow_until, statistics.steps, statistics.rejected, statistics.evaluations]);
+        words.numbers(&[statistics.time]);
+        words.count(state.len());
+        words.numbers(state);
+        words.count(self.found.len());
+        for happening in self.found {
+            words.count(Event::ALL.iter().take_while(|event| **event != happening.event).count());
+            words.numbers(&[happening.time, happening.gap, happening.step]);
+            words.count(happening.pedestrian);
+        }
+        words.count(self.std.len());
+        self.std.rows().for_each(|row| words.numbers(row));
+        words.count(self.trajectories.len());
+        self.trajectories.rows().for_each(|row| words.numbers(&row[2..]));
+        words.numbers(&[self.drift.distance, self.drift.time]);
+        words.count(self.drift.before.len());
+        for jam in &self.drift.before {
+            words.count(jam.first);
+            words.count(jam.pedestrians);
+            words.numbers(&[jam.extent, jam.centre]);
+        }
+        words.0
+    }
+}
+
+/// A run to be gone on with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Checkpoint {
+    pub(crate) place: Place,
+    pub(crate) statistics: Statistics,
+    pub(crate) state: Vec<f64>,
+    pub(crate) found: Vec<Happening>,
+    pub(crate) std: Table,
+    pub(crate) trajectories: Table,
+    pub(crate) drift: Drift,
+}
+
+impl Checkpoint {
+    /// Reads what [`Underway::to_bytes`] wrote for this scene; `None` for anything of another form.
+    pub fn parse(bytes: &[u8], scene: &Scene) -> Option<Checkpoint> {
+        let mut words = Reader { words: bytes.chunks_exact(8) };
+        let place = Place { step: words.whole()?, slow_until: words.whole()? };
+        let (steps, rejected, evaluations) = (words.whole()?, words.whole()?, words.whole()?);
+        let statistics = Statistics { steps, rejected, evaluations, time: words.number()?, state: Vec::new() };
+        let count = words.count()?;
+        let state = (0..count).map(|_| words.number()).collect::<Option<Vec<f64>>>()?;
+        let count = words.count()?;
+        let found = (0..count).map(|_| words.happening()).collect::<Option<Vec<Happening>>>()?;
+        let std = words.std()?;
+        let trajectories = words.trajectories(scene, &std)?;
+        let (distance, time, count) = (words.number()?, words.number()?, words.count()?);
+        let before = (0..count).map(|_| words.jam()).collect::<Option<Vec<Jam>>>()?;
+        let is_whole = words.words.next().is_none() && words.words.remainder().is_empty();
+        let fits = state.len() == scene.form.build(&scene.model, scene.ring).dimension();
+        let drift = Drift { before, distance, time };
+        (is_whole && fits).then_some(Checkpoint { place, statistics, state, found, std, trajectories, drift })
+    }
+
+    /// Steps that need not be made again.
+    pub fn steps(&self) -> u64 {
+        self.place.step
+    }
+
+    /// The part of the run's time that need not be gone through again, 0 to 1.
+    pub fn fraction(&self, scene: &Scene) -> f64 {
+        fraction(scene, self.place.step)
+    }
+}
+
+fn fraction(scene: &Scene, step: u64) -> f64 {
+    match scene.control {
+        Control::Fixed { step: h } => step as f64 * h / scene.t_end,
+        Control::Adaptive { .. } => 0.0,
+    }
+}
+
+/// Words under way to bytes.
+#[derive(Default)]
+struct Words(Vec<u8>);
+
+impl Words {
+    fn whole(&mut self, values: &[u64]) {
+        values.iter().for_each(|value| self.0.extend_from_slice(&value.to_le_bytes()));
+    }
+
+    fn count(&mut self, count: usize) {
+        self.whole(&[count as u64]);
+    }
+
+    fn numbers(&mut self, values: &[f64]) {
+        values.iter().for_each(|value| self.0.extend_from_slice(&value.to_bits().to_le_bytes()));
+    }
+}
+
+/// Words under way from bytes.
+struct Reader<'a> {
+    words: std::slice::ChunksExact<'a, u8>,
+}
+
+impl Reader<'_> {
+    fn whole(&mut self) -> Option<u64> {
+        self.words.next()?.try_into().ok().map(u64::from_le_bytes)
+    }
+
+    fn count(&mut self) -> Option<usize> {
+        usize::try_from(self.whole()?).ok()
+    }
+
+    fn number(&mut self) -> Option<f64> {
+        self.whole().map(f64::from_bits)
+    }
+
+    fn happening(&mut self) -> Option<Happening> {
+        let event = *Event::ALL.get(self.count()?)?;
+        let (time, gap, step) = (self.number()?, self.number()?, self.number()?);
+        Some(Happening { event, time, pedestrian: self.count()?, gap, step })
+    }
+
+    fn jam(&mut self) -> Option<Jam> {
+        let (first, pedestrians) = (self.count()?, self.count()?);
+        Some(Jam { first, pedestrians, extent: self.number()?, centre: self.number()? })
+    }
+
+    fn std(&mut self) -> Option<Table> {
+        let mut table = crate::simulation::std_table();
+        for _ in 0..self.count()? {
+            table.push(&[self.number()?, self.number()?]);
+        }
+        Some(table)
+    }
+
+    /// As many rows for each sample as there are pedestrians, or none at all.
+    fn trajectories(&mut self, scene: &Scene, std: &Table) -> Option<Table> {
+        let pedestrians = if scene.keeps_trajectories { scene.ring.pedestrians } else { 0 };
+        let mut table = crate::simulation::trajectories_table();
+        if self.count()? != std.len() * pedestrians {
+            return None;
+        }
+        for row in std.rows() {
+            for n in 0..pedestrians {
+                table.push(&[row[0], n as f64, self.number()?, self.number()?]);
+            }
+        }
+        Some(table)
+    }
+}

@@ -1,0 +1,75 @@
+//! Checkpoints: a run gone on with from any of them is the run that never stopped, to the last bit.
+
+use files::recipe;
+use scene::checkpoint::Checkpoint;
+use scene::run::{Scene, read};
+use scene::simulation::{Outcome, run, run_from};
+
+/// Thirty pedestrians that overlap, turn back and change places; by the time between samples and lines of `[run]`.
+fn scene(sample: f64, lines: &str) -> Scene {
+    let text = format!(
+        "[law]\nkind = \"exponential\"\na = 8.0\nb = 1.5\nv0 = 3.0\n[ring]\npedestrians = 30\nlength = 100.0\n\
+         [start]\nshift = 0.1\n[run]\nt_end = 60.0\nsample = {sample:?}\n{lines}"
+    );
+    let recipe = recipe::parse("my.toml", &text).expect("a scene");
+    read("my.toml", &recipe.panels[0].tables).expect("a run")
+}
+
+/// Everything a run gives, in text that tells all doubles apart.
+fn words(outcome: &Outcome) -> String {
+    format!("{outcome:?}")
+}
+
+fn checkpoints(scene: &Scene) -> (Outcome, Vec<Vec<u8>>) {
+    let mut kept = Vec::new();
+    let outcome = run_from(scene, None, &mut |underway| kept.push(underway.to_bytes())).expect("it runs");
+    (outcome, kept)
+}
+
+#[test]
+fn a_run_resumed_from_any_checkpoint_has_the_same_bits() {
+    for (sample, lines) in [
+        (1.0, "method = \"heun\"\ndt = 1e-4\nstate = \"positions\"\n"),
+        (7.0, "method = \"heun\"\ndt = 1e-4\nstate = \"positions\"\nrecord = \"std\"\n"),
+        (0.3, "method = \"rk4\"\ndt = 2e-4\n"),
+        (1.0, "method = \"dop853\"\ndt = 5e-4\nstate = \"gaps\"\n"),
+    ] {
+        let scene = scene(sample, lines);
+        let (whole, kept) = checkpoints(&scene);
+        assert_eq!(words(&whole), words(&run(&scene).expect("it runs")), "keeping changes nothing");
+        let stop = whole.stop().expect("this scene stops, and goes on").time;
+        let mut after_stop = [0, 0];
+        for bytes in kept.iter().step_by(3).chain(kept.last()) {
+            let checkpoint = Checkpoint::parse(bytes, &scene).expect("a checkpoint");
+            assert!(checkpoint.steps() > 0 && checkpoint.fraction(&scene) < 1.0);
+            after_stop[usize::from(checkpoint.fraction(&scene) * scene.t_end > stop)] += 1;
+            let resumed = run_from(&scene, Some(checkpoint), &mut |_| {}).expect("it runs");
+            assert_eq!(words(&resumed), words(&whole), "{lines}");
+        }
+        println!("{after_stop:?} checkpoints before and after the stop at {stop}, end at {}", whole.statistics.time);
+        assert!(after_stop.iter().all(|&count| count > 0), "{after_stop:?}: {:?}", whole.events);
+    }
+}
+
+#[test]
+fn bytes_of_another_form_are_no_checkpoint() {
+    let scene = scene(1.0, "method = \"heun\"\ndt = 1e-4\nstate = \"positions\"\n");
+    let (_, kept) = checkpoints(&scene);
+    let bytes = &kept[2];
+    assert!(Checkpoint::parse(bytes, &scene).is_some());
+    for length in [0, 8, 40, bytes.len() / 2, bytes.len() - 8, bytes.len() - 1] {
+        assert!(Checkpoint::parse(&bytes[..length], &scene).is_none(), "{length} of {} bytes", bytes.len());
+    }
+    assert!(Checkpoint::parse(&[bytes.as_slice(), &[0; 8]].concat(), &scene).is_none(), "something behind it");
+    let other = Scene { keeps_trajectories: false, ..scene.clone() };
+    assert!(Checkpoint::parse(bytes, &other).is_none(), "a scene without trajectories");
+    let mut other = scene.clone();
+    other.ring.pedestrians = 31;
+    assert!(Checkpoint::parse(bytes, &other).is_none(), "another ring");
+}
+
+#[test]
+fn adaptive_runs_show_no_checkpoint() {
+    let (_, kept) = checkpoints(&scene(1.0, "method = \"dop853\"\ntolerance = 1e-10\n"));
+    assert!(kept.is_empty());
+}

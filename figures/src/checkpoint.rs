@@ -1,0 +1,188 @@
+//! A long run in the eyes of its user: how far it is, and a file from which it goes on after it was killed.
+//!
+//! The file: a line `checkpoint 1 RUN SUM`, then the seconds of CPU so far and the run, as 64-bit words. `RUN` is the
+//! SHA-256 of the program and of the scene, `SUM` that of everything behind the line: what is damaged, cut off or of
+//! another run or program is not believed, and the run begins anew.
+
+use crate::failure::Failure;
+use cpu_time::ProcessTime;
+use files::write::{atomic, sha256, sha256_file};
+use ode::Control;
+use scene::checkpoint::{Checkpoint, Underway};
+use scene::run::Scene;
+use scene::simulation::{Outcome, run_from};
+use std::io::{IsTerminal as _, Write as _};
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+/// How a long run is looked after.
+#[derive(Debug, clap::Args)]
+pub struct Care {
+    /// File from which the run goes on, if it is there; written as the run goes (steps of fixed length), removed at its
+    /// end
+    #[arg(long, value_name = "FILE")]
+    checkpoint: Option<PathBuf>,
+    /// Seconds between two writings of that file, at least; more where writing takes more than a hundredth of the time
+    #[arg(long, value_name = "SECONDS", default_value = "5", value_parser = seconds)]
+    checkpoint_every: Duration,
+    /// Say how far the run is, a line a second on stderr: `progress 0.42`, or `resumed 0.40` at the start
+    #[arg(long)]
+    progress: bool,
+}
+
+fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds: f64 = text.parse().map_err(|_| format!("{text}: must be a number of seconds"))?;
+    Duration::try_from_secs_f64(seconds).map_err(|error| error.to_string())
+}
+
+/// A run that has ended.
+#[derive(Debug)]
+pub struct Ended {
+    /// What it gave.
+    pub outcome: Outcome,
+    /// Seconds of CPU in the integration, those before the run was killed included.
+    pub seconds: f64,
+    /// Steps that were taken from the checkpoint.
+    pub resumed_steps: u64,
+}
+
+/// Writings take less than this part of the time.
+const WRITING: u32 = 100;
+/// Between two words about progress.
+const SILENCE: Duration = Duration::from_secs(1);
+
+impl Care {
+    /// Runs the scene, from the checkpoint if there is one.
+    ///
+    /// # Errors
+    /// The integration failed; or the program cannot be read, which a checkpoint has to tell from others.
+    pub fn run(&self, scene: &Scene) -> Result<Ended, Failure> {
+        let clock = ProcessTime::now();
+        let mut keeper = Keeper::new(self, scene)?;
+        let (from, before) = keeper.load(scene).unzip();
+        let (steps, done) = from.as_ref().map_or((0, 0.0), |from| (from.steps(), from.fraction(scene)));
+        keeper.start(done, before.unwrap_or(0.0));
+        let outcome = run_from(scene, from, &mut |underway| keeper.look(underway)).map_err(Failure::work)?;
+        keeper.end();
+        let seconds = before.unwrap_or(0.0) + clock.elapsed().as_secs_f64();
+        Ok(Ended { outcome, seconds, resumed_steps: steps })
+    }
+
+    /// Removes the checkpoint of a run whose results are safe.
+    ///
+    /// # Errors
+    /// It is there and cannot be removed.
+    pub fn remove(&self) -> Result<(), Failure> {
+        match self.checkpoint.as_ref().map(std::fs::remove_file) {
+            Some(Err(error)) if error.kind() != std::io::ErrorKind::NotFound => Err(Failure::work(error)),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Looks at a run now and then.
+struct Keeper<'a> {
+    care: &'a Care,
+    /// The SHA-256 of the program and the scene; empty when nothing is kept.
+    run: String,
+    /// Seconds of CPU before this process.
+    before: f64,
+    clock: ProcessTime,
+    started: Instant,
+    /// The part that was done at the start.
+    done: f64,
+    next_word: Instant,
+    next_writing: Instant,
+    is_bar_shown: bool,
+}
+
+impl<'a> Keeper<'a> {
+    fn new(care: &'a Care, scene: &Scene) -> Result<Keeper<'a>, Failure> {
+        let is_kept = care.checkpoint.is_some() && matches!(scene.control, Control::Fixed { .. });
+        let run = if is_kept {
+            let program = sha256_file(&std::env::current_exe()?)?;
+            sha256(format!("{program}\n{scene:?}").as_bytes())
+        } else {
+            String::new()
+        };
+        let (clock, now) = (ProcessTime::now(), Instant::now());
+        let (next_word, next_writing) = (now + SILENCE, now + care.checkpoint_every);
+        let (before, done, started) = (0.0, 0.0, now);
+        Ok(Keeper { care, run, before, clock, started, done, next_word, next_writing, is_bar_shown: false })
+    }
+
+    /// The checkpoint and the seconds before it; `None` when there is none to believe.
+    fn load(&self, scene: &Scene) -> Option<(Checkpoint, f64)> {
+        let file = self.care.checkpoint.as_ref().filter(|_| !self.run.is_empty())?;
+        let bytes = std::fs::read(file).ok()?;
+        let (line, body) = bytes.split_at(bytes.iter().position(|&byte| byte == b'\n')? + 1);
+        let found = (line == self.line(body).as_bytes())
+            .then(|| body.split_first_chunk())
+            .flatten()
+            .and_then(|(seconds, words)| Some((Checkpoint::parse(words, scene)?, f64::from_le_bytes(*seconds))));
+        if found.is_none() {
+            say(&format!("{}: damaged, or of another run or program; the run begins anew", file.display()));
+        }
+        found
+    }
+
+    fn line(&self, body: &[u8]) -> String {
+        format!("checkpoint 1 {} {}\n", self.run, sha256(body))
+    }
+
+    fn start(&mut self, done: f64, before: f64) {
+        (self.done, self.before) = (done, before);
+        if self.care.progress && done > 0.0 {
+            say(&format!("resumed {done:.4}"));
+        }
+    }
+
+    fn look(&mut self, underway: &Underway<'_>) {
+        let now = Instant::now();
+        if now >= self.next_word {
+            self.next_word = now + SILENCE;
+            self.tell(underway.fraction());
+        }
+        if now >= self.next_writing && !self.run.is_empty() {
+            self.write(underway);
+            let wait = now.elapsed() * WRITING;
+            self.next_writing =
+                Instant::now() + if wait > self.care.checkpoint_every { wait } else { self.care.checkpoint_every };
+        }
+    }
+
+    /// A checkpoint that cannot be written is told; the run is worth more and goes on.
+    fn write(&self, underway: &Underway<'_>) {
+        let Some(file) = &self.care.checkpoint else { return };
+        let seconds = self.before + self.clock.elapsed().as_secs_f64();
+        let body = [&seconds.to_le_bytes()[..], &underway.to_bytes()].concat();
+        let bytes = [self.line(&body).as_bytes(), &body].concat();
+        if let Err(error) = atomic(file, &bytes) {
+            say(&format!("no checkpoint: {error}"));
+        }
+    }
+
+    fn tell(&mut self, fraction: f64) {
+        let mut stderr = std::io::stderr();
+        if self.care.progress {
+            say(&format!("progress {fraction:.4}"));
+        } else if stderr.is_terminal() {
+            let left = self.started.elapsed().as_secs_f64() * (1.0 - fraction) / (fraction - self.done);
+            // a word about progress that cannot be shown is no reason to stop
+            let _ = write!(stderr, "\r\x1b[K{:.0} %, about {left:.0} s left", 100.0 * fraction);
+            self.is_bar_shown = true;
+        }
+    }
+
+    /// Leaves an empty line on the terminal.
+    fn end(&self) {
+        if self.is_bar_shown {
+            let _ = write!(std::io::stderr(), "\r\x1b[K");
+        }
+    }
+}
+
+/// A line on stderr. The reader may be gone, as when the runner was killed: the run goes on.
+fn say(line: &str) {
+    let _ = writeln!(std::io::stderr(), "{line}");
+}

@@ -1,0 +1,99 @@
+//! A run that is killed, and goes on: the same bytes as one that nobody disturbed.
+
+use crate::root;
+use files::write::sha256_file;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+/// Steps of the paper's scheme up to t = 20: some seconds.
+const STEPS: f64 = 2e6;
+/// Where that is.
+const END: &str = "20";
+
+/// `simulate` by the paper's scheme up to `end`, a checkpoint in its folder every tenth of a second.
+fn simulate(folder: &Path, end: &str) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_simulate"));
+    command.current_dir(root()).args(["figures/fig13-logarithmic-std/scene.toml", "--panel", "std"]);
+    command.args(["--scheme", "paper", "--t-end", end, "--tables-only", "--json", "--progress"]);
+    command.arg("--out").arg(folder.join("out")).arg("--checkpoint").arg(file(folder));
+    command.args(["--checkpoint-every", "0.1"]).stdin(Stdio::null());
+    command
+}
+
+fn file(folder: &Path) -> PathBuf {
+    folder.join("run.checkpoint")
+}
+
+/// Starts a run and kills it (SIGKILL) once it has written a checkpoint and so much time has passed since.
+fn kill(folder: &Path, after: Duration) {
+    let before = std::fs::read(file(folder)).ok();
+    let mut child = simulate(folder, END).stderr(Stdio::null()).stdout(Stdio::null()).spawn().expect("it starts");
+    let start = Instant::now();
+    while std::fs::read(file(folder)).ok() == before {
+        assert!(start.elapsed() < Duration::from_secs(60), "no checkpoint in a minute");
+        assert!(child.try_wait().expect("a child").is_none(), "it ended before its first checkpoint");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    std::thread::sleep(after);
+    child.kill().expect("it can be killed");
+    child.wait().expect("it ends");
+}
+
+fn finish(folder: &Path) -> (serde_json::Value, Output) {
+    let output = simulate(folder, END).output().expect("it starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(!file(folder).exists(), "a checkpoint is removed at the end");
+    (serde_json::from_slice(&output.stdout).expect("JSON"), output)
+}
+
+fn sums(folder: &Path) -> Vec<String> {
+    let names = ["std.csv", "trajectories.csv", "events.csv"];
+    names.iter().map(|name| sha256_file(&folder.join("out").join(name)).expect("a table")).collect()
+}
+
+#[test]
+fn a_run_killed_at_any_moment_goes_on_to_the_same_bytes() {
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    let [whole, killed] = ["whole", "killed"].map(|name| scratch.path().join(name));
+    for folder in [&whole, &killed] {
+        std::fs::create_dir(folder).expect("a folder");
+    }
+    let (summary, _) = finish(&whole);
+    assert_eq!((summary["steps"].as_f64(), summary["resumed_steps"].as_u64()), (Some(STEPS), Some(0)));
+    for after in [0, 137, 271] {
+        kill(&killed, Duration::from_millis(after));
+    }
+    assert!(!killed.join("out").join("std.csv").exists(), "it ended before it was killed");
+    let (resumed, output) = finish(&killed);
+    let steps = resumed["resumed_steps"].as_f64().expect("a number");
+    println!("resumed at step {steps:e} of {STEPS:e}");
+    assert!(steps > 0.0 && steps < STEPS);
+    assert!(String::from_utf8_lossy(&output.stderr).starts_with("resumed 0."));
+    assert_eq!(sums(&killed), sums(&whole));
+    for key in ["steps", "right_hand_sides", "t", "stop", "events", "jams"] {
+        assert_eq!(resumed[key], summary[key], "{key}");
+    }
+}
+
+#[test]
+fn a_damaged_or_foreign_checkpoint_is_not_believed() {
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    let folder = scratch.path();
+    let (_, _) = finish(folder);
+    let expected = sums(folder);
+    kill(folder, Duration::ZERO);
+    let sound = std::fs::read(file(folder)).expect("a checkpoint");
+    let mut flipped = sound.clone();
+    let middle = sound.len() / 2;
+    flipped[middle] ^= 1;
+    let short = sound[..middle].to_vec();
+    for (bytes, end) in [(&flipped, END), (&short, END), (&Vec::new(), END), (&sound, "19")] {
+        std::fs::write(file(folder), bytes).expect("a file");
+        let output = simulate(folder, end).output().expect("it starts");
+        let summary: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        assert_eq!(summary["resumed_steps"], 0);
+        assert!(bytes.is_empty() || String::from_utf8_lossy(&output.stderr).contains("the run begins anew"));
+        assert_eq!(sums(folder) == expected, end == END);
+    }
+}
