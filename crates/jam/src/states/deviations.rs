@@ -5,25 +5,30 @@
 //! keeps all its digits, and an error is one of the perturbation, not of the state.
 
 use super::{Form, closing_rates};
-use crate::laws::Law;
+use crate::laws::{Law, Work};
 use crate::observe::spread;
 use crate::ring::{Ring, Start};
+use math::row::{LANES, LENGTH};
 use math::simd::{Kernel, dispatch};
 use ode::{Group, Measure, System};
+use std::cell::RefCell;
 use std::ops::Range;
 
 /// The ring as deviations from its uniform flow.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Deviations<L> {
     law: L,
     pedestrians: usize,
     clearance: f64,
+    rows: RefCell<Rows>,
 }
 
 impl<L: Law> Deviations<L> {
     /// The ring under this law.
     pub fn new(law: L, ring: Ring) -> Deviations<L> {
-        Deviations { law, pedestrians: ring.pedestrians, clearance: ring.headway() - L::CONTACT }
+        let rows = Rows { gaps: [0.0; LENGTH], speeds: [0.0; LENGTH + 1], work: Work::default() };
+        let clearance = ring.headway() - L::CONTACT;
+        Deviations { law, pedestrians: ring.pedestrians, clearance, rows: RefCell::new(rows) }
     }
 
     /// Indices of `x_0 - X`, `X` and `V`.
@@ -52,7 +57,8 @@ impl<L: Law> System for Deviations<L> {
         let uniform = state[speed];
         let base = self.law.base(self.clearance, uniform);
         let (gaps, speeds) = (&state[..n], &state[n..2 * n]);
-        dispatch(Accelerations { law: self.law, base, gaps, speeds, rates: &mut rates[n..2 * n] });
+        let (accelerations, rows) = (&mut rates[n..2 * n], &mut *self.rows.borrow_mut());
+        dispatch(Accelerations { law: self.law, base, gaps, speeds, rates: accelerations, rows });
         rates[speed] = self.law.acceleration(self.clearance, uniform, uniform);
     }
 
@@ -96,6 +102,7 @@ struct Accelerations<'a, L: Law> {
     gaps: &'a [f64],
     speeds: &'a [f64],
     rates: &'a mut [f64],
+    rows: &'a mut Rows,
 }
 
 impl<L: Law> Kernel for Accelerations<'_, L> {
@@ -103,18 +110,47 @@ impl<L: Law> Kernel for Accelerations<'_, L> {
 
     #[inline(always)]
     fn run(self) {
+        if L::IN_ROWS { self.in_rows() } else { self.one_by_one() }
+    }
+}
+
+impl<L: Law> Accelerations<'_, L> {
+    #[inline(always)]
+    fn one_by_one(self) {
         let last = self.gaps.len() - 1;
         let ahead = &self.speeds[1..];
-        if L::IN_HALVES {
-            for (((rate, gap), speed), ahead) in self.rates.iter_mut().zip(self.gaps).zip(self.speeds).zip(ahead) {
-                *rate = self.law.deviation_half(&self.base, *gap, *speed, *ahead);
-            }
-        }
         for (((rate, gap), speed), ahead) in self.rates.iter_mut().zip(self.gaps).zip(self.speeds).zip(ahead) {
-            *rate = self.law.deviation_rest(&self.base, *rate, *gap, *speed, *ahead);
+            *rate = self.law.deviation(&self.base, *gap, *speed, *ahead);
         }
         self.rates[last] = self.law.deviation(&self.base, self.gaps[last], self.speeds[last], self.speeds[0]);
     }
+
+    #[inline(always)]
+    fn in_rows(self) {
+        let Accelerations { law, base, gaps, speeds, rates, rows } = self;
+        let blocks = gaps.chunks(LENGTH).zip(rates.chunks_mut(LENGTH));
+        for ((gaps, rates), begin) in blocks.zip((0..).step_by(LENGTH)) {
+            let (n, after) = (gaps.len(), begin + gaps.len());
+            let size = n.next_multiple_of(LANES);
+            rows.gaps[..n].copy_from_slice(gaps);
+            rows.speeds[..n].copy_from_slice(&speeds[begin..after]);
+            // the uniform flow fills the last register
+            rows.gaps[n..size].fill(0.0);
+            rows.speeds[n..=size].fill(0.0);
+            rows.speeds[n] = speeds[after % speeds.len()];
+            let (row, own, ahead) = (&mut rows.gaps[..size], &rows.speeds[..size], &rows.speeds[1..=size]);
+            law.deviations(&base, row, own, ahead, &mut rows.work);
+            rates.copy_from_slice(&rows.gaps[..n]);
+        }
+    }
+}
+
+/// Room for a row of pedestrians, so that a step allocates nothing.
+#[derive(Clone, Debug)]
+struct Rows {
+    gaps: [f64; LENGTH],
+    speeds: [f64; LENGTH + 1],
+    work: Work,
 }
 
 impl<L: Law> Form for Deviations<L> {
