@@ -65,6 +65,8 @@ pub const OPEN_ALL: &str = "open README.md for the table of figures, figures/*/f
 pub const SPOT_CHECK: &str = "checks/spot.py";
 /// Checks that need more than Rust: other processors.
 pub const OTHER_MACHINES: &str = "checks/other-machines.sh";
+/// Checks that need more than Rust: counts of instructions.
+pub const COST: &str = "checks/cost.sh";
 /// The list of sums inside a stored run.
 pub const STORE_SUMS: &str = "SHA256SUMS";
 /// The events of a stored run.
