@@ -10,6 +10,7 @@ use super::road::Road;
 use crate::laws::Law;
 use math::simd::{Kernel, dispatch_up_to};
 use std::ops::Range;
+use std::panic::resume_unwind;
 
 /// How a ring is cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,8 +60,8 @@ fn round<L: Law>(steps: Steps<L>, cut: Cut, state: &mut [f64]) -> bool {
     std::thread::scope(|scope| {
         let work = |part| move || dispatch_up_to(steps.limit, Blocks { steps, size: cut.block, part });
         let threads: Vec<_> = parts.into_iter().map(|part| scope.spawn(work(part))).collect();
-        // all are waited for; one that panicked has not been quiet
-        threads.into_iter().fold(true, |quiet, thread| thread.join().unwrap_or(false) && quiet)
+        let quiet = threads.into_iter().map(|thread| thread.join().unwrap_or_else(|panic| resume_unwind(panic)));
+        quiet.collect::<Vec<_>>().into_iter().all(|is_quiet| is_quiet)
     })
 }
 
