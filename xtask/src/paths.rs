@@ -45,9 +45,10 @@ pub const NUMERIC_SOURCES: [&str; 7] = [
     "figures/Cargo.toml",
 ];
 /// Sources that every figure shares.
-pub const SHARED_SOURCES: [&str; 4] = ["crates/", "figures/src/", "figures/Cargo.toml", "data/reference/"];
+pub const SHARED_SOURCES: [&str; 5] =
+    ["crates/", "figures/src/", "figures/Cargo.toml", "data/reference/", "data/timing/"];
 /// Folders that are searched for sources.
-pub const SOURCE_FOLDERS: [&str; 3] = ["crates", "figures", "data/reference"];
+pub const SOURCE_FOLDERS: [&str; 4] = ["crates", "figures", "data/reference", "data/timing"];
 /// Below the folders searched, what reaches no figure: the page for browsers.
 pub const NO_SOURCES: [&str; 1] = ["crates/browser/"];
 /// How to get the fonts back.
