@@ -30,6 +30,9 @@ struct Arguments {
     /// Folder of values from outside
     #[arg(long, default_value = "data/reference")]
     reference: PathBuf,
+    /// Folder of archived timings
+    #[arg(long, default_value = "data/timing")]
+    timing: PathBuf,
     /// File for what is known of the tables' accuracy
     #[arg(long)]
     report: Option<PathBuf>,
@@ -150,6 +153,14 @@ impl Job {
     /// It is missing.
     pub fn accuracy(&self, name: &str) -> Result<Rows, Failure> {
         Rows::read(&self.arguments.reference.with_file_name("accuracy").join(format!("{name}.csv")))
+    }
+
+    /// Reads a table of archived timings: seconds are measured once, on one machine, and kept.
+    ///
+    /// # Errors
+    /// It is missing or damaged.
+    pub fn timing(&self, name: &str) -> Result<Table, Failure> {
+        Ok(Table::read(&self.arguments.timing.join(format!("{name}.csv")))?)
     }
 
     /// The panel of this name.

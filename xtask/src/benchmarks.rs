@@ -131,7 +131,7 @@ impl Tree {
     pub fn names(&self) -> Result<Vec<String>, Failure> {
         let text = output(Command::new(program_of(&self.folder, "cost")))?;
         let runs = RUNS.iter().map(|(name, ..)| (*name).to_owned());
-        Ok(text.lines().map(str::to_owned).chain(runs).collect())
+        Ok(text.lines().filter_map(|line| line.split(' ').next()).map(str::to_owned).chain(runs).collect())
     }
 
     /// Seconds of CPU of one sample, and the right-hand sides if it is a run.

@@ -45,11 +45,13 @@ pub const NUMERIC_SOURCES: [&str; 7] = [
     "figures/Cargo.toml",
 ];
 /// Sources that every figure shares.
-pub const SHARED_SOURCES: [&str; 4] = ["crates/", "figures/src/", "figures/Cargo.toml", "data/reference/"];
+pub const SHARED_SOURCES: [&str; 5] =
+    ["crates/", "figures/src/", "figures/Cargo.toml", "data/reference/", "data/timing/"];
 /// Folders that are searched for sources.
-pub const SOURCE_FOLDERS: [&str; 3] = ["crates", "figures", "data/reference"];
-/// Below the folders searched, what reaches no figure: the page for browsers, and solutions to compare with.
-pub const NO_SOURCES: [&str; 3] = ["crates/browser/", "crates/reference/", "data/reference/solutions/"];
+pub const SOURCE_FOLDERS: [&str; 4] = ["crates", "figures", "data/reference", "data/timing"];
+/// Below the folders searched, what reaches no figure: the page for browsers, solutions to compare with, archived benchmarks.
+pub const NO_SOURCES: [&str; 4] =
+    ["crates/browser/", "crates/reference/", "data/reference/solutions/", "data/timing/bench/"];
 /// How to get the fonts back.
 pub const FONTS_REMEDY: &str = "part of the checkout: git restore crates/plot/fonts";
 /// The fonts that the pictures embed, each with its SHA-256: a damaged one would be compiled in, and every picture would fail or differ.
@@ -67,6 +69,8 @@ pub const SPOT_CHECK: &str = "checks/spot.py";
 pub const OTHER_MACHINES: &str = "checks/other-machines.sh";
 /// What is measured by `bench`.
 pub const COST_SOURCE: &str = "crates/jam/examples/cost.rs";
+/// Checks that need more than Rust: counts of instructions.
+pub const COST: &str = "checks/cost.sh";
 /// The list of sums inside a stored run.
 pub const STORE_SUMS: &str = "SHA256SUMS";
 /// The events of a stored run.

@@ -1,11 +1,13 @@
 //! Does one thing again and again, for `checks/cost.sh`, which counts the instructions, and for `cargo xtask bench`, which
-//! measures the time as well: `cost NAME COUNT`. Without arguments it lists the names. Prints seconds of CPU.
+//! measures the time as well: `cost NAME COUNT`. Without arguments it lists the names, each with its pedestrians. Prints
+//! seconds of CPU.
 //!
 //! | name | once is |
 //! |---|---|
 //! | `LAW` | an evaluation of the right-hand side for all pedestrians, as deviations |
 //! | `gaps/LAW`, `positions/LAW` | the same in another form |
-//! | `heun/LAW` | a step of Heun's scheme in positions, of a burst |
+//! | `step-LAW` | a step of Heun's scheme in positions, of a burst |
+//! | `series-LAW` | the Taylor series to order 16, in deviations |
 //! | `lane/FUNCTION` | as many values of an elementary function as there are pedestrians |
 
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
@@ -14,24 +16,26 @@ use jam::states::FormKind;
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Pedestrians of the ring: those of figures 11-13.
-const PEDESTRIANS: usize = 133;
-/// The ring.
-const RING: Ring = Ring { pedestrians: PEDESTRIANS, length: 3.0 * PEDESTRIANS as f64 };
-
 /// Does its work so many times.
 type Work = Box<dyn FnMut(u64)>;
 
+/// What is measured, and for how many pedestrians.
+struct Variant {
+    name: String,
+    pedestrians: usize,
+    work: Work,
+}
+
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let mut works = works();
-    let known = arguments.first().and_then(|name| works.iter_mut().find(|work| work.0 == *name));
-    let (Some((_, work)), Some(Ok(count))) = (known, arguments.get(1).map(|text| text.parse())) else {
-        works.iter().for_each(|(name, _)| println!("{name}"));
+    let mut variants = variants();
+    let known = arguments.first().and_then(|name| variants.iter_mut().find(|variant| variant.name == *name));
+    let (Some(variant), Some(Ok(count))) = (known, arguments.get(1).map(|text| text.parse())) else {
+        variants.iter().for_each(|variant| println!("{} {}", variant.name, variant.pedestrians));
         return;
     };
     let (start, clock) = (cpu_seconds(), Instant::now());
-    work(count);
+    (variant.work)(count);
     // where the system does not say how long the thread was at work, the clock has to do
     let seconds = start.zip(cpu_seconds()).map_or(clock.elapsed().as_secs_f64(), |(start, end)| end - start);
     println!("{seconds:e}");
@@ -45,60 +49,43 @@ fn cpu_seconds() -> Option<f64> {
     text.split_whitespace().next()?.parse().ok().map(|nanoseconds: f64| 1e-9 * nanoseconds)
 }
 
-fn works() -> Vec<(String, Work)> {
-    let mut works: Vec<(String, Work)> = Vec::new();
-    for (name, model) in variants() {
-        works.push((name.to_owned(), rates(FormKind::Deviations, model)));
+/// Each law with all its terms, and with fewer; then the laws of the paper's runs in other forms and other work on them.
+fn variants() -> Vec<Variant> {
+    let named = |name: &str, pedestrians, work| Variant { name: name.to_owned(), pedestrians, work };
+    let mut variants: Vec<Variant> =
+        laws().into_iter().map(|(name, model)| named(name, 133, rates(FormKind::Deviations, model, 133))).collect();
+    let law = |name: &str| laws().into_iter().find(|law| law.0 == name).map(|law| law.1);
+    for (name, pedestrians) in STEPS {
+        let Some(model) = law(name) else { continue };
+        variants.push(named(&format!("step-{name}"), pedestrians, heun(model, pedestrians)));
     }
-    for (name, model) in variants().into_iter().filter(|(name, _)| PLAIN.contains(name)) {
-        works.push((format!("gaps/{name}"), rates(FormKind::Gaps, model)));
-        works.push((format!("positions/{name}"), rates(FormKind::Positions, model)));
-        works.push((format!("heun/{name}"), heun(model)));
+    for (name, pedestrians) in STEPS.into_iter().filter(|(name, _)| PLAIN.contains(name)) {
+        let Some(model) = law(name) else { continue };
+        variants.push(named(&format!("gaps/{name}"), pedestrians, rates(FormKind::Gaps, model, pedestrians)));
+        variants.push(named(&format!("positions/{name}"), pedestrians, rates(FormKind::Positions, model, pedestrians)));
+        variants.push(named(&format!("series-{name}"), pedestrians, series(model, pedestrians)));
     }
-    works.push(("lane/softplus".to_owned(), lane(math::slice::softplus)));
-    works.push(("lane/ln_1p".to_owned(), lane(|x, out| math::slice::ln_1p_scaled(0.5, x, out))));
-    works
+    variants.push(named("lane/softplus", 133, lane(math::slice::softplus)));
+    variants.push(named("lane/ln_1p", 133, lane(|x, out| math::slice::ln_1p_scaled(0.5, x, out))));
+    variants
 }
+
+/// Laws of which steps are measured, with the pedestrians of the paper's runs.
+const STEPS: [(&str, usize); 6] = [
+    ("algebraic-all", 67),
+    ("algebraic-q2", 67),
+    ("exponential-all", 57),
+    ("exponential", 57),
+    ("logarithmic-widening", 133),
+    ("logarithmic", 133),
+];
 
 /// The laws of the paper's runs.
 const PLAIN: [&str; 3] = ["algebraic-q2", "exponential", "logarithmic"];
 
-fn rates(kind: FormKind, model: Model) -> Work {
-    let form = kind.build(&model, RING);
-    let state = form.start(Start { shift: 0.1 });
-    let mut rates = vec![0.0; form.dimension()];
-    Box::new(move |count| {
-        for _ in 0..count {
-            form.rates(black_box(&state), &mut rates);
-            black_box(&mut rates);
-        }
-    })
-}
-
-fn heun(model: Model) -> Work {
-    let form = FormKind::Positions.build(&model, RING);
-    let mut state = form.start(Start { shift: 0.1 });
-    Box::new(move |count| {
-        // steps too short to come anywhere: no event breaks the burst off
-        black_box(form.heun(&mut state, 1e-9, count));
-    })
-}
-
-fn lane(function: fn(&[f64], &mut [f64])) -> Work {
-    let x: Vec<f64> = (0..PEDESTRIANS).map(|n| n as f64 / PEDESTRIANS as f64).collect();
-    let mut out = vec![0.0; PEDESTRIANS];
-    Box::new(move |count| {
-        for _ in 0..count {
-            function(black_box(&x), &mut out);
-            black_box(&mut out);
-        }
-    })
-}
-
-/// Each law with all its terms, and with fewer.
-fn variants() -> Vec<(&'static str, Model)> {
+fn laws() -> Vec<(&'static str, Model)> {
     let algebraic = |relative, power, widening| {
-        let (strength, epsilon, desired_speed) = (0.5, 0.1, 3.0);
+        let (strength, epsilon, desired_speed) = (0.45, 0.1, 3.0);
         Model::Algebraic(Algebraic { strength, relative, power, widening, epsilon, desired_speed })
     };
     let exponential = |contact, widening| {
@@ -121,4 +108,55 @@ fn variants() -> Vec<(&'static str, Model)> {
         ("logarithmic-widening", logarithmic(0.1)),
         ("logarithmic", logarithmic(0.0)),
     ]
+}
+
+fn ring(pedestrians: usize) -> Ring {
+    Ring { pedestrians, length: 3.0 * pedestrians as f64 }
+}
+
+fn rates(kind: FormKind, model: Model, pedestrians: usize) -> Work {
+    let form = kind.build(&model, ring(pedestrians));
+    let state = form.start(Start { shift: 0.1 });
+    let mut rates = vec![0.0; form.dimension()];
+    Box::new(move |count| {
+        for _ in 0..count {
+            form.rates(black_box(&state), &mut rates);
+            black_box(&mut rates);
+        }
+    })
+}
+
+fn heun(model: Model, pedestrians: usize) -> Work {
+    let form = FormKind::Positions.build(&model, ring(pedestrians));
+    let mut state = form.start(Start { shift: 0.1 });
+    Box::new(move |count| {
+        // steps too short to come anywhere: no event breaks the burst off
+        black_box(form.heun(&mut state, 1e-9, count));
+    })
+}
+
+fn series(model: Model, pedestrians: usize) -> Work {
+    const ORDER: usize = 16;
+    let form = FormKind::Deviations.build(&model, ring(pedestrians));
+    let n = form.dimension();
+    let mut coefficients = vec![0.0; (ORDER + 1) * n];
+    coefficients[..n].copy_from_slice(&form.start(Start { shift: 0.1 }));
+    let (states, rates) = coefficients.split_at_mut(n);
+    form.rates(states, &mut rates[..n]);
+    Box::new(move |count| {
+        for _ in 0..count {
+            form.series(ORDER, black_box(&mut coefficients));
+        }
+    })
+}
+
+fn lane(function: fn(&[f64], &mut [f64])) -> Work {
+    let x: Vec<f64> = (0..133).map(|n| f64::from(n) / 133.0).collect();
+    let mut out = vec![0.0; x.len()];
+    Box::new(move |count| {
+        for _ in 0..count {
+            function(black_box(&x), &mut out);
+            black_box(&mut out);
+        }
+    })
 }

@@ -2,7 +2,8 @@
 //!
 //! Each computes as many values as the shorter of its slices has.
 
-use crate::lane::{self, SoftplusBase};
+use crate::lane::SoftplusBase;
+use crate::row::{self, Room};
 use crate::simd::{Kernel, dispatch};
 
 /// out\[i\] = ln(1 + e^x\[i\]), see [`lane::softplus`].
@@ -30,12 +31,7 @@ impl Kernel for Softplus<'_> {
 
     #[inline(always)]
     fn run(self) {
-        for (out, &x) in self.out.iter_mut().zip(self.x) {
-            *out = lane::decay(x);
-        }
-        for (out, &x) in self.out.iter_mut().zip(self.x) {
-            *out = lane::softplus_of_decay(x, *out);
-        }
+        row::softplus(copied(self.x, self.out), &mut Room::default());
     }
 }
 
@@ -50,12 +46,7 @@ impl Kernel for SoftplusDifference<'_> {
 
     #[inline(always)]
     fn run(self) {
-        for (out, &d) in self.out.iter_mut().zip(self.d) {
-            *out = lane::softplus_change(&self.base, d);
-        }
-        for (out, &d) in self.out.iter_mut().zip(self.d) {
-            *out = lane::softplus_difference_of_change(&self.base, d, *out);
-        }
+        row::softplus_difference(&self.base, copied(self.d, self.out), &mut Room::default());
     }
 }
 
@@ -70,8 +61,16 @@ impl Kernel for Ln1pScaled<'_> {
 
     #[inline(always)]
     fn run(self) {
-        for (out, &r) in self.out.iter_mut().zip(self.r) {
-            *out = lane::ln_1p(self.c * r);
-        }
+        let row = copied(self.r, self.out);
+        row.iter_mut().for_each(|r| *r *= self.c);
+        row::ln_1p(row, &mut Room::default());
     }
+}
+
+/// What both have room for, copied from the first to the second.
+#[inline(always)]
+fn copied<'a>(from: &[f64], to: &'a mut [f64]) -> &'a mut [f64] {
+    let n = from.len().min(to.len());
+    to[..n].copy_from_slice(&from[..n]);
+    &mut to[..n]
 }

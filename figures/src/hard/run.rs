@@ -126,6 +126,8 @@ impl Case {
             ode::Failure::NotFinite { time, step } => ("not_finite", *time, *step),
             ode::Failure::StepTooSmall { time, step } => ("step_too_small", *time, *step),
             ode::Failure::NoErrorEstimate(_) => ("no_error_estimate", 0.0, 0.0),
+            ode::Failure::NoSeries => ("no_series", 0.0, 0.0),
+            ode::Failure::NotResumable => ("not_resumable", 0.0, 0.0),
         };
         let room = |n: usize| self.model.room(gaps[n], speeds[n], speeds[(n + 1) % speeds.len()]);
         let pedestrian = (0..gaps.len()).min_by(|&a, &b| room(a).total_cmp(&room(b))).unwrap_or(0);

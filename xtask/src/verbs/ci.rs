@@ -5,7 +5,7 @@ use super::{figures, verify};
 use crate::child;
 use crate::cli::{CiArgs, FiguresArgs, VerifyArgs};
 use crate::failure::Failure;
-use crate::paths::{OTHER_MACHINES, Paths};
+use crate::paths::{COST, OTHER_MACHINES, Paths};
 use std::process::Command;
 
 /// Runs the verb; stops at the first step that fails.
@@ -26,6 +26,9 @@ pub fn run(paths: &Paths, arguments: &CiArgs) -> Result<(), Failure> {
         cargo(paths, &["test", "--release", "--locked", "--workspace", "--", "--ignored"])?;
         eprintln!("ci: {OTHER_MACHINES}");
         step(OTHER_MACHINES, Command::new("bash").arg(OTHER_MACHINES).current_dir(&paths.root))?;
+        eprintln!("ci: {COST}");
+        let mut cost = Command::new("bash");
+        step(COST, cost.arg(COST).current_dir(&paths.root).env("CARGO_TARGET_DIR", &paths.target))?;
     }
     Ok(())
 }

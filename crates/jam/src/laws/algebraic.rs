@@ -1,11 +1,12 @@
 //! The algebraically decaying force, eq:invd:
 //! `dv_n/dt = v_0 - v_n - (mu + delta r_eps(v_{n+1} - v_n))^2 / d_n^q`, `d_n = s_n - a_v (v_n + v_{n+1}) - 2`.
 
-use super::{Law, Visitor};
+use super::{Law, Visitor, Work};
 use crate::ramp::smooth_ramp;
 use crate::series::{Block, lanes};
 use crate::stability::Linear;
 use math::lane::{self, SoftplusBase};
+use math::row;
 use std::f64::consts::LN_2;
 
 /// Parameters `<mu, delta, q, a_v>` and `v_0'`, `eps`.
@@ -130,6 +131,20 @@ impl<const RELATIVE: bool, const WIDENING: bool, const POWER: u8> AlgebraicLaw<R
             }
         }
     }
+
+    /// [`Law::deviation`], given how much the ramp differs from that at equal speeds, in units of `eps`.
+    #[inline(always)]
+    fn deviation_with(&self, base: &Base, gap: f64, speed: f64, ahead: f64, ramp: f64) -> f64 {
+        let Algebraic { relative: delta, widening: a_v, epsilon, .. } = self.parameters;
+        let change = if WIDENING { gap - a_v * (speed + ahead) } else { gap };
+        let (inverse_power, difference) = self.inverse_power_change(base, change);
+        let by_distance = base.gamma * base.gamma * difference;
+        if !RELATIVE {
+            return -speed - by_distance;
+        }
+        let force = delta * (epsilon * ramp);
+        -speed - (by_distance + force * (2.0 * base.gamma + force) * inverse_power)
+    }
 }
 
 impl<const RELATIVE: bool, const WIDENING: bool, const POWER: u8> Law for AlgebraicLaw<RELATIVE, WIDENING, POWER> {
@@ -139,11 +154,30 @@ impl<const RELATIVE: bool, const WIDENING: bool, const POWER: u8> Law for Algebr
 
     const CONTACT: f64 = 2.0;
 
+    const IN_ROWS: bool = RELATIVE;
+
     #[inline(always)]
     fn acceleration(&self, clearance: f64, speed: f64, ahead: f64) -> f64 {
         let Algebraic { strength: mu, relative: delta, epsilon, desired_speed: v0, .. } = self.parameters;
         let force = if RELATIVE { mu + delta * smooth_ramp(ahead - speed, epsilon) } else { mu };
         v0 - speed - force * force * self.inverse_power(self.room(clearance, speed, ahead))
+    }
+
+    #[inline(always)]
+    fn accelerations(&self, row: &mut [f64], speeds: &[f64], ahead: &[f64], work: &mut Work) {
+        let Algebraic { strength: mu, relative: delta, epsilon, desired_speed: v0, .. } = self.parameters;
+        let n = row.len();
+        let (speeds, ahead, ramp) = (&speeds[..n], &ahead[..n], &mut work.row[..n]);
+        if RELATIVE {
+            for i in 0..n {
+                ramp[i] = -(ahead[i] - speeds[i]) / epsilon;
+            }
+            row::softplus(ramp, &mut work.room);
+        }
+        for i in 0..n {
+            let force = if RELATIVE { mu + delta * (epsilon * ramp[i]) } else { mu };
+            row[i] = v0 - speeds[i] - force * force * self.inverse_power(self.room(row[i], speeds[i], ahead[i]));
+        }
     }
 
     fn base(&self, clearance: f64, speed: f64) -> Base {
@@ -160,15 +194,23 @@ impl<const RELATIVE: bool, const WIDENING: bool, const POWER: u8> Law for Algebr
 
     #[inline(always)]
     fn deviation(&self, base: &Base, gap: f64, speed: f64, ahead: f64) -> f64 {
-        let Algebraic { relative: delta, widening: a_v, epsilon, .. } = self.parameters;
-        let change = if WIDENING { gap - a_v * (speed + ahead) } else { gap };
-        let (inverse_power, difference) = self.inverse_power_change(base, change);
-        let by_distance = base.gamma * base.gamma * difference;
-        if !RELATIVE {
-            return -speed - by_distance;
+        let ramp = if RELATIVE { lane::softplus_difference(&base.ramp, (speed - ahead) * base.slope) } else { 0.0 };
+        self.deviation_with(base, gap, speed, ahead, ramp)
+    }
+
+    #[inline(always)]
+    fn deviations(&self, base: &Base, row: &mut [f64], speeds: &[f64], ahead: &[f64], work: &mut Work) {
+        let n = row.len();
+        let (speeds, ahead, ramp) = (&speeds[..n], &ahead[..n], &mut work.row[..n]);
+        if RELATIVE {
+            for i in 0..n {
+                ramp[i] = (speeds[i] - ahead[i]) * base.slope;
+            }
+            row::softplus_difference(&base.ramp, ramp, &mut work.room);
         }
-        let force = delta * (epsilon * lane::softplus_difference(&base.ramp, (speed - ahead) * base.slope));
-        -speed - (by_distance + force * (2.0 * base.gamma + force) * inverse_power)
+        for i in 0..n {
+            row[i] = self.deviation_with(base, row[i], speeds[i], ahead[i], ramp[i]);
+        }
     }
 
     const HAS_SERIES: bool = !RELATIVE && !WIDENING;

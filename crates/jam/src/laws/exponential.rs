@@ -1,11 +1,12 @@
 //! The exponential force, eq:sfm:
 //! `dv_n/dt = v_0 - v_n - a exp(-d_n / b) - c r_eps(d_n)`, `d_n = s_n - a_v (v_n + v_{n+1}) - 2`.
 
-use super::{Law, Visitor};
+use super::{Law, Visitor, Work};
 use crate::ramp::smooth_ramp;
 use crate::series::{Block, inner_product, lanes};
 use crate::stability::Linear;
 use math::lane::{self, SoftplusBase};
+use math::row;
 
 /// Parameters `<a, b, c, a_v>` and `v_0'`, `eps`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,12 +78,34 @@ impl<const CONTACT: bool, const WIDENING: bool> Law for ExponentialLaw<CONTACT, 
 
     const CONTACT: f64 = 2.0;
 
+    const IN_ROWS: bool = CONTACT;
+
     #[inline(always)]
     fn acceleration(&self, clearance: f64, speed: f64, ahead: f64) -> f64 {
         let Exponential { strength: a, range: b, contact: c, epsilon, desired_speed: v0, .. } = self.parameters;
         let d = self.room(clearance, speed, ahead);
         let far = v0 - speed - a * lane::exp(-d / b);
         if CONTACT { far - c * smooth_ramp(d, epsilon) } else { far }
+    }
+
+    #[inline(always)]
+    fn accelerations(&self, row: &mut [f64], speeds: &[f64], ahead: &[f64], work: &mut Work) {
+        let Exponential { strength: a, range: b, contact: c, epsilon, desired_speed: v0, .. } = self.parameters;
+        let n = row.len();
+        let (speeds, ahead, ramp) = (&speeds[..n], &ahead[..n], &mut work.row[..n]);
+        for i in 0..n {
+            let d = self.room(row[i], speeds[i], ahead[i]);
+            row[i] = -d / b;
+            ramp[i] = -d / epsilon;
+        }
+        row::exp(row, &mut work.room);
+        if CONTACT {
+            row::softplus(ramp, &mut work.room);
+        }
+        for i in 0..n {
+            let far = v0 - speeds[i] - a * row[i];
+            row[i] = if CONTACT { far - c * (epsilon * ramp[i]) } else { far };
+        }
     }
 
     fn base(&self, clearance: f64, speed: f64) -> Base {
@@ -125,6 +148,26 @@ impl<const CONTACT: bool, const WIDENING: bool> Law for ExponentialLaw<CONTACT, 
         let force = lanes(|lane| (first.force[lane] * rate[lane] + sum[lane]) * inverse_order);
         *terms = Terms { force, rate };
         lanes(|lane| -force[lane])
+    }
+
+    #[inline(always)]
+    fn deviations(&self, base: &Base, row: &mut [f64], speeds: &[f64], ahead: &[f64], work: &mut Work) {
+        let Exponential { contact: c, widening: a_v, epsilon, .. } = self.parameters;
+        let n = row.len();
+        let (speeds, ahead, ramp) = (&speeds[..n], &ahead[..n], &mut work.row[..n]);
+        for i in 0..n {
+            let change = if WIDENING { row[i] - a_v * (speeds[i] + ahead[i]) } else { row[i] };
+            row[i] = change * base.decay;
+            ramp[i] = change * base.slope;
+        }
+        row::exp_m1(row, &mut work.room);
+        if CONTACT {
+            row::softplus_difference(&base.ramp, ramp, &mut work.room);
+        }
+        for i in 0..n {
+            let far = -speeds[i] - base.force * row[i];
+            row[i] = if CONTACT { far - c * (epsilon * ramp[i]) } else { far };
+        }
     }
 
     #[inline(always)]

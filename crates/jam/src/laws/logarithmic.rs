@@ -1,11 +1,12 @@
 //! The logarithmic force, eq:modlog: `dv_n/dt = v_0 (1 - ln(1 + c R_n)) - v_n`, `c = e - 1`,
 //! `R_n = r_eps(s_n / (2 + a_v (v_n + v_{n+1})) - 1)`.
 
-use super::{Law, Visitor};
+use super::{Law, Visitor, Work};
 use crate::ramp::smooth_ramp;
 use crate::series::{Block, inner_product, lanes};
 use crate::stability::Linear;
 use math::lane::{self, SoftplusBase};
+use math::row;
 use std::f64::consts::E;
 
 /// `c = e - 1`: the force at contact just cancels the drive.
@@ -106,23 +107,29 @@ impl<const WIDENING: bool> Law for LogarithmicLaw<WIDENING> {
 
     const CONTACT: f64 = 0.0;
 
-    const IN_HALVES: bool = true;
+    const IN_ROWS: bool = true;
 
     #[inline(always)]
     fn acceleration(&self, gap: f64, speed: f64, ahead: f64) -> f64 {
-        self.acceleration_rest(self.acceleration_half(gap, speed, ahead), gap, speed, ahead)
-    }
-
-    #[inline(always)]
-    fn acceleration_half(&self, gap: f64, speed: f64, ahead: f64) -> f64 {
-        lane::decay(self.ramp_argument(gap, speed, ahead))
-    }
-
-    #[inline(always)]
-    fn acceleration_rest(&self, half: f64, gap: f64, speed: f64, ahead: f64) -> f64 {
         let Logarithmic { desired_speed: v0, epsilon, .. } = self.parameters;
-        let r = epsilon * lane::softplus_of_decay(self.ramp_argument(gap, speed, ahead), half);
+        let r = epsilon * lane::softplus(self.ramp_argument(gap, speed, ahead));
         v0 * (1.0 - lane::ln_1p(C * r)) - speed
+    }
+
+    #[inline(always)]
+    fn accelerations(&self, row: &mut [f64], speeds: &[f64], ahead: &[f64], work: &mut Work) {
+        let Logarithmic { desired_speed: v0, epsilon, .. } = self.parameters;
+        let n = row.len();
+        let (speeds, ahead) = (&speeds[..n], &ahead[..n]);
+        for i in 0..n {
+            row[i] = self.ramp_argument(row[i], speeds[i], ahead[i]);
+        }
+        row::softplus(row, &mut work.room);
+        row.iter_mut().for_each(|r| *r = C * (epsilon * *r));
+        row::ln_1p(row, &mut work.room);
+        for i in 0..n {
+            row[i] = v0 * (1.0 - row[i]) - speeds[i];
+        }
     }
 
     fn base(&self, gap: f64, speed: f64) -> Base {
@@ -141,18 +148,7 @@ impl<const WIDENING: bool> Law for LogarithmicLaw<WIDENING> {
 
     #[inline(always)]
     fn deviation(&self, base: &Base, gap: f64, speed: f64, ahead: f64) -> f64 {
-        self.deviation_rest(base, self.deviation_half(base, gap, speed, ahead), gap, speed, ahead)
-    }
-
-    #[inline(always)]
-    fn deviation_half(&self, base: &Base, gap: f64, speed: f64, ahead: f64) -> f64 {
-        lane::softplus_change(&base.ramp, self.ramp_difference(base, gap, speed, ahead))
-    }
-
-    #[inline(always)]
-    fn deviation_rest(&self, base: &Base, half: f64, gap: f64, speed: f64, ahead: f64) -> f64 {
-        let difference = self.ramp_difference(base, gap, speed, ahead);
-        let r = lane::softplus_difference_of_change(&base.ramp, difference, half);
+        let r = lane::softplus_difference(&base.ramp, self.ramp_difference(base, gap, speed, ahead));
         -(self.parameters.desired_speed * lane::ln_1p(base.scale * r)) - speed
     }
 
@@ -165,11 +161,11 @@ impl<const WIDENING: bool> Law for LogarithmicLaw<WIDENING> {
     fn start_terms(&self, clearance: &Block, terms: &mut Terms) {
         let a = C * self.parameters.epsilon;
         let y = lanes(|lane| self.ramp_argument(clearance[lane], 0.0, 0.0));
-        let e = lanes(|lane| lane::decay(y[lane]));
+        let e = lanes(|lane| lane::exp(-y[lane].abs()));
         terms.decay = e;
         terms.exponent_rate = lanes(|lane| if y[lane] > 0.0 { -1.0 } else { 1.0 });
         terms.rest_rate = lanes(|lane| 1.0 / (1.0 + e[lane]));
-        terms.force_rate = lanes(|lane| 1.0 / (1.0 + a * lane::softplus_of_decay(y[lane], e[lane])));
+        terms.force_rate = lanes(|lane| 1.0 / (1.0 + a * lane::softplus(y[lane])));
     }
 
     /// With `y = -(s / 2 - 1) / eps` the ramp is `eps (h + max(y, 0))`, `h = ln(1 + e)`, `e = exp(-|y|)`. From
@@ -194,6 +190,21 @@ impl<const WIDENING: bool> Law for LogarithmicLaw<WIDENING> {
         let ramp = lanes(|lane| ramp_rate[lane] * inverse_order);
         *terms = Terms { decay, exponent_rate, rest_rate, ramp, force_rate };
         lanes(|lane| -v0 * (force_rate[lane] * inverse_order))
+    }
+
+    #[inline(always)]
+    fn deviations(&self, base: &Base, row: &mut [f64], speeds: &[f64], ahead: &[f64], work: &mut Work) {
+        let n = row.len();
+        let (speeds, ahead) = (&speeds[..n], &ahead[..n]);
+        for i in 0..n {
+            row[i] = self.ramp_difference(base, row[i], speeds[i], ahead[i]);
+        }
+        row::softplus_difference(&base.ramp, row, &mut work.room);
+        row.iter_mut().for_each(|r| *r *= base.scale);
+        row::ln_1p(row, &mut work.room);
+        for i in 0..n {
+            row[i] = -(self.parameters.desired_speed * row[i]) - speeds[i];
+        }
     }
 
     #[inline(always)]

@@ -15,10 +15,11 @@ pub use logarithmic::{C, Logarithmic, LogarithmicLaw};
 
 use crate::series::{Block, LANES};
 use crate::stability::Linear;
+use math::row::{LENGTH, Room};
 
 /// A law of motion, all terms known at compile time. Functions are small and free of branches: loops over them
 /// vectorise.
-pub trait Law: Copy {
+pub trait Law: Copy + Send {
     /// What the uniform flow at one instant contributes to every pedestrian: computed once, used N times.
     type Base: Copy + std::fmt::Debug;
 
@@ -38,32 +39,28 @@ pub trait Law: Copy {
     /// order of rounding however small the deviations are.
     fn deviation(&self, base: &Self::Base, gap: f64, speed: f64, ahead: f64) -> f64;
 
-    /// Whether a loop over pedestrians is faster in two: one over the first half of the law, one over the rest. Long
-    /// chains of operations that wait for each other leave a processor idle; two short loops overlap more of them.
-    const IN_HALVES: bool = false;
+    /// Whether the law is so long that a row of pedestrians is faster in several short loops ([`math::row`]).
+    const IN_ROWS: bool = false;
 
-    /// The first half of [`Law::acceleration`]: a number for the second.
+    /// Replaces the clearances of a row of pedestrians, at most [`math::row::LENGTH`], by their
+    /// [`Law::acceleration`]s, with the same bits.
     #[inline(always)]
-    fn acceleration_half(&self, _clearance: f64, _speed: f64, _ahead: f64) -> f64 {
-        0.0
+    fn accelerations(&self, row: &mut [f64], speeds: &[f64], ahead: &[f64], _work: &mut Work) {
+        let n = row.len();
+        let (speeds, ahead) = (&speeds[..n], &ahead[..n]);
+        for i in 0..n {
+            row[i] = self.acceleration(row[i], speeds[i], ahead[i]);
+        }
     }
 
-    /// [`Law::acceleration`], given its first half.
+    /// Replaces the deviations of the gaps of such a row by its [`Law::deviation`]s, with the same bits.
     #[inline(always)]
-    fn acceleration_rest(&self, _half: f64, clearance: f64, speed: f64, ahead: f64) -> f64 {
-        self.acceleration(clearance, speed, ahead)
-    }
-
-    /// The first half of [`Law::deviation`].
-    #[inline(always)]
-    fn deviation_half(&self, _base: &Self::Base, _gap: f64, _speed: f64, _ahead: f64) -> f64 {
-        0.0
-    }
-
-    /// [`Law::deviation`], given its first half.
-    #[inline(always)]
-    fn deviation_rest(&self, base: &Self::Base, _half: f64, gap: f64, speed: f64, ahead: f64) -> f64 {
-        self.deviation(base, gap, speed, ahead)
+    fn deviations(&self, base: &Self::Base, row: &mut [f64], speeds: &[f64], ahead: &[f64], _work: &mut Work) {
+        let n = row.len();
+        let (speeds, ahead) = (&speeds[..n], &ahead[..n]);
+        for i in 0..n {
+            row[i] = self.deviation(base, row[i], speeds[i], ahead[i]);
+        }
     }
 
     /// Whether the force depends on the gap alone: then there are recurrences for its Taylor coefficients along a motion
@@ -89,6 +86,20 @@ pub trait Law: Copy {
 
     /// How much room a unit of speed, own or ahead, takes away.
     fn room_per_speed(&self) -> f64;
+}
+
+/// Room for a row of a law at work.
+#[derive(Clone, Debug)]
+pub struct Work {
+    room: Room,
+    /// Another row, for a law with two terms.
+    row: [f64; LENGTH],
+}
+
+impl Default for Work {
+    fn default() -> Work {
+        Work { room: Room::default(), row: [0.0; LENGTH] }
+    }
 }
 
 /// A law with its parameters, as data.

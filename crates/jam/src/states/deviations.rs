@@ -5,10 +5,11 @@
 //! keeps all its digits, and an error is one of the perturbation, not of the state.
 
 use super::{Form, closing_rates};
-use crate::laws::Law;
+use crate::laws::{Law, Work};
 use crate::observe::spread;
 use crate::ring::{Ring, Start};
 use crate::series::{Motion, Workspace};
+use math::row::{LANES, LENGTH};
 use math::simd::{Kernel, dispatch};
 use ode::{Group, Measure, System};
 use std::cell::{Cell, RefCell};
@@ -23,6 +24,7 @@ pub struct Deviations<L: Law> {
     /// The uniform flow asked for last: once it is steady it is asked for again and again.
     uniform: Cell<Uniform<L::Base>>,
     workspace: RefCell<Workspace<L::Terms>>,
+    rows: RefCell<Rows>,
 }
 
 /// The uniform flow at one speed.
@@ -36,9 +38,10 @@ struct Uniform<B> {
 impl<L: Law> Deviations<L> {
     /// The ring under this law.
     pub fn new(law: L, ring: Ring) -> Deviations<L> {
+        let rows = RefCell::new(Rows { gaps: [0.0; LENGTH], speeds: [0.0; LENGTH + 1], work: Work::default() });
         let clearance = ring.headway() - L::CONTACT;
         let uniform = Cell::new(Uniform::new(&law, clearance, 0.0));
-        Deviations { law, pedestrians: ring.pedestrians, clearance, uniform, workspace: RefCell::default() }
+        Deviations { law, pedestrians: ring.pedestrians, clearance, uniform, workspace: RefCell::default(), rows }
     }
 
     fn uniform(&self, speed: f64) -> Uniform<L::Base> {
@@ -80,7 +83,8 @@ impl<L: Law> System for Deviations<L> {
         let (_, _, speed) = self.extras();
         let Uniform { base, acceleration, .. } = self.uniform(state[speed]);
         let (gaps, speeds) = (&state[..n], &state[n..2 * n]);
-        dispatch(Accelerations { law: self.law, base, gaps, speeds, rates: &mut rates[n..2 * n] });
+        let (accelerations, rows) = (&mut rates[n..2 * n], &mut *self.rows.borrow_mut());
+        dispatch(Accelerations { law: self.law, base, gaps, speeds, rates: accelerations, rows });
         rates[speed] = acceleration;
     }
 
@@ -169,6 +173,7 @@ struct Accelerations<'a, L: Law> {
     gaps: &'a [f64],
     speeds: &'a [f64],
     rates: &'a mut [f64],
+    rows: &'a mut Rows,
 }
 
 impl<L: Law> Kernel for Accelerations<'_, L> {
@@ -176,18 +181,47 @@ impl<L: Law> Kernel for Accelerations<'_, L> {
 
     #[inline(always)]
     fn run(self) {
+        if L::IN_ROWS { self.in_rows() } else { self.one_by_one() }
+    }
+}
+
+impl<L: Law> Accelerations<'_, L> {
+    #[inline(always)]
+    fn one_by_one(self) {
         let last = self.gaps.len() - 1;
         let ahead = &self.speeds[1..];
-        if L::IN_HALVES {
-            for (((rate, gap), speed), ahead) in self.rates.iter_mut().zip(self.gaps).zip(self.speeds).zip(ahead) {
-                *rate = self.law.deviation_half(&self.base, *gap, *speed, *ahead);
-            }
-        }
         for (((rate, gap), speed), ahead) in self.rates.iter_mut().zip(self.gaps).zip(self.speeds).zip(ahead) {
-            *rate = self.law.deviation_rest(&self.base, *rate, *gap, *speed, *ahead);
+            *rate = self.law.deviation(&self.base, *gap, *speed, *ahead);
         }
         self.rates[last] = self.law.deviation(&self.base, self.gaps[last], self.speeds[last], self.speeds[0]);
     }
+
+    #[inline(always)]
+    fn in_rows(self) {
+        let Accelerations { law, base, gaps, speeds, rates, rows } = self;
+        let blocks = gaps.chunks(LENGTH).zip(rates.chunks_mut(LENGTH));
+        for ((gaps, rates), begin) in blocks.zip((0..).step_by(LENGTH)) {
+            let (n, after) = (gaps.len(), begin + gaps.len());
+            let size = n.next_multiple_of(LANES);
+            rows.gaps[..n].copy_from_slice(gaps);
+            rows.speeds[..n].copy_from_slice(&speeds[begin..after]);
+            // the uniform flow fills the last register
+            rows.gaps[n..size].fill(0.0);
+            rows.speeds[n..=size].fill(0.0);
+            rows.speeds[n] = speeds[after % speeds.len()];
+            let (row, own, ahead) = (&mut rows.gaps[..size], &rows.speeds[..size], &rows.speeds[1..=size]);
+            law.deviations(&base, row, own, ahead, &mut rows.work);
+            rates.copy_from_slice(&rows.gaps[..n]);
+        }
+    }
+}
+
+/// Room for a row of pedestrians, so that a step allocates nothing.
+#[derive(Clone, Debug)]
+struct Rows {
+    gaps: [f64; LENGTH],
+    speeds: [f64; LENGTH + 1],
+    work: Work,
 }
 
 impl<L: Law> Form for Deviations<L> {

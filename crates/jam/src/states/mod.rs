@@ -13,6 +13,7 @@ mod positions;
 
 pub use deviations::Deviations;
 pub use gaps::Gaps;
+pub use heun::{Cut, heun_steps};
 pub use positions::Positions;
 
 use crate::laws::{Law, Model, Visitor};

@@ -2,11 +2,11 @@
 
 use super::Form;
 use super::gaps::Accelerations;
-use super::heun::HeunSteps;
+use super::heun::{Cut, Steps, burst};
 use crate::laws::Law;
 use crate::observe::spread;
 use crate::ring::{Ring, Start};
-use math::simd::dispatch;
+use math::simd::{Width, dispatch};
 use ode::{Burst, Group, Measure, System};
 use std::cell::RefCell;
 use std::ops::Range;
@@ -65,7 +65,8 @@ impl<L: Law> System for Positions<L> {
     }
 
     fn heun(&self, state: &mut [f64], h: f64, count: u64) -> Burst {
-        dispatch(HeunSteps { law: self.law, length: self.ring.length, h, count, state })
+        let steps = Steps { law: self.law, length: self.ring.length, h, count, limit: Width::Eight };
+        burst(steps, Cut::of(self.ring.pedestrians), state)
     }
 
     fn in_domain(&self, state: &[f64]) -> bool {

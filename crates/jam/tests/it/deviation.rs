@@ -2,6 +2,8 @@
 
 use crate::sample::{Deviation, Random, laws};
 use jam::laws::Model;
+use jam::ring::{Ring, Start};
+use jam::states::FormKind;
 use math::twofold::Twofold;
 
 /// Gap and speed of a uniform flow with room, and where its room is.
@@ -128,4 +130,26 @@ fn whole_powers_agree_with_twofold_numbers() {
         }
     }
     println!("largest relative error {worst:e}");
+}
+
+/// Rows of every number of whole registers, of parts of one, and of several rows.
+#[test]
+fn a_ring_of_deviations_has_the_bits_of_its_pedestrians_one_by_one() {
+    let mut random = Random(26);
+    for count in [2, 3, 8, 9, 57, 67, 133, 256, 257, 515] {
+        for model in [laws(&mut random), laws(&mut random), laws(&mut random), laws(&mut random)].concat() {
+            let ring = Ring { pedestrians: count, length: count as f64 * 4.5 };
+            let form = FormKind::Deviations.build(&model, ring);
+            let mut state = form.start(Start { shift: 0.1 });
+            state[..2 * count].iter_mut().for_each(|deviation| *deviation += random.uniform(-0.1, 0.1));
+            state[2 * count + 2] = 0.3;
+            let mut rates = vec![0.0; form.dimension()];
+            form.rates(&state, &mut rates);
+            for n in 0..count {
+                let from = [state[n], state[count + n], state[count + (n + 1) % count]];
+                let alone = deviation(&model, ring.headway(), 0.3, from);
+                assert_eq!(rates[count + n].to_bits(), alone.to_bits(), "{model:?}, {n} of {count}");
+            }
+        }
+    }
 }

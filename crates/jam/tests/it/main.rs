@@ -6,6 +6,7 @@ mod criteria;
 mod deviation;
 mod events;
 mod growth;
+mod heun;
 mod jams;
 mod linear;
 mod presets;

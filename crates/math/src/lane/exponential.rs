@@ -27,7 +27,13 @@ const TAIL: [f64; 10] = [
 /// e^x. Zero below -708, infinite above 709.78. Error below 0.7 units in the last place.
 #[inline(always)]
 pub fn exp(x: f64) -> f64 {
-    let value = Reduced::new(x).exp();
+    exp_of(x, Reduced::new(x))
+}
+
+/// The second half of [`exp`].
+#[inline(always)]
+pub(crate) fn exp_of(x: f64, reduced: Reduced) -> f64 {
+    let value = reduced.exp();
     let value = if x < LOWEST { 0.0 } else { value };
     if x > HIGHEST { f64::INFINITY } else { value }
 }
@@ -36,7 +42,13 @@ pub fn exp(x: f64) -> f64 {
 /// in the last place.
 #[inline(always)]
 pub fn exp_m1(x: f64) -> f64 {
-    let value = Reduced::new(x).exp_less(1.0);
+    exp_m1_of(x, Reduced::new(x))
+}
+
+/// The second half of [`exp_m1`].
+#[inline(always)]
+pub(crate) fn exp_m1_of(x: f64, reduced: Reduced) -> f64 {
+    let value = reduced.exp_less(1.0);
     let value = if x < LOWEST { -1.0 } else { value };
     if x > 709.0 { f64::INFINITY } else { value }
 }
@@ -46,59 +58,74 @@ pub(super) const LOWEST: f64 = -708.0;
 /// Above it, ln(2^1024), the exponential overflows.
 const HIGHEST: f64 = 709.782_712_893_384;
 
-/// An argument x = k ln 2 + r with whole k and |r| <= ln(2)/2.
-pub(super) struct Reduced {
+/// An argument x = k ln 2 + r with whole k and |r| <= ln(2)/2: the first half of an exponential.
+#[derive(Clone, Copy)]
+pub(crate) struct Reduced {
     /// r, rounded.
-    r: f64,
-    /// e^(x - k ln 2) - 1 - r, which holds the rounding of r.
-    rest: f64,
+    pub(crate) r: f64,
+    /// What that rounding took off.
+    pub(crate) missing: f64,
     /// k, in the last bits.
-    shifted: u64,
+    pub(crate) shifted: f64,
 }
 
 impl Reduced {
     #[inline(always)]
-    pub(super) fn new(x: f64) -> Reduced {
+    pub(crate) fn new(x: f64) -> Reduced {
         let shifted = x * INVERSE_LN_2 + ROUNDER;
         let k = shifted - ROUNDER;
         let head = x - k * LN_2_HEAD; // exact
         let tail = k * LN_2_TAIL;
         let r = head - tail;
         let missing = (head - r) - tail;
+        Reduced { r, missing, shifted }
+    }
+
+    /// e^(x - k ln 2) - 1 - r, which holds the rounding of r.
+    #[inline(always)]
+    fn rest(self) -> f64 {
+        let Reduced { r, missing, .. } = self;
         // grouped so that few operations wait for each other (Estrin)
         let square = r * r;
         let fourth = square * square;
         let first = (TAIL[0] + TAIL[1] * r) + (TAIL[2] + TAIL[3] * r) * square;
         let second = (TAIL[4] + TAIL[5] * r) + (TAIL[6] + TAIL[7] * r) * square;
         let sum = first + (second + (TAIL[8] + TAIL[9] * r) * fourth) * fourth;
-        let rest = (square * r) * sum + (0.5 * square + missing);
-        Reduced { r, rest, shifted: shifted.to_bits() }
+        (square * r) * sum + (0.5 * square + missing)
+    }
+
+    /// k in the bits of an exponent.
+    #[inline(always)]
+    fn exponent(self) -> u64 {
+        self.shifted.to_bits() << 52
     }
 
     /// e^x; right from x = -708 up to ln(2^1024).
     #[inline(always)]
-    pub(super) fn exp(self) -> f64 {
+    pub(crate) fn exp(self) -> f64 {
+        let rest = self.rest();
         let sum = 1.0 + self.r;
         let missing = self.r - (sum - 1.0);
-        let value = sum + (missing + self.rest);
-        f64::from_bits(value.to_bits().wrapping_add(self.shifted << 52))
+        let value = sum + (missing + rest);
+        f64::from_bits(value.to_bits().wrapping_add(self.exponent()))
     }
 
     /// e^x with another 5 bits or so beyond a double.
     pub(super) fn exp_with_tail(self) -> Twofold {
-        let power = f64::from_bits((self.shifted << 52).wrapping_add(1.0_f64.to_bits()));
+        let power = f64::from_bits(self.exponent().wrapping_add(1.0_f64.to_bits()));
         let sum = Twofold::ordered_sum(1.0, self.r);
-        Twofold::ordered_sum(sum.hi, sum.lo + self.rest).times(power)
+        Twofold::ordered_sum(sum.hi, sum.lo + self.rest()).times(power)
     }
 
     /// e^x - `less` for `less` = 0 or 1; right from x = -708 up to 709.
     #[inline(always)]
-    pub(super) fn exp_less(self, less: f64) -> f64 {
-        let power = f64::from_bits((self.shifted << 52).wrapping_add(1.0_f64.to_bits()));
+    pub(crate) fn exp_less(self, less: f64) -> f64 {
+        let rest = self.rest();
+        let power = f64::from_bits(self.exponent().wrapping_add(1.0_f64.to_bits()));
         let head = power * self.r;
         let base = power - less;
         let sum = base + head;
         let missing = head - (sum - base);
-        sum + (missing + power * self.rest)
+        sum + (missing + power * rest)
     }
 }

@@ -33,21 +33,42 @@ pub fn ln(x: f64) -> f64 {
 /// other argument. Error below 1.2 units in the last place.
 #[inline(always)]
 pub fn ln_1p(x: f64) -> f64 {
-    let sum = 1.0 + x;
-    let x_part = sum - 1.0;
-    let missing = (1.0 - (sum - x_part)) + (x - x_part);
-    let (e, inverse_power) = parts(sum);
-    // 1 + x = 2^e (1 + f + dropped)
-    let near = sum * inverse_power - 1.0;
-    let far = missing * inverse_power;
-    let f = near + far;
-    let dropped = (near - f) + far;
-    let s = f / (2.0 + f);
+    ln_1p_of(x, Parts::new(x))
+}
+
+/// The second half of [`ln_1p`].
+#[inline(always)]
+pub(crate) fn ln_1p_of(x: f64, parts: Parts) -> f64 {
+    let Parts { e, f, dropped, s } = parts;
     // d ln(1 + f) = df / (1 + f) = df (1 - s) / (1 + s), of which few digits matter
     let correction = dropped * (1.0 - (s + s) * (1.0 - s));
     let value = sum_of_logarithms(e * LN_2_HEAD, e * LN_2_TAIL + correction, f, s);
     let inside = (x > -1.0) & (x <= HIGHEST);
     if inside { value } else { f64::NAN }
+}
+
+/// 1 + x = 2^e (1 + f + dropped) and s = f / (2 + f): the first half of a logarithm.
+#[derive(Clone, Copy)]
+pub(crate) struct Parts {
+    pub(crate) e: f64,
+    pub(crate) f: f64,
+    pub(crate) dropped: f64,
+    pub(crate) s: f64,
+}
+
+impl Parts {
+    #[inline(always)]
+    pub(crate) fn new(x: f64) -> Parts {
+        let sum = 1.0 + x;
+        let x_part = sum - 1.0;
+        let missing = (1.0 - (sum - x_part)) + (x - x_part);
+        let (e, inverse_power) = parts(sum);
+        let near = sum * inverse_power - 1.0;
+        let far = missing * inverse_power;
+        let f = near + far;
+        let dropped = (near - f) + far;
+        Parts { e, f, dropped, s: f / (2.0 + f) }
+    }
 }
 
 /// The exponent e, as a double, and 2^-e for which x 2^-e lies between about
@@ -81,27 +102,46 @@ fn sum_of_logarithms(head: f64, tail: f64, x: f64, s: f64) -> f64 {
     total + (missing + (tail - rest))
 }
 
-/// ln(1 + x) for 0 <= x <= 1.
-#[inline(always)]
-pub(super) fn ln_1p_unit(x: f64) -> f64 {
-    // above sqrt(2) - 1 it is ln 2 + ln(1 + f) with f = (x - 1) / 2
-    let above = x > SQRT_2 - 1.0;
-    let numerator = if above { x - 1.0 } else { x };
-    let denominator = x + if above { 3.0 } else { 2.0 };
-    let f = if above { 0.5 * numerator } else { numerator };
-    let head = if above { LN_2_HEAD } else { 0.0 };
-    let tail = if above { LN_2_TAIL } else { 0.0 };
-    sum_of_logarithms(head, tail, f, numerator / denominator)
+/// 1 + x = 2^e (1 + f) and s = f / (2 + f), where e follows from x: the first half of a logarithm
+/// of a number of little range.
+#[derive(Clone, Copy)]
+pub(crate) struct Ratio {
+    pub(crate) f: f64,
+    pub(crate) s: f64,
 }
 
-/// ln(1 + x) for -1/2 <= x <= 1.
+impl Ratio {
+    /// For 0 <= x <= 1: e is 1 above sqrt(2) - 1, where f = (x - 1) / 2, else 0.
+    #[inline(always)]
+    pub(crate) fn of_unit(x: f64) -> Ratio {
+        let above = x > SQRT_2 - 1.0;
+        let numerator = if above { x - 1.0 } else { x };
+        let denominator = x + if above { 3.0 } else { 2.0 };
+        Ratio { f: if above { 0.5 * numerator } else { numerator }, s: numerator / denominator }
+    }
+
+    /// For -1/2 <= x <= 1: e is -1, 0 or 1.
+    #[inline(always)]
+    pub(crate) fn of_short(x: f64) -> Ratio {
+        let f = if x > SQRT_2 - 1.0 { 0.5 * (x - 1.0) } else { x };
+        let f = if x < FRAC_1_SQRT_2 - 1.0 { x + x + 1.0 } else { f };
+        Ratio { f, s: f / (2.0 + f) }
+    }
+}
+
+/// ln(1 + x) for 0 <= x <= 1 with [`Ratio::of_unit`].
 #[inline(always)]
-pub(super) fn ln_1p_short(x: f64) -> f64 {
+pub(crate) fn ln_1p_unit(x: f64, ratio: Ratio) -> f64 {
     let above = x > SQRT_2 - 1.0;
-    let below = x < FRAC_1_SQRT_2 - 1.0;
-    let e = if above { 1.0 } else { 0.0 };
-    let e = if below { -1.0 } else { e };
-    let f = if above { 0.5 * (x - 1.0) } else { x };
-    let f = if below { x + x + 1.0 } else { f };
-    sum_of_logarithms(e * LN_2_HEAD, e * LN_2_TAIL, f, f / (2.0 + f))
+    let head = if above { LN_2_HEAD } else { 0.0 };
+    let tail = if above { LN_2_TAIL } else { 0.0 };
+    sum_of_logarithms(head, tail, ratio.f, ratio.s)
+}
+
+/// ln(1 + x) for -1/2 <= x <= 1 with [`Ratio::of_short`].
+#[inline(always)]
+pub(crate) fn ln_1p_short(x: f64, ratio: Ratio) -> f64 {
+    let e = if x > SQRT_2 - 1.0 { 1.0 } else { 0.0 };
+    let e = if x < FRAC_1_SQRT_2 - 1.0 { -1.0 } else { e };
+    sum_of_logarithms(e * LN_2_HEAD, e * LN_2_TAIL, ratio.f, ratio.s)
 }

@@ -4,9 +4,8 @@
 //! computed values, rounding is the addition of a large number, exponents are moved
 //! by additions and logical shifts of bits. Any plain loop over slices that calls
 //! them is vectorised; run it through [`simd::dispatch`](crate::simd::dispatch) for
-//! the widest registers. Two short loops with a slice between them are often faster
-//! than one long loop, whose operations wait for each other: so [`softplus`] comes in
-//! halves ([`decay`], [`softplus_of_decay`]), and [`softplus_difference`] too.
+//! the widest registers. Several short loops are faster than one long loop, whose
+//! operations wait for each other: [`row`](crate::row) has these functions so.
 //!
 //! Errors are stated in units in the last place of the result; tests hold them to it.
 //! The domains are smaller than those of the [`scalar`](crate::scalar) functions, and
@@ -15,15 +14,12 @@
 //! Multiplications and additions are kept apart. Fused, the softplus loop took 0.83 of
 //! the time where the processor can fuse (AVX2), and many times as long where not.
 
-mod exponential;
-mod logarithm;
+pub(crate) mod exponential;
+pub(crate) mod logarithm;
 mod power;
-mod softplus;
+pub(crate) mod softplus;
 
 pub use exponential::{exp, exp_m1};
 pub use logarithm::{ln, ln_1p};
 pub use power::{pow, pow_m1};
-pub use softplus::{
-    SoftplusBase, decay, sigmoid, sigmoid_of_decay, softplus, softplus_change, softplus_difference,
-    softplus_difference_of_change, softplus_of_decay,
-};
+pub use softplus::{SoftplusBase, sigmoid, softplus, softplus_difference};

@@ -2,6 +2,7 @@
 
 use crate::sample::{Map, Random};
 use math::lane::{self, SoftplusBase};
+use math::row::{self, Room};
 use math::simd::{Kernel, Width, available, dispatch, dispatch_up_to};
 use math::slice;
 
@@ -83,4 +84,49 @@ fn slices_have_the_bits_of_their_lanes() {
         slice::ln_1p_scaled(0.04, &x, &mut out);
         assert_eq!(out, x.iter().map(|&x| lane::ln_1p(0.04 * x)).collect::<Vec<_>>());
     }
+}
+
+/// A function of rows, on a row.
+struct InRows<'a>(fn(&mut [f64], &mut Room), &'a mut [f64]);
+
+impl Kernel for InRows<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        (self.0)(self.1, &mut Room::default());
+    }
+}
+
+#[test]
+fn rows_have_the_bits_of_their_lanes() {
+    let mut random = Random(73);
+    let x = arguments();
+    let base = SoftplusBase::new(-1.7);
+    // none, parts of registers and of rows, and several rows with a remainder
+    for length in (0..20).chain([255, 256, 257, 1000, x.len()]) {
+        let begin = (random.bits() % (x.len() - length + 1) as u64) as usize;
+        let x = &x[begin..][..length];
+        let above: Vec<f64> = x.iter().map(|&x| if x > -1.0 { x } else { 0.5 }).collect();
+        assert_row("exp", x, row::exp, lane::exp);
+        assert_row("exp_m1", x, row::exp_m1, lane::exp_m1);
+        assert_row("softplus", x, row::softplus, lane::softplus);
+        assert_row("ln_1p", &above, row::ln_1p, lane::ln_1p);
+        let mut row = x.to_vec();
+        row::softplus_difference(&base, &mut row, &mut Room::default());
+        let lanes: Vec<f64> = x.iter().map(|&x| lane::softplus_difference(&base, x)).collect();
+        assert!(is_same(&row, &lanes), "softplus_difference, {length}");
+    }
+}
+
+fn is_same(a: &[f64], b: &[f64]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
+}
+
+#[track_caller]
+fn assert_row(name: &str, x: &[f64], in_row: fn(&mut [f64], &mut Room), lane: fn(f64) -> f64) {
+    let mut row = x.to_vec();
+    dispatch(InRows(in_row, &mut row));
+    let lanes: Vec<f64> = x.iter().map(|&x| lane(x)).collect();
+    assert!(is_same(&row, &lanes), "{name}, {}", x.len());
 }

@@ -1,0 +1,128 @@
+//! Many steps of Heun's scheme in positions and speeds at once: the scheme of the paper, 3e8 steps of it a run.
+//!
+//! The same sums in the same order as the general method makes them, so the same bits. What makes it fast: all steps of a
+//! burst run in one function, on arrays that stay in the first-level cache ([`road`]). Rings too large for a cache go
+//! through it block by block, each many steps at a time ([`blocks`]).
+
+mod blocks;
+mod road;
+
+pub use blocks::Cut;
+
+use crate::laws::{Law, Model, Visitor};
+use crate::ring::Ring;
+use blocks::in_blocks;
+use math::row::LANES;
+use math::simd::{Kernel, Width, dispatch_up_to};
+use ode::Burst;
+use road::Road;
+
+/// Steps to be made: their law, the length of the ring, the length of a step, their number, and the widest registers to
+/// use, on which the bits do not depend.
+#[derive(Clone, Copy)]
+pub(crate) struct Steps<L> {
+    pub(crate) law: L,
+    pub(crate) length: f64,
+    pub(crate) h: f64,
+    pub(crate) count: u64,
+    pub(crate) limit: Width,
+}
+
+/// Makes steps of the state `[x_0 .. x_{N-1}, v_0 .. v_{N-1}]`. An eventful burst leaves the state untouched.
+pub(crate) fn burst<L: Law>(steps: Steps<L>, cut: Option<Cut>, state: &mut [f64]) -> Burst {
+    let mut new = state.to_vec();
+    let is_quiet_within = match cut {
+        Some(cut) => in_blocks(steps, cut, &mut new),
+        None => dispatch_up_to(steps.limit, InOne { steps, state: &mut new }),
+    };
+    if is_quiet_within && is_quiet(&steps.law, steps.length, &new) {
+        state.copy_from_slice(&new);
+        Burst::Quiet
+    } else {
+        Burst::Eventful
+    }
+}
+
+/// Makes `count` steps of length `h` of the state `[x_0 .. x_{N-1}, v_0 .. v_{N-1}]` of a ring in one piece or cut, with
+/// registers no wider than `limit`. For tests and measurements: neither changes a bit, and
+/// [`Positions`](super::Positions) chooses the best by itself.
+pub fn heun_steps(
+    model: &Model,
+    ring: Ring,
+    (h, count): (f64, u64),
+    state: &mut [f64],
+    cut: Option<Cut>,
+    limit: Width,
+) -> Burst {
+    model.visit(Cutting { length: ring.length, h, count, state, cut, limit })
+}
+
+struct Cutting<'a> {
+    length: f64,
+    h: f64,
+    count: u64,
+    state: &'a mut [f64],
+    cut: Option<Cut>,
+    limit: Width,
+}
+
+impl Visitor for Cutting<'_> {
+    type Output = Burst;
+    fn visit<L: Law + 'static>(self, law: L) -> Burst {
+        let Cutting { length, h, count, state, cut, limit } = self;
+        burst(Steps { law, length, h, count, limit }, cut, state)
+    }
+}
+
+/// All pedestrians at once. Behind the last stand images of the first ones, one ring length ahead, so that the neighbour
+/// ahead is the next element, and the elements fill whole registers: the loops have no exception and no remainder.
+/// Before every evaluation two images are renewed: the one whom the last pedestrian follows, and the last one; those
+/// between follow that. They serve nobody, but are near enough to where they belong to raise no alarm.
+struct InOne<'a, L: Law> {
+    steps: Steps<L>,
+    state: &'a mut [f64],
+}
+
+impl<L: Law> Kernel for InOne<'_, L> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run(self) -> bool {
+        let Steps { law, length, h, count, .. } = self.steps;
+        let n = self.state.len() / 2;
+        let size = n.next_multiple_of(LANES);
+        let mut road = Road::new(size);
+        let (positions, speeds) = self.state.split_at_mut(n);
+        road.now.positions[..n].copy_from_slice(positions);
+        road.now.speeds[..n].copy_from_slice(speeds);
+        let place = |image: usize| (image % n, (image / n) as f64 * length);
+        for image in n..size {
+            road.now.put_image(image, place(image).0, place(image).1);
+        }
+        let (last, turns) = place(size);
+        for _ in 0..count {
+            road.now.put_image(n, 0, length);
+            road.now.put_image(size, last, turns);
+            if !road.predict(&law, h, 0..size) {
+                return false;
+            }
+            road.guess.put_image(n, 0, length);
+            road.guess.put_image(size, last, turns);
+            road.correct(&law, h, 0..size);
+        }
+        positions.copy_from_slice(&road.now.positions[..n]);
+        speeds.copy_from_slice(&road.now.speeds[..n]);
+        true
+    }
+}
+
+/// Whether everybody has room and no negative speed; false for what is not a number.
+fn is_quiet<L: Law>(law: &L, length: f64, state: &[f64]) -> bool {
+    let (x, v) = state.split_at(state.len() / 2);
+    let last = x.len() - 1;
+    let is_quiet = |i: usize, ahead: f64, v_ahead: f64| {
+        let room = law.room(ahead - x[i] - L::CONTACT, v[i], v_ahead);
+        (room >= 0.0) & (v[i] >= 0.0)
+    };
+    (0..last).all(|i| is_quiet(i, x[i + 1], v[i + 1])) && is_quiet(last, x[0] + length, v[0])
+}

@@ -1,0 +1,157 @@
+//! A stretch of road: pedestrians of whom each follows the next element, and the two halves of a step of Heun's scheme.
+
+use crate::laws::{Law, Work};
+use math::row::LENGTH;
+use std::ops::Range;
+
+/// Positions and speeds in order along the road.
+pub(super) struct Places {
+    pub(super) positions: Vec<f64>,
+    pub(super) speeds: Vec<f64>,
+}
+
+impl Places {
+    fn new(size: usize) -> Places {
+        Places { positions: vec![0.0; size], speeds: vec![0.0; size] }
+    }
+
+    /// Fills a place with the image of somebody in another place, that much further ahead.
+    #[inline(always)]
+    pub(super) fn put_image(&mut self, image: usize, of: usize, ahead: f64) {
+        self.positions[image] = self.positions[of] + ahead;
+        self.speeds[image] = self.speeds[of];
+    }
+}
+
+/// A stretch of road with room for a step.
+pub(super) struct Road {
+    /// The pedestrians, and one place more for whom the last one follows.
+    pub(super) now: Places,
+    /// Where an Euler step leads.
+    pub(super) guess: Places,
+    accelerations: Vec<f64>,
+    row: [f64; LENGTH],
+    work: Work,
+}
+
+impl Road {
+    /// A road for so many pedestrians.
+    pub(super) fn new(size: usize) -> Road {
+        Road {
+            now: Places::new(size + 1),
+            guess: Places::new(size + 1),
+            accelerations: vec![0.0; size],
+            row: [0.0; LENGTH],
+            work: Work::default(),
+        }
+    }
+
+    /// The accelerations now, and the state that an Euler step would reach. False if one of these pedestrians has no room
+    /// or a negative speed; what is not a number may pass for quiet.
+    #[inline(always)]
+    pub(super) fn predict<L: Law>(&mut self, law: &L, h: f64, range: Range<usize>) -> bool {
+        let Road { now, guess, accelerations, row, work } = self;
+        let mut signs = 0;
+        for begin in range.clone().step_by(LENGTH) {
+            let (here, next) = (begin..range.end.min(begin + LENGTH), begin + 1..range.end.min(begin + LENGTH) + 1);
+            let (x, ahead) = (&now.positions[here.clone()], &now.positions[next.clone()]);
+            let (v, v_ahead) = (&now.speeds[here.clone()], &now.speeds[next]);
+            accelerate(law, x, ahead, v, v_ahead, row, work);
+            let (x_guess, v_guess) = (&mut guess.positions[here.clone()], &mut guess.speeds[here.clone()]);
+            signs |= euler(law, h, x, ahead, v, v_ahead, row, &mut accelerations[here], x_guess, v_guess);
+        }
+        signs >> 63 == 0
+    }
+
+    /// The step with the mean of the rates at both ends.
+    #[inline(always)]
+    pub(super) fn correct<L: Law>(&mut self, law: &L, h: f64, range: Range<usize>) {
+        let Road { now, guess, accelerations, row, work } = self;
+        for begin in range.clone().step_by(LENGTH) {
+            let (here, next) = (begin..range.end.min(begin + LENGTH), begin + 1..range.end.min(begin + LENGTH) + 1);
+            let (x_guess, ahead) = (&guess.positions[here.clone()], &guess.positions[next.clone()]);
+            let (v_guess, v_ahead) = (&guess.speeds[here.clone()], &guess.speeds[next]);
+            accelerate(law, x_guess, ahead, v_guess, v_ahead, row, work);
+            let (x, v) = (&mut now.positions[here.clone()], &mut now.speeds[here.clone()]);
+            heun(law, h, x_guess, ahead, v_guess, v_ahead, row, &accelerations[here], x, v);
+        }
+    }
+}
+
+/// For a law in rows, fills a row with accelerations; others are computed where they are used.
+#[inline(always)]
+fn accelerate<L: Law>(
+    law: &L,
+    x: &[f64],
+    ahead: &[f64],
+    v: &[f64],
+    v_ahead: &[f64],
+    row: &mut [f64; LENGTH],
+    work: &mut Work,
+) {
+    if L::IN_ROWS {
+        let n = x.len();
+        let (row, ahead) = (&mut row[..n], &ahead[..n]);
+        for i in 0..n {
+            row[i] = ahead[i] - x[i] - L::CONTACT;
+        }
+        law.accelerations(row, v, v_ahead, work);
+    }
+}
+
+/// An Euler step from `x`, `v`. The sign bit of what it returns is set if one of the pedestrians has no room or a negative
+/// speed: gathering signs is cheaper than comparing.
+#[inline(always)]
+#[expect(clippy::too_many_arguments, reason = "only slices that are arguments are known not to overlap")]
+fn euler<L: Law>(
+    law: &L,
+    h: f64,
+    x: &[f64],
+    ahead: &[f64],
+    v: &[f64],
+    v_ahead: &[f64],
+    row: &[f64; LENGTH],
+    accelerations: &mut [f64],
+    x_guess: &mut [f64],
+    v_guess: &mut [f64],
+) -> u64 {
+    let n = x.len();
+    let (ahead, v, v_ahead, row) = (&ahead[..n], &v[..n], &v_ahead[..n], &row[..n]);
+    let (accelerations, x_guess, v_guess) = (&mut accelerations[..n], &mut x_guess[..n], &mut v_guess[..n]);
+    let mut signs = 0;
+    for i in 0..n {
+        let clearance = ahead[i] - x[i] - L::CONTACT;
+        let a = if L::IN_ROWS { row[i] } else { law.acceleration(clearance, v[i], v_ahead[i]) };
+        accelerations[i] = a;
+        x_guess[i] = x[i] + h * v[i];
+        v_guess[i] = v[i] + h * a;
+        signs |= law.room(clearance, v[i], v_ahead[i]).to_bits() | v[i].to_bits();
+    }
+    signs
+}
+
+/// The step of `x`, `v` with the mean of the accelerations there and at the guess.
+#[inline(always)]
+#[expect(clippy::too_many_arguments, reason = "only slices that are arguments are known not to overlap")]
+fn heun<L: Law>(
+    law: &L,
+    h: f64,
+    x_guess: &[f64],
+    ahead: &[f64],
+    v_guess: &[f64],
+    v_ahead: &[f64],
+    row: &[f64; LENGTH],
+    accelerations: &[f64],
+    x: &mut [f64],
+    v: &mut [f64],
+) {
+    let n = x.len();
+    let (x_guess, v_guess, accelerations) = (&x_guess[..n], &v_guess[..n], &accelerations[..n]);
+    let (ahead, v_ahead, row, v) = (&ahead[..n], &v_ahead[..n], &row[..n], &mut v[..n]);
+    for i in 0..n {
+        let clearance = ahead[i] - x_guess[i] - L::CONTACT;
+        let a = if L::IN_ROWS { row[i] } else { law.acceleration(clearance, v_guess[i], v_ahead[i]) };
+        x[i] += h * (0.5 * v[i] + 0.5 * v_guess[i]);
+        v[i] += h * (0.5 * accelerations[i] + 0.5 * a);
+    }
+}
