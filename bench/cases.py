@@ -98,7 +98,7 @@ class Setting:
     ratio: str
 
     def label(self):
-        ratio = "" if self.ratio == "1" else f", absolute/relative {self.ratio}"
+        ratio = "" if self.ratio in ("", "1") else f", absolute/relative {self.ratio}"
         return f"{self.method}, {self.form}, tolerance {self.tolerance}{ratio}"
 
 

@@ -8,13 +8,15 @@ import argparse
 import json
 import platform
 import re
+import shlex
 import statistics
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 import build
-from cases import CASES, TARGETS, Setting, error, exponents, read_states, read_trajectories, series
+from cases import CASES, PEERS, TARGETS, Setting, error, exponents, read_states, read_trajectories, series
 from report import csv, markdown
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -25,20 +27,20 @@ PATIENCE = 8.0  # seconds after which a series of tolerances goes on no further
 class Runner:
     """Runs a setting on a case: seconds, right-hand sides and, where it is asked for, the states."""
 
-    def __init__(self, scratch, programs, python, simulate):
-        self.scratch, self.python, self.simulate = scratch, python, simulate
+    def __init__(self, folder, programs, python, simulate):
+        self.folder, self.simulate = folder, simulate
         self.commands = {name: [path] for name, path in programs.items()}
         for name in ["scipy", "numbalsoda", "heyoka"]:
             self.commands[name] = [python, build.BENCH / "python" / f"{name}_ring.py", programs["rhs"]]
         for case in CASES:
             for record in ["std", "trajectories"]:
-                (scratch / f"{case.name}-{record}.toml").write_text(case.scene(record))
+                (folder / f"{case.name}-{record}.toml").write_text(case.scene(record))
 
     def ours(self, case, method, tolerance, record="std"):
         options = ["--method", method, "--tol", tolerance, "--json"]
         if record == "trajectories":
-            options += ["--out", self.scratch / "out", "--tables-only"]
-        return [self.simulate, self.scratch / f"{case.name}-{record}.toml", *options]
+            options += ["--out", self.folder / "out", "--tables-only"]
+        return [self.simulate, self.folder / f"{case.name}-{record}.toml", *options]
 
     def our_methods(self):
         """The names in the message about an unknown one, without those that have no control of their steps."""
@@ -57,7 +59,7 @@ class Runner:
             # a run that an event ends early is no solution
             return (result["seconds"], result["right_hand_sides"]) if result and result["stop"] == "t_end" else None
         arguments = [case.name, setting.form, setting.method, setting.tolerance, setting.ratio, "1"]
-        arguments += [",".join(map(str, times)), self.scratch / "states.csv"]
+        arguments += [",".join(map(str, times)), self.folder / "states.csv"]
         done = run_quietly([*self.commands[setting.program], *arguments])
         result = done and json.loads(done)
         return (result["seconds"][0], result["evaluations"]) if result else None
@@ -65,10 +67,10 @@ class Runner:
     def states(self, case, setting, times):
         """The states at these times, of the run just timed or, for ours, of another one that keeps them."""
         if setting.peer != OURS:
-            with (self.scratch / "states.csv").open() as file:
+            with (self.folder / "states.csv").open() as file:
                 return read_states(file)
         build.run(self.ours(case, setting.method, setting.tolerance, "trajectories"), "simulate")
-        with (self.scratch / "out" / "trajectories.csv").open() as file:
+        with (self.folder / "out" / "trajectories.csv").open() as file:
             return read_trajectories(file, 200.0, times)
 
 
@@ -152,38 +154,55 @@ def best(rows, medians, target):
     return sorted(found.values(), key=lambda row: row["seconds"])
 
 
+def names(text):
+    return text.split(",")
+
+
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--scratch", type=Path, default=ROOT / "target" / "bench-peers", help="what is built and installed")
+    parser.add_argument("--scratch", type=Path, default=ROOT / "target" / "bench-peers", help="where peers are built")
     parser.add_argument("--reference", type=Path, default=ROOT / "data" / "reference" / "solutions", help="CASE.csv")
     parser.add_argument("--out", type=Path, default=ROOT / "data" / "timing", help="where peers.csv and peers.md go")
     parser.add_argument("--rounds", type=int, default=7, help="measurements of each setting in the table")
     parser.add_argument("--quick", action="store_true", help="fewer tolerances, 3 rounds")
+    parser.add_argument("--cases", type=names, help=f"of {', '.join(case.name for case in CASES)}; all by default")
+    parser.add_argument("--peers", type=names, help=f"of {', '.join(peer.name for peer in PEERS)}; all by default")
     parser.add_argument("--install", action="store_true", help="install missing system packages (apt-get, as root)")
-    return parser.parse_args()
+    options = parser.parse_args()
+    for wanted, known in [(options.cases, CASES), (options.peers, PEERS)]:
+        unknown = set(wanted or []) - {one.name for one in known}
+        if unknown:
+            parser.error(f"unknown: {', '.join(sorted(unknown))}")
+    return options
 
 
-def main():
-    options = arguments()
-    scratch = options.scratch.resolve()
-    scratch.mkdir(parents=True, exist_ok=True)
-    build.system_packages(options.install)
-    python = build.python_environment(scratch)
-    runner = Runner(scratch, build.programs(scratch), python, build.simulate())
+def compare(runner, options):
+    """The tables of all cases asked for, [(case, target, rows)], and against what each was judged."""
     wanted = [
         [Setting(OURS, "", "deviation", method, f"1e-{k}", "") for k in exponents(options.quick)]
         for method in runner.our_methods()
     ]
-    wanted += series(options.quick)
+    wanted += [one for one in series(options.quick) if not options.peers or one[0].peer in options.peers]
     tables, truths = [], {}
-    for case in CASES:
+    for case in [case for case in CASES if not options.cases or case.name in options.cases]:
         truth, truths[case.title] = reference(runner, case, options.reference)
         rows = sweep(runner, case, wanted, truth)
         medians = measure(runner, case, rows, 3 if options.quick else options.rounds)
         tables += [(case, target, best(rows, medians, target)) for target in TARGETS]
+    return tables, truths
+
+
+def main(options):
+    scratch = options.scratch.resolve()
+    scratch.mkdir(parents=True, exist_ok=True)
+    build.system_packages(options.install)
+    python = build.python_environment(scratch)
+    programs, simulate = build.programs(scratch), build.simulate()
+    with tempfile.TemporaryDirectory(dir=scratch) as folder:
+        tables, truths = compare(Runner(Path(folder), programs, python, simulate), options)
     facts = {
         "processor": processor(),
-        "command": " ".join(["python3 bench/peers.py", *(["--quick"] if options.quick else [])]),
+        "command": shlex.join(["python3", "bench/peers.py", *chosen(options)]),
         "flags": " ".join(build.flags()[0]),
         "versions": build.versions(python),
         "references": truths,
@@ -195,6 +214,14 @@ def main():
     (options.out / "peers.csv").write_text(csv(tables))
 
 
+def chosen(options):
+    """The options that change the tables, to make them again."""
+    given = ["--quick"] if options.quick else ["--rounds", str(options.rounds)]
+    for name, value in [("--cases", options.cases), ("--peers", options.peers)]:
+        given += [name, ",".join(value)] if value else []
+    return given
+
+
 def processor():
     names = re.findall(r"model name\s*: (.*)", Path("/proc/cpuinfo").read_text())
     return f"{names[0] if names else platform.machine()}, {len(names)} cores, Linux {platform.machine()}"
@@ -202,6 +229,6 @@ def processor():
 
 if __name__ == "__main__":
     try:
-        main()
+        main(arguments())
     except build.Trouble as trouble:
         sys.exit(f"peers.py: {trouble}")

@@ -30,8 +30,8 @@ def markdown(tables, facts):
     text = ["# Integrators of other projects beside ours", ""]
     text += [
         "CPU seconds of the integration on one core, with the standard deviation of the speeds at t = 0, 1, 2, ...;",
-        "median of runs in turn. Error: the largest of any gap or speed at any time of the reference. The fastest setting",
-        "of each integrator that reaches the error; who is not named does not. Last column: seconds over ours.",
+        "median of runs in turn. Error: the largest of any gap or speed at any time of the reference. Each row has the",
+        "fastest setting of an integrator that reaches the error; who is not named does not. Last: time over ours.",
         "How it is measured, and how fair: [bench/README.md](../../bench/README.md).",
         "",
         f"- {facts['processor']}",

@@ -1,4 +1,5 @@
-// SUNDIALS ARKODE, ERKStep: embedded pairs; samples from its interpolant of degree 5, or by landing on them ("-landing").
+// SUNDIALS ARKODE, ERKStep: embedded pairs. Samples come from its interpolant of degree 5, or ("-landing") from steps
+// that end on them.
 #include "harness.hpp"
 #include "vectors.hpp"
 

@@ -1,4 +1,4 @@
-// Vector operations for SUNDIALS, compiled here: distributions ship its own ones without optimisation, ten times slower.
+// Vector operations for SUNDIALS, compiled here: Debian ships its own ones without optimisation, nine times slower.
 #pragma once
 
 #include <cmath>
