@@ -1,1 +1,73 @@
-fn main() {}
+//! Supplement 9: what rounding does to Heun's scheme on the stable run of figure 4, against the length of the step; and
+//! the curve of the paper's scheme, steps of 1e-5 in positions, on top of the true one.
+
+use figures::panels::points;
+use figures::{Failure, Job, figure};
+use files::table::Table;
+use plot::style::COLUMN_WIDTH;
+use plot::{Axis, Corner, Legend, Lines, Marker, Picture, Series};
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    figure(env!("CARGO_BIN_NAME"), tables, picture)
+}
+
+/// Forms of the state with their markers.
+const STATES: [(&str, Marker); 3] =
+    [("positions", Marker::Circle), ("gaps", Marker::Square), ("deviations", Marker::Diamond)];
+/// How steps are added up.
+const SUMS: [&str; 2] = ["plain", "compensated"];
+/// The time of the errors that are drawn.
+const TIME: f64 = 1000.0;
+
+fn tables(job: &mut Job) -> Result<(), Failure> {
+    let rounding = job.accuracy("rounding")?;
+    for (state, _) in STATES {
+        for sum in SUMS {
+            let columns = ["dt", "t", "error_gap", "truncation_gap", "rounding_gap"];
+            let all = rounding.select(&[("state", state), ("sum", sum)], &columns)?;
+            let mut table = Table::new(&columns);
+            all.rows().filter(|row| row[1] == TIME).for_each(|row| table.push(row));
+            job.write(&format!("{state}_{sum}"), &table)?;
+        }
+    }
+    job.write("verbatim", &job.accuracy("verbatim_fig04_stable")?.select(&[], &["t", "std", "exact"])?)
+}
+
+fn picture(job: &Job) -> Result<Picture, Failure> {
+    Ok(Picture::new(COLUMN_WIDTH, 165.0)
+        .columns(1)
+        .titled("error of the gaps at $t = 1000$", against_step(job, "error_gap")?)
+        .titled("of it, rounding", against_step(job, "rounding_gap")?)
+        .titled("figure 4, stable: the scheme of the paper", verbatim(job)?))
+}
+
+/// A column against the step for every form and sum; a grey line for what truncation alone does.
+fn against_step(job: &Job, column: &str) -> Result<Lines, Failure> {
+    let is_total = column == "error_gap";
+    let label = if is_total { "largest error" } else { "largest rounding" };
+    let (low, high) = if is_total { (1e-18, 1e-7) } else { (1e-21, 1e-7) };
+    let mut panel = Lines::new(Axis::log10("step $\\Delta t$", 1e-5, 1e-1), Axis::log10(label, low, high))
+        .legend(if is_total { Legend::Hidden } else { Legend::Ends });
+    if is_total {
+        let truncation = points(&job.read("deviations_plain")?, "dt", "truncation_gap")?;
+        panel = panel.guide(&truncation).note("truncation, slope 2", (1.5e-3, 1e-15));
+    }
+    for (index, (state, marker)) in STATES.into_iter().enumerate() {
+        for sum in SUMS {
+            let curve =
+                Series::line(&format!("{state}, {sum}"), points(&job.read(&format!("{state}_{sum}"))?, "dt", column)?);
+            let curve = curve.marker(marker).look(index).solid();
+            panel = panel.series(if sum == "plain" { curve.filled() } else { curve });
+        }
+    }
+    Ok(panel)
+}
+
+fn verbatim(job: &Job) -> Result<Lines, Failure> {
+    let table = job.read("verbatim")?;
+    Ok(Lines::new(Axis::linear("$t$", 0.0, 2000.0).steps(4), Axis::log10("std of speeds", 1e-8, 1e-5))
+        .legend(Legend::Corner(Corner::TopRight))
+        .series(Series::line("true", points(&table, "t", "exact")?).look(0).thick(2.0))
+        .series(Series::line("Heun, $\\Delta t = 10^{-5}$, positions", points(&table, "t", "std")?).look(1)))
+}

@@ -15,8 +15,8 @@ use std::path::Path;
 
 /// The numbers of steps in a unit of time: steps of 1e-1 to 1e-5.
 const PER_UNIT: [f64; 13] = [1e1, 2e1, 5e1, 1e2, 2e2, 5e2, 1e3, 2e3, 5e3, 1e4, 2e4, 5e4, 1e5];
-/// The first so many are run without rounding; the truncation of shorter ones follows from the last two of these.
-const WITHOUT_ROUNDING: usize = 4;
+/// The first so many are run without rounding; the truncation of shorter ones follows from the last three of these.
+const WITHOUT_ROUNDING: usize = 5;
 /// The times of the rows.
 const TIMES: [f64; 3] = [500.0, 1000.0, 2000.0];
 
@@ -33,7 +33,7 @@ struct Exact {
 pub fn tables(extent: Extent, solutions: &Path) -> Result<Tables, Failure> {
     let (steps, times) = match extent {
         Extent::Quick => (WITHOUT_ROUNDING, 1),
-        Extent::Usual => (9, 2),
+        Extent::Usual => (10, 2),
         Extent::Full => (PER_UNIT.len(), TIMES.len()),
     };
     let (steps, times) = (&PER_UNIT[..steps], &TIMES[..times]);
@@ -126,20 +126,24 @@ impl Exact {
         }
         for &per_unit in &steps[WITHOUT_ROUNDING..] {
             let ratio = PER_UNIT[WITHOUT_ROUNDING - 1] / per_unit;
-            let [coarse, fine] = [WITHOUT_ROUNDING - 2, WITHOUT_ROUNDING - 1].map(|index| &truncation[index]);
-            truncation.push(coarse.iter().zip(fine).map(|(coarse, fine)| extrapolated(coarse, fine, ratio)).collect());
+            let [coarse, middle, fine] = [3, 2, 1].map(|back| &truncation[WITHOUT_ROUNDING - back]);
+            let each = coarse.iter().zip(middle).zip(fine);
+            truncation.push(each.map(|((coarse, middle), fine)| extrapolated([coarse, middle, fine], ratio)).collect());
         }
         Ok(Exact { solution, truncation })
     }
 }
 
-/// The error of steps that are `ratio` times as long as those of `fine`, from `E = a h^2 + b h^3`; those of `coarse` are
-/// twice as long as those of `fine`.
-fn extrapolated(coarse: &[Twofold], fine: &[Twofold], ratio: f64) -> Vec<Twofold> {
-    let of = |(coarse, fine): (&Twofold, &Twofold)| {
-        let cubic = (*coarse - *fine * 4.0) / 4.0;
-        let square = *fine - cubic;
-        (square + cubic * ratio) * (ratio * ratio)
-    };
-    coarse.iter().zip(fine).map(of).collect()
+/// The error of steps that are `ratio` times as long as the shortest of three, from `E = a h^2 + b h^3 + c h^4`. The
+/// three are in the ratios 4, 2 and 1.
+fn extrapolated(errors: [&[Twofold]; 3], ratio: f64) -> Vec<Twofold> {
+    // Lagrange's polynomial through E / h^2
+    let weights = [
+        (ratio - 1.0) * (ratio - 2.0) / 6.0 / 16.0,
+        -(ratio - 1.0) * (ratio - 4.0) / 2.0 / 4.0,
+        (ratio - 2.0) * (ratio - 4.0) / 3.0,
+    ];
+    let [coarse, middle, fine] = errors;
+    let each = coarse.iter().zip(middle).zip(fine);
+    each.map(|((a, b), c)| (*a * weights[0] + *b * weights[1] + *c * weights[2]) * (ratio * ratio)).collect()
 }
