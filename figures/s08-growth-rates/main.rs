@@ -25,19 +25,19 @@ const LAWS: [Law; 3] = [
         name: "algebraic",
         title: "algebraic, $N = 67$",
         flows: [("stable", "$\\mu = 0.45$"), ("unstable", "$\\mu = 0.55$")],
-        rates: (-0.4, 0.1),
+        rates: (-0.5, 0.1),
     },
     Law {
         name: "exponential",
         title: "exponential, $N = 57$",
         flows: [("stable", "$a = 1.5$"), ("unstable", "$a = 3$")],
-        rates: (-0.4, 0.1),
+        rates: (-0.5, 0.1),
     },
     Law {
         name: "logarithmic",
         title: "logarithmic, $N = 133$",
         flows: [("stable", "$v_0' = 0.5$"), ("unstable", "$v_0' = 1$")],
-        rates: (-0.4, 0.1),
+        rates: (-0.5, 0.1),
     },
 ];
 

@@ -38,27 +38,26 @@ fn picture(job: &Job) -> Result<Picture, Failure> {
     Ok(Picture::new(COLUMN_WIDTH, 165.0)
         .columns(1)
         .titled("error of the gaps at $t = 1000$", against_step(job, "error_gap")?)
-        .titled("of it, rounding", against_step(job, "rounding_gap")?)
+        .titled("of it, rounding; hollow: compensated sums", against_step(job, "rounding_gap")?)
         .titled("figure 4, stable: the scheme of the paper", verbatim(job)?))
 }
 
-/// A column against the step for every form and sum; a grey line for what truncation alone does.
+/// A column against the step for every form and sum. The error of deviations is that of truncation.
 fn against_step(job: &Job, column: &str) -> Result<Lines, Failure> {
     let is_total = column == "error_gap";
-    let label = if is_total { "largest error" } else { "largest rounding" };
-    let (low, high) = if is_total { (1e-18, 1e-7) } else { (1e-21, 1e-7) };
-    let mut panel = Lines::new(Axis::log10("step $\\Delta t$", 1e-5, 1e-1), Axis::log10(label, low, high))
-        .legend(if is_total { Legend::Hidden } else { Legend::Ends });
-    if is_total {
-        let truncation = points(&job.read("deviations_plain")?, "dt", "truncation_gap")?;
-        panel = panel.guide(&truncation).note("truncation, slope 2", (1.5e-3, 1e-15));
-    }
+    let (label, low) = if is_total { ("largest error", 1e-19) } else { ("largest rounding", 1e-21) };
+    let mut panel = Lines::new(Axis::log10("step $\\Delta t$", 1e-5, 1e-1), Axis::log10(label, low, 1e-7));
+    panel = if is_total {
+        panel.legend(Legend::Corner(Corner::BottomRight)).note("slope 2", (2e-2, 1e-12))
+    } else {
+        panel.legend(Legend::Hidden)
+    };
     for (index, (state, marker)) in STATES.into_iter().enumerate() {
         for sum in SUMS {
-            let curve =
-                Series::line(&format!("{state}, {sum}"), points(&job.read(&format!("{state}_{sum}"))?, "dt", column)?);
-            let curve = curve.marker(marker).look(index).solid();
-            panel = panel.series(if sum == "plain" { curve.filled() } else { curve });
+            let along = points(&job.read(&format!("{state}_{sum}"))?, "dt", column)?;
+            let (is_plain, name) = if sum == "plain" { (true, state) } else { (false, "") };
+            let curve = Series::line(name, along).marker(marker).look(index).solid();
+            panel = panel.series(if is_plain { curve.filled() } else { curve });
         }
     }
     Ok(panel)
@@ -66,7 +65,7 @@ fn against_step(job: &Job, column: &str) -> Result<Lines, Failure> {
 
 fn verbatim(job: &Job) -> Result<Lines, Failure> {
     let table = job.read("verbatim")?;
-    Ok(Lines::new(Axis::linear("$t$", 0.0, 2000.0).steps(4), Axis::log10("std of speeds", 1e-8, 1e-5))
+    Ok(Lines::new(Axis::linear("$t$", 0.0, 2000.0).steps(4), Axis::log10("std of speeds", 1e-9, 1e-5))
         .legend(Legend::Corner(Corner::TopRight))
         .series(Series::line("true", points(&table, "t", "exact")?).look(0).thick(2.0))
         .series(Series::line("Heun, $\\Delta t = 10^{-5}$, positions", points(&table, "t", "std")?).look(1)))
