@@ -4,6 +4,7 @@
 mod error_growth;
 mod heun;
 mod mode_growth;
+pub mod optimum;
 mod rounding;
 mod solution;
 mod verbatim;

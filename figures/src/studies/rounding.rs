@@ -3,7 +3,7 @@
 
 use super::heun::{Adding, Sum, without_rounding};
 use super::solution::{Distances, distances, exact_scene, state_at, written};
-use super::{Extent, FORMS, SHIFT, figure_4_stable};
+use super::{Extent, FORMS, SHIFT, figure_4_stable, optimum};
 use crate::failure::Failure;
 use crate::hard::Tables;
 use crate::hard::rows::{Rows, row};
@@ -55,7 +55,11 @@ pub fn tables(extent: Extent, solutions: &Path) -> Result<Tables, Failure> {
             rows.push(row![state, sum, 1.0 / per_unit, time, a, b, c, d, e, f, g, h, i]);
         }
     }
-    Ok(vec![("rounding", rows)])
+    let mut tables = vec![("rounding", rows)];
+    if extent == Extent::Full {
+        tables.push(("rounding_optimum", optimum::table(&tables[0].1)?));
+    }
+    Ok(tables)
 }
 
 const COLUMNS: [&str; 13] = [
