@@ -96,9 +96,6 @@ fn compensated_sums_take_the_rounding_out_of_positions_and_gaps() {
 fn the_best_steps_are_those_of_the_table_and_near_the_predicted_ones() {
     let made = figures::studies::optimum::table(&table("rounding")).expect("the columns");
     let file = root().join("data/accuracy/rounding_optimum.csv");
-    if std::env::var_os("STUDIES_WRITE").is_some() {
-        std::fs::write(&file, made.to_csv("x").unwrap()).unwrap();
-    }
     assert_eq!(made.to_csv("rounding_optimum").expect("finite"), std::fs::read(&file).expect("the table"));
     // rounding that grows as 1 / h, with a factor of its own in each run: within a step of the table or two
     for state in ["positions", "gaps"] {
