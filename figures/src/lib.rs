@@ -1,6 +1,7 @@
 //! What the figures' binaries share: the command line and where tables and pictures go ([`job`]), panels that several
 //! figures draw ([`panels`]), exit codes ([`failure`]); and the two programs for scenes of one's own ([`simulate`] with
-//! [`checkpoint`], [`map`]); the tables of the hard cases ([`hard`]).
+//! [`checkpoint`], [`map`]); the tables of the hard cases ([`hard`]) and of
+//! the studies of errors ([`studies`]).
 
 pub mod checkpoint;
 pub mod failure;
@@ -9,6 +10,7 @@ pub mod job;
 pub mod map;
 pub mod panels;
 pub mod simulate;
+pub mod studies;
 
 pub use failure::Failure;
 pub use job::{Job, figure};

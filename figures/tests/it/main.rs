@@ -3,6 +3,7 @@
 mod failures;
 mod hard;
 mod resume;
+mod studies;
 mod sums;
 
 use std::path::{Path, PathBuf};
