@@ -1,6 +1,6 @@
 //! What the figures' binaries share: the command line and where tables and pictures go ([`job`]), panels that several
 //! figures draw ([`panels`]), exit codes ([`failure`]); and the two programs for scenes of one's own ([`simulate`] with
-//! [`checkpoint`], [`map`]); the tables of the hard cases ([`hard`]).
+//! [`checkpoint`], [`map`]); the tables of the hard cases ([`hard`]) and of error against work ([`precision`]).
 
 pub mod checkpoint;
 pub mod failure;
@@ -8,6 +8,7 @@ pub mod hard;
 pub mod job;
 pub mod map;
 pub mod panels;
+pub mod precision;
 pub mod simulate;
 
 pub use failure::Failure;
