@@ -105,7 +105,7 @@ impl std::error::Error for Failure {}
 /// # Errors
 /// See [`Failure`]. What the observer saw until then stands.
 pub fn integrate(problem: &Problem<'_>, observer: &mut dyn Observer) -> Result<Statistics, Failure> {
-    if problem.method.needs_series() && !problem.system.has_series() {
+    if !problem.method.suits(problem.system) {
         return Err(Failure::NoSeries);
     }
     let mut run = Run::new(problem);

@@ -65,6 +65,13 @@ pub fn read(file: &str, tables: &Section) -> Result<Scene, RecipeError> {
             _ => FormKind::Deviations,
         },
     };
+    if !method.suits(&*form.build(&model, ring)) {
+        let problem = format!(
+            "{} needs a force that depends on the gap alone (a_v, delta and c are not named), and gaps or deviations as state",
+            method.name()
+        );
+        return Err(run.complaint("method", &problem));
+    }
     let keeps_trajectories = !run.has("record") || run.choice("record", &["std", "trajectories"])? == "trajectories";
     let rows = (t_end / sample).floor() * if keeps_trajectories { ring.pedestrians as f64 } else { 1.0 };
     if rows > MOST_ROWS {

@@ -41,7 +41,8 @@ pub fn tables(quick: bool) -> Result<Tables, Failure> {
         let [one, two] = two_methods(1e-14).map(|(method, control)| run(method, control).whole());
         let (one, two) = (one?, two?);
         let uncertainty = difference(&one.state, &two.state);
-        for method in Method::ALL {
+        // a series has no order to observe: steps shorter than its radius are exact
+        for method in Method::ALL.into_iter().filter(|method| !method.needs_series()) {
             let errors: Vec<(f64, f64)> = (LEAST..=MOST)
                 .map(|power| END / f64::from(1u32 << power))
                 .map(|step| (step, difference(&run(method, Control::Fixed { step }).state, &one.state)))

@@ -91,6 +91,12 @@ impl Case {
         self.kind.build(&self.model, self.ring)
     }
 
+    /// The methods that suit it.
+    pub fn methods(&self) -> Vec<Method> {
+        let form = self.form();
+        Method::ALL.into_iter().filter(|method| method.suits(&*form)).collect()
+    }
+
     /// Runs from the start of the paper with this shift.
     pub fn run(&self, shift: f64, leg: Leg) -> Ended {
         self.run_from(&self.form().start(Start { shift }), leg)

@@ -8,7 +8,7 @@ use crate::failure::Failure;
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
 use jam::ring::Ring;
 use jam::states::FormKind;
-use ode::{Control, Method};
+use ode::Control;
 
 const COUNT: usize = 10;
 const END: f64 = 20.0;
@@ -32,7 +32,7 @@ pub fn tables(quick: bool) -> Result<Tables, Failure> {
     for (model, length) in models() {
         for kind in [FormKind::Deviations, FormKind::Gaps, FormKind::Positions] {
             let case = Case { model, ring: Ring { pedestrians: COUNT, length }, kind };
-            for method in Method::ALL {
+            for method in case.methods() {
                 let control = if method.is_adaptive() {
                     Control::Adaptive { tolerance: 1e-12 }
                 } else {

@@ -53,7 +53,7 @@ fn two_methods_bracket_the_blow_up_to_1e_6() {
 
 #[test]
 fn every_fixed_step_reports_an_overlap_before_the_blow_up() {
-    for method in ode::Method::ALL.map(ode::Method::name) {
+    for method in ode::Method::ALL.into_iter().filter(|m| !m.needs_series()).map(ode::Method::name) {
         let words = [("method", method), ("state", "gaps")];
         let rows = numbers("blow_up_fixed_steps", &words, &["dt", "early", "t", "n", "gap"]);
         let with_event = numbers("blow_up_fixed_steps", &[words[0], words[1], ("event", "overlap")], &["early"]);

@@ -35,7 +35,7 @@ fn labels_do_not_matter() {
                 let mut turned = start.clone();
                 turned[..COUNT].rotate_left(turn);
                 turned[COUNT..2 * COUNT].rotate_left(turn);
-                for method in Method::ALL.into_iter().filter(|method| !method.needs_series() || form.has_series()) {
+                for method in Method::ALL.into_iter().filter(|method| method.suits(&*form)) {
                     let control = Control::Fixed { step: 0.0625 };
                     let mut plain = integrated(&*form, &start, 5.0, method, control).state;
                     let turned = integrated(&*form, &turned, 5.0, method, control).state;

@@ -80,7 +80,7 @@ fn run(
     look: &mut dyn FnMut(&[f64], &[f64]),
 ) {
     let form = kind.build(model, ring);
-    if method.needs_series() && !form.has_series() {
+    if !method.suits(&*form) {
         return;
     }
     let start = form.start(Start { shift: 0.0 });

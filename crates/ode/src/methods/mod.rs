@@ -113,6 +113,11 @@ impl Method {
         self == Method::Taylor
     }
 
+    /// Whether the method works for this system.
+    pub fn suits(self, system: &dyn crate::System) -> bool {
+        !self.needs_series() || system.has_series()
+    }
+
     /// The coefficients of a Runge-Kutta method.
     pub fn tableau(self) -> Option<&'static Tableau> {
         match self {
