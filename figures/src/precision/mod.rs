@@ -24,8 +24,8 @@ pub struct Arguments {
     /// Folder for the tables; made if missing
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Only the scenes whose name starts so
-    #[arg(long, value_name = "NAME")]
+    /// Only this scene
+    #[arg(long, value_name = "NAME", value_parser = SCENES.map(|known| known.name))]
     only: Option<String>,
     /// Only rows of few right-hand sides
     #[arg(long, conflicts_with = "full")]
@@ -60,7 +60,7 @@ impl Arguments {
 /// # Errors
 /// A scene or a solution cannot be read, or a file cannot be written.
 pub fn main(arguments: &Arguments) -> Result<(), Failure> {
-    let wanted = |known: &&Known| arguments.only.as_ref().is_none_or(|only| known.name.starts_with(only.as_str()));
+    let wanted = |known: &&Known| arguments.only.as_ref().is_none_or(|only| known.name == only);
     for folder in [Some(&arguments.out), arguments.seconds.as_ref()].into_iter().flatten() {
         std::fs::create_dir_all(folder).map_err(|error| with_path(error, folder))?;
     }
