@@ -1,5 +1,5 @@
 //! What the figures' binaries share: the command line and where tables and pictures go ([`job`]), panels that several
-//! figures draw ([`panels`]), exit codes ([`failure`]); and the two programs for scenes of one's own ([`simulate`] with
+//! figures draw ([`panels`], [`precision_panel`]), exit codes ([`failure`]); and the two programs for scenes of one's own ([`simulate`] with
 //! [`checkpoint`], [`map`]); the tables of the hard cases ([`hard`]) and of error against work ([`precision`]).
 
 pub mod checkpoint;
@@ -9,6 +9,7 @@ pub mod job;
 pub mod map;
 pub mod panels;
 pub mod precision;
+pub mod precision_panel;
 pub mod simulate;
 
 pub use failure::Failure;

@@ -143,7 +143,6 @@ fn repeats(seconds: f64) -> u32 {
     match seconds {
         s if s < 0.02 => 9,
         s if s < 0.2 => 4,
-        s if s < 2.0 => 1,
         _ => 0,
     }
 }

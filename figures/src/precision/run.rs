@@ -73,7 +73,8 @@ pub fn measure(scene: &Scene, method: Method, control: Control, solution: &[Inst
         ode::Failure::NotResumable => "not_resumable",
     });
     let statistics = result.ok();
-    let is_whole = judge.passed == solution.len();
+    // an event in the last step may come after the last sample, or with it
+    let is_whole = judge.passed == solution.len() && judge.stop.is_none();
     Measured {
         evaluations: statistics.as_ref().map(|statistics| statistics.evaluations),
         steps: judge.steps,

@@ -205,7 +205,7 @@ fn show(
     print::out(&format!(
         "The cheapest method for an error: its tolerance or step, its cost\n{}\n\
          The least error of each method\n{}\n\
-         Among {}: the cheapest, and the error of ballistic steps by that of Euler's\n{}\n\
+         Among {}: the cheapest, and the error of gaps of ballistic steps by that of Euler's\n{}\n\
          {same} of {} tables as committed{skipped}\n",
         print::table(&cheapest(scenes, &TARGETS, &[])),
         print::table(&floors(scenes)),
