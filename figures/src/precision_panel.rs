@@ -92,7 +92,7 @@ fn panel(table: &Table, cost: &str, label: &str, is_first: bool) -> Result<Lines
     let (least_cost, most) = range(points().map(|point| point.0));
     let (least_error, largest) = range(points().map(|point| point.1));
     // room for the legend, at the left of all curves
-    let x = Axis::log10(label, decade_below(least_cost / 40.0), decade_above(most));
+    let x = Axis::log10(label, decade_below(least_cost / 200.0), decade_above(most));
     let y = Axis::log10("largest error of a gap or speed", decade_below(least_error), decade_above(largest));
     let mut lines = Lines::new(x, y).legend(Legend::Corner(Corner::BottomLeft));
     for (look, curve) in LOOKS.iter().zip(&curves).filter(|(look, _)| SLOPES.contains(&look.method)) {
