@@ -24,6 +24,10 @@ list *args:
 bless *args:
     cargo xtask bless {{args}}
 
+# make the tables of accuracy again, compare them, say which method buys which error
+accuracy *args:
+    cargo xtask accuracy {{args}}
+
 # run a scene of one's own
 simulate *args:
     cargo xtask simulate {{args}}

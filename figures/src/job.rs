@@ -163,6 +163,14 @@ impl Job {
         Ok(Table::read(&self.arguments.timing.join(format!("{name}.csv")))?)
     }
 
+    /// Reads a table of archived timings that has words.
+    ///
+    /// # Errors
+    /// It is missing.
+    pub fn timing_rows(&self, name: &str) -> Result<Rows, Failure> {
+        Rows::read(&self.arguments.timing.join(format!("{name}.csv")))
+    }
+
     /// The panel of this name.
     ///
     /// # Errors

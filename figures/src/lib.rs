@@ -1,7 +1,7 @@
 //! What the figures' binaries share: the command line and where tables and pictures go ([`job`]), panels that several
-//! figures draw ([`panels`]), exit codes ([`failure`]); and the two programs for scenes of one's own ([`simulate`] with
-//! [`checkpoint`], [`map`]); the tables of the hard cases ([`hard`]) and of
-//! the studies of errors ([`studies`]).
+//! figures draw ([`panels`], [`precision_panel`]), exit codes ([`failure`]); the two programs for scenes of one's own
+//! ([`simulate`] with [`checkpoint`], [`map`]); and the tables of the report of accuracy: error against work
+//! ([`precision`]), rounding and growth ([`studies`]), hard cases ([`hard`]).
 
 pub mod checkpoint;
 pub mod failure;
@@ -9,6 +9,8 @@ pub mod hard;
 pub mod job;
 pub mod map;
 pub mod panels;
+pub mod precision;
+pub mod precision_panel;
 pub mod simulate;
 pub mod studies;
 

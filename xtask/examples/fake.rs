@@ -19,6 +19,7 @@ fn main() -> io::Result<()> {
         "cargo" => cargo(),
         "simulate" => simulate(&arguments),
         "map" => exit(3),
+        "precision" | "hard" => accuracy(&name, &arguments),
         _ => figure(&name, &arguments),
     }
 }
@@ -37,6 +38,18 @@ fn value(arguments: &[String], option: &str) -> Option<String> {
     arguments.get(at + 1).cloned()
 }
 
+/// A table of two runs, or of the first alone with `--quick`.
+fn accuracy(name: &str, arguments: &[String]) -> io::Result<()> {
+    let out = PathBuf::from(value(arguments, "--out").unwrap_or_default());
+    let part = value(arguments, "--only").map_or(String::new(), |part| format!("_{part}"));
+    let mut text = "method,control,right_hand_sides,error_gap,error_speed\ndop853,1e-9,30,1e-7,1e-8\n".to_owned();
+    if !arguments.iter().any(|argument| argument == "--quick") {
+        text.push_str("dop853,1e-12,60,1e-9,1e-12\n");
+    }
+    fs::create_dir_all(&out)?;
+    fs::write(out.join(format!("{name}{part}.csv")), text)
+}
+
 /// The file given by `--checkpoint`; without one a name that no file has.
 fn checkpoint(arguments: &[String]) -> PathBuf {
     value(arguments, "--checkpoint").map_or_else(|| "no checkpoint".into(), PathBuf::from)
@@ -50,7 +63,9 @@ fn cargo() -> io::Result<()> {
     let release = PathBuf::from(env::var("CARGO_TARGET_DIR").unwrap_or_default()).join("release");
     fs::create_dir_all(&release)?;
     let slugs = fs::read_dir("figures")?.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
-    for name in slugs.filter(|slug| slug.contains('-')).chain(["simulate".to_owned(), "map".to_owned()]) {
+    for name in
+        slugs.filter(|slug| slug.contains('-')).chain(["simulate", "map", "precision", "hard"].map(str::to_owned))
+    {
         let binary = release.join(name);
         if !binary.exists() {
             fs::hard_link(env::current_exe()?, binary)?;

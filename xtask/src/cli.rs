@@ -32,6 +32,8 @@ pub enum Verb {
     List(ListArgs),
     /// Accept new sums after showing what changes
     Bless(BlessArgs),
+    /// Make the tables of accuracy again, compare them with the committed ones, say which method buys which error
+    Accuracy(AccuracyArgs),
     /// Measure seconds and instructions of the laws, of steps and of whole runs; against another commit, their ratios
     Bench(BenchArgs),
     /// Run a scene: cargo xtask simulate SCENE.toml [options]; --help shows the options
@@ -165,6 +167,26 @@ pub struct BlessArgs {
     /// Accept figures whose numbers moved
     #[arg(long)]
     pub numbers: bool,
+}
+
+/// Options of `accuracy`.
+#[derive(Debug, Args)]
+pub struct AccuracyArgs {
+    /// Half a minute: only rows of few right-hand sides, which must be among the committed ones
+    #[arg(long, conflicts_with_all = ["full", "seconds", "bless"])]
+    pub quick: bool,
+    /// Rows of more right-hand sides as well
+    #[arg(long, conflicts_with_all = ["seconds", "bless"])]
+    pub full: bool,
+    /// Measure the archived seconds again, one program at a time
+    #[arg(long)]
+    pub seconds: bool,
+    /// Accept the tables and write their sums
+    #[arg(long)]
+    pub bless: bool,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// Options of `bench`.

@@ -25,6 +25,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Verb::Explain(arguments) => verbs::explain::run(&paths, &arguments),
         Verb::List(arguments) => verbs::list::run(&paths, &arguments),
         Verb::Bless(arguments) => verbs::bless::run(&paths, &arguments),
+        Verb::Accuracy(arguments) => verbs::accuracy::run(&paths, &arguments),
         Verb::Bench(arguments) => verbs::bench::run(&paths, &arguments),
         Verb::Simulate(arguments) => verbs::forward::run(&paths, "simulate", &arguments),
         Verb::Map(arguments) => verbs::forward::run(&paths, "map", &arguments),

@@ -45,10 +45,11 @@ pub const NUMERIC_SOURCES: [&str; 7] = [
     "figures/Cargo.toml",
 ];
 /// Sources that every figure shares.
-pub const SHARED_SOURCES: [&str; 5] =
-    ["crates/", "figures/src/", "figures/Cargo.toml", "data/reference/", "data/timing/"];
+pub const SHARED_SOURCES: [&str; 4] = ["crates/", "figures/src/", "figures/Cargo.toml", "data/reference/"];
+/// Sources that supplements share: no figure of the paper reads them.
+pub const SUPPLEMENT_SOURCES: [&str; 2] = ["data/accuracy/", "data/timing/"];
 /// Folders that are searched for sources.
-pub const SOURCE_FOLDERS: [&str; 4] = ["crates", "figures", "data/reference", "data/timing"];
+pub const SOURCE_FOLDERS: [&str; 5] = ["crates", "figures", "data/accuracy", "data/reference", "data/timing"];
 /// Below the folders searched, what reaches no figure: the page for browsers, solutions to compare with, archived benchmarks.
 pub const NO_SOURCES: [&str; 4] =
     ["crates/browser/", "crates/reference/", "data/reference/solutions/", "data/timing/bench/"];
@@ -59,6 +60,10 @@ pub const FONT_SUMS: [(&str, &str); 2] = [
     ("LibertinusSerif-Italic.otf", "9a393d63d6e05f620d3dc0190dfd35a8ede58c0808cf0fc9de7fcb9c723e4c24"),
     ("LibertinusSerif-Regular.otf", "fcf06307a77367394fcb0ccb241e59eea70dba3d732be309647611224679c733"),
 ];
+/// The folder of the tables of accuracy, by name.
+pub const ACCURACY: &str = "data/accuracy";
+/// The sums of those tables, by name.
+pub const ACCURACY_SUMS: &str = "data/accuracy/SHA256SUMS";
 /// The events of all runs, by name.
 pub const EVENTS: &str = "data/events.csv";
 /// What to look at when every figure is as committed.
@@ -233,6 +238,16 @@ impl Paths {
     /// The folder of stored runs.
     pub fn store(&self) -> PathBuf {
         if self.base == self.root { self.target.join("store") } else { self.base.join("store") }
+    }
+
+    /// Where the tables of accuracy are made before they are compared.
+    pub fn made_accuracy(&self) -> PathBuf {
+        self.xtask().join("accuracy")
+    }
+
+    /// A table of archived timings.
+    pub fn timing(&self, name: &str) -> PathBuf {
+        self.root.join("data/timing").join(format!("{name}.csv"))
     }
 
     /// From where a run that was killed goes on.

@@ -4,7 +4,9 @@ use crate::disk;
 use crate::failure::Failure;
 use crate::figure::Figure;
 use crate::hashing;
-use crate::paths::{LOCK_FILE, NO_SOURCES, NUMERIC_SOURCES, Paths, SHARED_SOURCES, SINGLE_SOURCES, SOURCE_FOLDERS};
+use crate::paths::{
+    LOCK_FILE, NO_SOURCES, NUMERIC_SOURCES, Paths, SHARED_SOURCES, SINGLE_SOURCES, SOURCE_FOLDERS, SUPPLEMENT_SOURCES,
+};
 use std::collections::BTreeMap;
 
 /// Named hashes: a file's name relative to the root, or `run PANEL` with the key of a run.
@@ -52,7 +54,9 @@ impl Sources {
     /// What a figure is made from: shared sources, its own folder, and its runs by panel and key.
     pub fn figure(&self, figure: &Figure, runs: &[(String, String)]) -> Inputs {
         let folder = Paths::figure_folder(&figure.slug);
-        let mut inputs = self.below(&[&SHARED_SOURCES[..], &SINGLE_SOURCES, &[folder.as_str()]].concat());
+        let supplement = if figure.is_supplement() { &SUPPLEMENT_SOURCES[..] } else { &[] };
+        let starts = [&SHARED_SOURCES[..], &SINGLE_SOURCES, supplement, &[folder.as_str()]].concat();
+        let mut inputs = self.below(&starts);
         inputs.extend(runs.iter().map(|(panel, key)| (format!("run {panel}"), key.clone())));
         inputs
     }

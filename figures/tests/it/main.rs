@@ -2,6 +2,7 @@
 
 mod failures;
 mod hard;
+mod precision;
 mod resume;
 mod studies;
 mod sums;

@@ -1,5 +1,6 @@
 //! One file for each verb of the command line.
 
+pub mod accuracy;
 pub mod bench;
 pub mod bless;
 pub mod ci;

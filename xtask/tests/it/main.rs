@@ -1,5 +1,6 @@
 //! The runner's tests: its parts alone, then the whole of it on a small checkout with stand-ins for every program.
 
+mod accuracy;
 mod bench;
 mod cli;
 mod data;

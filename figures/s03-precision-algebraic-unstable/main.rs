@@ -1,0 +1,12 @@
+//! Supplement 3: error against work of every method, the unstable algebraic run of figure 4.
+
+use figures::{Failure, Job, figure, precision_panel};
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    figure(env!("CARGO_BIN_NAME"), tables, precision_panel::picture)
+}
+
+fn tables(job: &mut Job) -> Result<(), Failure> {
+    precision_panel::tables(job, "algebraic_unstable")
+}

@@ -1,0 +1,12 @@
+//! Supplement 4: error against work of every method, the stable exponential run of figure 7.
+
+use figures::{Failure, Job, figure, precision_panel};
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    figure(env!("CARGO_BIN_NAME"), tables, precision_panel::picture)
+}
+
+fn tables(job: &mut Job) -> Result<(), Failure> {
+    precision_panel::tables(job, "exponential_stable")
+}

@@ -1,0 +1,12 @@
+//! Supplement 7: error against work of every method, the logarithmic run of figure 13 with a shift of 1e-4.
+
+use figures::{Failure, Job, figure, precision_panel};
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    figure(env!("CARGO_BIN_NAME"), tables, precision_panel::picture)
+}
+
+fn tables(job: &mut Job) -> Result<(), Failure> {
+    precision_panel::tables(job, "logarithmic_small_shift")
+}
