@@ -27,7 +27,7 @@ fn tables(job: &mut Job) -> Result<(), Failure> {
             let columns = ["dt", "t", "error_gap", "truncation_gap", "rounding_gap"];
             let all = rounding.select(&[("state", state), ("sum", sum)], &columns)?;
             let mut table = Table::new(&columns);
-            all.rows().filter(|row| row[1] == TIME).for_each(|row| table.push(row));
+            all.rows().filter(|row| (row[1] - TIME).abs() < 0.5).for_each(|row| table.push(row));
             job.write(&format!("{state}_{sum}"), &table)?;
         }
     }
