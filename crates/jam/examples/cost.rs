@@ -145,7 +145,7 @@ fn series(model: Model, pedestrians: usize) -> Work {
     form.rates(states, &mut rates[..n]);
     Box::new(move |count| {
         for _ in 0..count {
-            form.series(ORDER, black_box(&mut coefficients));
+            form.series(ORDER, 1.0, black_box(&mut coefficients));
         }
     })
 }

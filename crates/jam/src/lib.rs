@@ -14,3 +14,4 @@ pub mod series;
 pub mod stability;
 pub mod states;
 pub mod uniform;
+pub mod waves;

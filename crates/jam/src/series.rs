@@ -46,6 +46,8 @@ pub(crate) struct Motion<'a, L: Law> {
     /// What is added to a gap coefficient of order 0 to make a clearance.
     pub(crate) clearance: f64,
     pub(crate) order: usize,
+    /// Unit of time: coefficients are those of powers of the time divided by it.
+    pub(crate) unit: f64,
     /// Length of a row.
     pub(crate) dimension: usize,
     /// Rows `[u_0 .. u_{N-1}, w_0 .. w_{N-1}, ...]`, one for each order: 0 and 1 are given, the others written.
@@ -96,7 +98,7 @@ impl<L: Law> Kernel for Motion<'_, L> {
 
     #[inline(always)]
     fn run(self) {
-        let Motion { law, pedestrians: n, clearance, order, dimension, coefficients, workspace } = self;
+        let Motion { law, pedestrians: n, clearance, order, unit, dimension, coefficients, workspace } = self;
         let (states, rates) = coefficients.split_at(dimension);
         workspace.start(order, &rates[..n], &rates[n..2 * n]);
         for (block, terms) in workspace.terms.chunks_exact_mut(order).enumerate() {
@@ -106,7 +108,7 @@ impl<L: Law> Kernel for Motion<'_, L> {
             law.start_terms(&clearances, &mut terms[0]);
         }
         for k in 1..order {
-            let share = 1.0 / (k + 1) as f64;
+            let share = unit / (k + 1) as f64;
             let (gaps, _) = workspace.gaps.as_chunks::<LANES>();
             let (speeds, _) = workspace.speeds.as_chunks::<LANES>();
             let (next_speeds, _) = workspace.next_speeds.as_chunks_mut::<LANES>();

@@ -8,6 +8,7 @@ mod ballistic;
 mod control;
 mod dense;
 mod extrapolation;
+mod failure;
 mod integrate;
 pub mod methods;
 mod observe;
@@ -19,7 +20,8 @@ mod vector;
 
 pub use control::Control;
 pub use dense::Step;
-pub use integrate::{Failure, Problem, Statistics, integrate, resume};
+pub use failure::Failure;
+pub use integrate::{Problem, Statistics, integrate, resume};
 pub use methods::Method;
 pub use observe::{Mark, Observer, Place, Sampler, first_crossing};
 pub use system::{Burst, Group, Measure, System};

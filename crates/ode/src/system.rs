@@ -36,9 +36,10 @@ pub trait System {
         false
     }
 
-    /// Writes the coefficients of the Taylor series in time of the solution through a state: `order + 1` rows of
-    /// `dimension()` numbers, of which the first two, the state and its rates, are given.
-    fn series(&self, _order: usize, _coefficients: &mut [f64]) {}
+    /// Writes the coefficients of the Taylor series of the solution through a state, in powers of the time divided by
+    /// `unit`: `order + 1` rows of `dimension()` numbers, of which the first two, the state and `unit` times its rates,
+    /// are given.
+    fn series(&self, _order: usize, _unit: f64, _coefficients: &mut [f64]) {}
 
     /// All rates: [`System::kinematics`] and [`System::dynamics`].
     fn rates(&self, state: &[f64], rates: &mut [f64]) {

@@ -14,6 +14,11 @@ use math::simd::{Kernel, dispatch};
 pub(crate) struct Taylor {
     order: usize,
     dimension: usize,
+    /// Unit of time of the coefficients, a power of 2 near the length of the steps: in units far from it the coefficients
+    /// of high orders would overflow near a blow-up.
+    unit: f64,
+    /// That of the next expansion.
+    next_unit: f64,
     /// Rows of coefficients, that of order 0 first.
     coefficients: Vec<f64>,
     /// Whether they belong to the state at hand.
@@ -44,14 +49,24 @@ const OFFSET: f64 = 4.3;
 impl Taylor {
     pub(crate) fn new(dimension: usize, control: Control) -> Taylor {
         let order = order(control);
-        Taylor { order, dimension, coefficients: vec![0.0; (order + 1) * dimension], are_ready: false }
+        Taylor {
+            order,
+            dimension,
+            unit: 1.0,
+            next_unit: 1.0,
+            coefficients: vec![0.0; (order + 1) * dimension],
+            are_ready: false,
+        }
     }
 
     fn expand(&mut self, system: &dyn System, state: &[f64], rates: &[f64]) {
         let n = self.dimension;
+        self.unit = self.next_unit;
         self.coefficients[..n].copy_from_slice(state);
-        self.coefficients[n..2 * n].copy_from_slice(rates);
-        system.series(self.order, &mut self.coefficients);
+        for (coefficient, rate) in self.coefficients[n..2 * n].iter_mut().zip(rates) {
+            *coefficient = self.unit * rate;
+        }
+        system.series(self.order, self.unit, &mut self.coefficients);
         self.are_ready = true;
     }
 
@@ -66,15 +81,18 @@ impl Stepper for Taylor {
         if norm.is_none() || !self.are_ready {
             self.expand(system, from.state, from.rates);
         }
-        dispatch(Change { coefficients: &self.coefficients[self.dimension..], h: from.h, change });
-        norm.map_or(0.0, |norm| (0..self.order).fold(norm.of(self.row(self.order)), |error, _| error * from.h))
+        let h = from.h / self.unit;
+        dispatch(Change { coefficients: &self.coefficients[self.dimension..], h, change });
+        norm.map_or(0.0, |norm| (0..self.order).fold(norm.of(self.row(self.order)), |error, _| error * h))
     }
 
     fn propose(&mut self, system: &dyn System, state: &[f64], rates: &[f64], norm: &Norm) -> Option<f64> {
         self.expand(system, state, rates);
         let limit = |k: usize| step_of_term(norm.of(self.row(k)), k);
         let (last, before) = (limit(self.order)?, limit(self.order - 1)?);
-        Some(SAFETY * if last < before { last } else { before })
+        let step = SAFETY * self.unit * if last < before { last } else { before };
+        self.next_unit = power_of_two(step);
+        Some(step)
     }
 
     fn evaluations(&self) -> u64 {
@@ -86,12 +104,19 @@ impl Stepper for Taylor {
     }
 
     fn interpolate(&mut self, _system: &dyn System, ends: &Ends<'_>, theta: f64, result: &mut [f64]) -> u64 {
-        dispatch(Change { coefficients: &self.coefficients[self.dimension..], h: theta * ends.h, change: result });
+        let h = theta * (ends.h / self.unit);
+        dispatch(Change { coefficients: &self.coefficients[self.dimension..], h, change: result });
         for (result, before) in result.iter_mut().zip(ends.before) {
             *result += before;
         }
         0
     }
+}
+
+/// The largest power of 2 that is not above a normal number.
+fn power_of_two(number: f64) -> f64 {
+    const EXPONENT: u64 = 0x7ff0_0000_0000_0000;
+    f64::from_bits(number.to_bits() & EXPONENT)
 }
 
 /// The step over which a term of order `k` with this coefficient, in units of the tolerance, grows to 1. `None` for a

@@ -3,10 +3,11 @@
 
 use super::Tables;
 use super::rows::{Rows, row};
-use super::run::{Case, Leg, two_methods};
+use super::run::{Case, two_methods};
+use super::waves::growth_rate;
 use crate::failure::Failure;
 use jam::laws::{Algebraic, Model};
-use jam::ring::{Ring, Start};
+use jam::ring::Ring;
 use jam::states::FormKind;
 use jam::uniform::steady_speed;
 use std::f64::consts::PI;
@@ -14,6 +15,8 @@ use std::f64::consts::PI;
 const HEADWAY: f64 = 3.0;
 /// How long the waves are followed.
 const TIME: f64 = 200.0;
+/// So small that its cube (1e-16 of it) does not count.
+const AMPLITUDE: f64 = 1e-8;
 
 fn case(strength: f64, pedestrians: usize) -> Case {
     let model = Model::Algebraic(Algebraic {
@@ -45,7 +48,7 @@ pub fn tables(quick: bool) -> Result<Tables, Failure> {
             let linear = case.model.linearise(HEADWAY, speed);
             let k = 2.0 * PI / count as f64;
             let exact = linear.refined_growth_rate(k);
-            let [one, two] = two_methods(1e-15).map(|how| measured(&case, speed, k, how));
+            let [one, two] = two_methods(1e-15).map(|how| growth_rate(&case, (k, AMPLITUDE), TIME, how));
             let (one, two) = (one?, two?);
             let relative = (off != 0.0).then(|| (one - exact) / exact);
             growth.push(row![count, 1.0 + off, exact, exact - linear.growth_rate(k), one, two, relative]);
@@ -62,29 +65,6 @@ pub fn tables(quick: bool) -> Result<Tables, Failure> {
         }
     }
     Ok(vec![("marginal", growth), ("marginal_threshold", edge)])
-}
-
-/// The growth rate of the wave `k` over [`TIME`], from its projection before and after.
-fn measured(case: &Case, speed: f64, k: f64, (method, control): (ode::Method, ode::Control)) -> Result<f64, Failure> {
-    let count = case.ring.pedestrians;
-    let (re, im) = case.model.linearise(HEADWAY, speed).root(k);
-    let mut start = case.form().start(Start { shift: 0.0 });
-    for n in 0..count {
-        let place = |n: usize| (1e-8 * math::cos(k * n as f64), 1e-8 * math::sin(k * n as f64));
-        let (here, ahead) = (place(n), place((n + 1) % count));
-        start[n] = ahead.0 - here.0;
-        start[count + n] = re * here.0 - im * here.1;
-    }
-    start[2 * count] = 1e-8;
-    start[2 * count + 2] = speed;
-    let end = case.run_from(&start, Leg { method, control, begin: 0.0, end: TIME }).whole()?;
-    let size = |state: &[f64]| {
-        let speeds = &state[count..2 * count];
-        let part = |f: fn(f64) -> f64| speeds.iter().enumerate().map(|(n, w)| w * f(k * n as f64)).sum::<f64>();
-        let (re, im) = (part(math::cos), part(math::sin));
-        (re * re + im * im).sqrt()
-    };
-    Ok(math::ln_1p(size(&end.state) / size(&start) - 1.0) / TIME)
 }
 
 /// The least `mu` at which a wave grows, by bisection of the largest growth rate over the waves of the ring.

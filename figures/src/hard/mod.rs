@@ -14,6 +14,7 @@ pub mod run;
 mod sizes;
 mod stiffness;
 mod tiny;
+pub mod waves;
 mod widening;
 
 use crate::failure::{Failure, print};

@@ -4,6 +4,7 @@ mod failures;
 mod hard;
 mod precision;
 mod resume;
+mod studies;
 mod sums;
 
 use std::path::{Path, PathBuf};

@@ -93,7 +93,7 @@ impl<L: Law> System for Deviations<L> {
     }
 
     /// Where the force depends on the gap alone, the uniform flow only relaxes: `dV/dt = f(Delta y) - V` with a constant.
-    fn series(&self, order: usize, coefficients: &mut [f64]) {
+    fn series(&self, order: usize, unit: f64, coefficients: &mut [f64]) {
         let (n, dimension) = (self.pedestrians, self.dimension());
         let (first, distance, speed) = self.extras();
         dispatch(Motion {
@@ -101,16 +101,17 @@ impl<L: Law> System for Deviations<L> {
             pedestrians: n,
             clearance: self.clearance,
             order,
+            unit,
             dimension,
             coefficients,
             workspace: &mut self.workspace.borrow_mut(),
         });
         for k in 1..order {
             let (done, next) = coefficients[k * dimension..].split_at_mut(dimension);
-            let divisor = (k + 1) as f64;
-            next[first] = done[n] / divisor;
-            next[distance] = done[speed] / divisor;
-            next[speed] = -done[speed] / divisor;
+            let share = unit / (k + 1) as f64;
+            next[first] = done[n] * share;
+            next[distance] = done[speed] * share;
+            next[speed] = -done[speed] * share;
         }
     }
 
@@ -257,10 +258,11 @@ impl<L: Law> Form for Deviations<L> {
     fn write_positions(&self, state: &[f64], positions: &mut [f64]) {
         let (first, distance, _) = self.extras();
         let headway = self.clearance + L::CONTACT;
-        let mut moved = state[distance] + state[first];
+        // the distance walked, which grows and grows coarse, is added once: rounding does not gather along the ring
+        let (moved, mut ahead) = (state[distance] + state[first], 0.0);
         for (n, position) in positions.iter_mut().enumerate() {
-            *position = n as f64 * headway + moved;
-            moved += state[n];
+            *position = moved + (n as f64 * headway + ahead);
+            ahead += state[n];
         }
     }
 

@@ -53,20 +53,21 @@ impl<L: Law> System for Gaps<L> {
         L::HAS_SERIES
     }
 
-    fn series(&self, order: usize, coefficients: &mut [f64]) {
+    fn series(&self, order: usize, unit: f64, coefficients: &mut [f64]) {
         let (n, dimension) = (self.pedestrians, self.dimension());
         dispatch(Motion {
             law: self.law,
             pedestrians: n,
             clearance: 0.0,
             order,
+            unit,
             dimension,
             coefficients,
             workspace: &mut self.workspace.borrow_mut(),
         });
         for k in 1..order {
             let (done, next) = coefficients[k * dimension..].split_at_mut(dimension);
-            next[2 * n] = done[n] / (k + 1) as f64;
+            next[2 * n] = done[n] * (unit / (k + 1) as f64);
         }
     }
 
@@ -147,10 +148,11 @@ impl<L: Law> Form for Gaps<L> {
     }
 
     fn write_positions(&self, state: &[f64], positions: &mut [f64]) {
-        let mut position = state[2 * self.pedestrians];
+        // the distance walked, which grows and grows coarse, is added once: rounding does not gather along the ring
+        let (first, mut ahead) = (state[2 * self.pedestrians], 0.0);
         for (gap, own) in state.iter().zip(positions) {
-            *own = position;
-            position += gap + L::CONTACT;
+            *own = first + ahead;
+            ahead += gap + L::CONTACT;
         }
     }
 

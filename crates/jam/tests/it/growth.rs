@@ -1,22 +1,16 @@
 //! Waves in simulations grow, decay and travel as the linear theory says.
 
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
-use jam::ring::{Ring, Start};
+use jam::ring::Ring;
 use jam::states::FormKind;
 use jam::uniform::steady_speed;
+use jam::waves;
 use ode::{Control, Method, Problem, Step, integrate};
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 /// Small enough that quadratic terms, which feed other waves than this one, and cubic ones (1e-16) do not count.
 const AMPLITUDE: f64 = 1e-8;
-
-/// `(1 / N) sum w_n exp(-i k n)`.
-fn projection(values: &[f64], k: f64) -> (f64, f64) {
-    let count = values.len() as f64;
-    let part = |f: fn(f64) -> f64| values.iter().enumerate().map(|(n, w)| w * f(k * n as f64)).sum::<f64>() / count;
-    (part(math::cos), -part(math::sin))
-}
 
 /// Errors of growth rate and frequency of the wave with `l` crests, relative to each of them, from a simulation.
 fn errors(model: &Model, ring: Ring, l: usize) -> (f64, f64) {
@@ -25,22 +19,13 @@ fn errors(model: &Model, ring: Ring, l: usize) -> (f64, f64) {
     let k = 2.0 * PI * l as f64 / count as f64;
     let (re, im) = model.linearise(ring.headway(), speed).root(k);
     let form = FormKind::Deviations.build(model, ring);
-    let mut start = form.start(Start { shift: 0.0 });
-    // the eigenvector of z+: places A exp(i k n), gaps their differences, speeds z times them
-    for n in 0..count {
-        let place = |n: usize| (AMPLITUDE * math::cos(k * n as f64), AMPLITUDE * math::sin(k * n as f64));
-        let (here, ahead) = (place(n), place((n + 1) % count));
-        start[n] = ahead.0 - here.0;
-        start[count + n] = re * here.0 - im * here.1;
-    }
-    start[2 * count] = AMPLITUDE;
-    start[2 * count + 2] = speed;
+    let start = waves::start(count, speed, (re, im), k, AMPLITUDE);
     let time = if re.abs() > 0.02 { 4.0 / re.abs() } else { 200.0 };
     let control = Control::Adaptive { tolerance: 1e-14 };
     let problem = Problem { system: &*form, start: &start, begin: 0.0, end: time, method: Method::Dop853, control };
     let end = integrate(&problem, &mut |_: &mut Step<'_>| ControlFlow::Continue(())).expect("it runs").state;
-    let before = projection(&start[count..2 * count], k);
-    let after = projection(&end[count..2 * count], k);
+    let before = waves::coefficient(&start[count..2 * count], k);
+    let after = waves::coefficient(&end[count..2 * count], k);
     // after / before = exp(z t); turned back by the expected angle, the angle that is left is small
     let square = before.0 * before.0 + before.1 * before.1;
     let ratio =

@@ -60,7 +60,7 @@ fn residual(model: &Model, kind: FormKind, pedestrians: usize, size: f64, random
     form.rates(&state, &mut rates);
     coefficients[n..2 * n].copy_from_slice(&rates);
     assert!(form.has_series());
-    form.series(ORDER, &mut coefficients);
+    form.series(ORDER, 1.0, &mut coefficients);
     let (derivative, value) = derivative_and_value(&coefficients, n, 0.02);
     form.rates(&value, &mut rates);
     let differences = derivative.iter().zip(&rates).map(|(a, b)| (a - b).abs());

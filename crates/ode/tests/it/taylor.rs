@@ -35,12 +35,12 @@ impl System for Logistic {
     }
 
     /// `(k + 1) c_{k+1} = c_k - (sum c_j c_{k-j})`
-    fn series(&self, order: usize, c: &mut [f64]) {
+    fn series(&self, order: usize, unit: f64, c: &mut [f64]) {
         let n = self.dimension;
         for k in 1..order {
             for i in 0..n {
                 let square: f64 = (0..=k).map(|j| c[j * n + i] * c[(k - j) * n + i]).sum();
-                c[(k + 1) * n + i] = (c[k * n + i] - square) / (k + 1) as f64;
+                c[(k + 1) * n + i] = unit * (c[k * n + i] - square) / (k + 1) as f64;
             }
         }
     }

@@ -10,4 +10,5 @@ mod maps;
 mod overrides;
 mod project;
 mod published;
+mod reference;
 mod runs;

@@ -15,7 +15,7 @@ fn nothing_given_changes_nothing() {
 fn the_scheme_of_the_paper() {
     let plain = scene(&figure("fig04"), "stable", &Overrides::default());
     let paper = scene(&figure("fig04"), "stable", &Overrides::paper());
-    assert_eq!((plain.form, plain.method), (FormKind::Deviations, Method::Dop853));
+    assert_eq!((plain.form, plain.method), (FormKind::Deviations, Method::Taylor));
     assert_eq!((paper.form, paper.method), (FormKind::Positions, Method::Heun));
     assert_eq!(paper.control, Control::Fixed { step: 1e-5 });
     assert_eq!((paper.model, paper.ring, paper.t_end), (plain.model, plain.ring, plain.t_end));

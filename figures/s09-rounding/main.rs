@@ -1,0 +1,72 @@
+//! Supplement 9: what rounding does to Heun's scheme on the stable run of figure 4, against the length of the step; and
+//! the curve of the paper's scheme, steps of 1e-5 in positions, on top of the true one.
+
+use figures::panels::points;
+use figures::{Failure, Job, figure};
+use files::table::Table;
+use plot::style::COLUMN_WIDTH;
+use plot::{Axis, Corner, Legend, Lines, Marker, Picture, Series};
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    figure(env!("CARGO_BIN_NAME"), tables, picture)
+}
+
+/// Forms of the state with their markers.
+const STATES: [(&str, Marker); 3] =
+    [("positions", Marker::Circle), ("gaps", Marker::Square), ("deviations", Marker::Diamond)];
+/// How steps are added up.
+const SUMS: [&str; 2] = ["plain", "compensated"];
+/// The time of the errors that are drawn.
+const TIME: f64 = 1000.0;
+
+fn tables(job: &mut Job) -> Result<(), Failure> {
+    let rounding = job.accuracy("rounding")?;
+    for (state, _) in STATES {
+        for sum in SUMS {
+            let columns = ["dt", "t", "error_gap", "truncation_gap", "rounding_gap"];
+            let all = rounding.select(&[("state", state), ("sum", sum)], &columns)?;
+            let mut table = Table::new(&columns);
+            all.rows().filter(|row| row[1] == TIME).for_each(|row| table.push(row));
+            job.write(&format!("{state}_{sum}"), &table)?;
+        }
+    }
+    job.write("verbatim", &job.accuracy("verbatim_fig04_stable")?.select(&[], &["t", "std", "exact"])?)
+}
+
+fn picture(job: &Job) -> Result<Picture, Failure> {
+    Ok(Picture::new(COLUMN_WIDTH, 165.0)
+        .columns(1)
+        .titled("error of the gaps at $t = 1000$", against_step(job, "error_gap")?)
+        .titled("of it, rounding; hollow: compensated sums", against_step(job, "rounding_gap")?)
+        .titled("figure 4, stable: the scheme of the paper", verbatim(job)?))
+}
+
+/// A column against the step for every form and sum. The error of deviations is that of truncation.
+fn against_step(job: &Job, column: &str) -> Result<Lines, Failure> {
+    let is_total = column == "error_gap";
+    let (label, low) = if is_total { ("largest error", 1e-19) } else { ("largest rounding", 1e-21) };
+    let mut panel = Lines::new(Axis::log10("step $\\Delta t$", 1e-5, 1e-1), Axis::log10(label, low, 1e-7));
+    panel = if is_total {
+        panel.legend(Legend::Corner(Corner::BottomRight)).note("slope 2", (2e-2, 1e-12))
+    } else {
+        panel.legend(Legend::Hidden)
+    };
+    for (index, (state, marker)) in STATES.into_iter().enumerate() {
+        for sum in SUMS {
+            let along = points(&job.read(&format!("{state}_{sum}"))?, "dt", column)?;
+            let (is_plain, name) = if sum == "plain" { (true, state) } else { (false, "") };
+            let curve = Series::line(name, along).marker(marker).look(index).solid();
+            panel = panel.series(if is_plain { curve.filled() } else { curve });
+        }
+    }
+    Ok(panel)
+}
+
+fn verbatim(job: &Job) -> Result<Lines, Failure> {
+    let table = job.read("verbatim")?;
+    Ok(Lines::new(Axis::linear("$t$", 0.0, 2000.0).steps(4), Axis::log10("std of speeds", 1e-9, 1e-5))
+        .legend(Legend::Corner(Corner::TopRight))
+        .series(Series::line("true", points(&table, "t", "exact")?).look(0).thick(2.0))
+        .series(Series::line("Heun, $\\Delta t = 10^{-5}$, positions", points(&table, "t", "std")?).look(1)))
+}
