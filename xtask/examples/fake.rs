@@ -19,7 +19,7 @@ fn main() -> io::Result<()> {
         "cargo" => cargo(),
         "simulate" => simulate(&arguments),
         "map" => exit(3),
-        "precision" | "hard" => accuracy(&name, &arguments),
+        "precision" | "hard" | "studies" => accuracy(&name, &arguments),
         _ => figure(&name, &arguments),
     }
 }
@@ -63,8 +63,9 @@ fn cargo() -> io::Result<()> {
     let release = PathBuf::from(env::var("CARGO_TARGET_DIR").unwrap_or_default()).join("release");
     fs::create_dir_all(&release)?;
     let slugs = fs::read_dir("figures")?.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
-    for name in
-        slugs.filter(|slug| slug.contains('-')).chain(["simulate", "map", "precision", "hard"].map(str::to_owned))
+    for name in slugs
+        .filter(|slug| slug.contains('-'))
+        .chain(["simulate", "map", "precision", "hard", "studies"].map(str::to_owned))
     {
         let binary = release.join(name);
         if !binary.exists() {

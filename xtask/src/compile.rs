@@ -13,7 +13,7 @@ use std::path::Path;
 use std::time::UNIX_EPOCH;
 
 /// Binaries beside those of the figures.
-pub const TOOLS: [&str; 4] = ["simulate", "map", "precision", "hard"];
+pub const TOOLS: [&str; 5] = ["simulate", "map", "precision", "hard", "studies"];
 
 /// What was built: the hash of the sources, and size and date of each binary, so that one that was built by hand since
 /// then is not taken for ours.

@@ -31,9 +31,10 @@ struct Program {
     is_precision: bool,
 }
 
-const PROGRAMS: [Program; 2] = [
+const PROGRAMS: [Program; 3] = [
     Program { name: "precision", parts: &SCENES, is_precision: true },
     Program { name: "hard", parts: &[], is_precision: false },
+    Program { name: "studies", parts: &[], is_precision: false },
 ];
 
 /// The scenes of `precision`, longest first.
