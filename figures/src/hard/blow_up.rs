@@ -2,10 +2,9 @@
 
 use super::Tables;
 use super::rows::{Rows, row};
-use super::run::{Case, Leg, two_methods};
+use super::run::{Case, Leg, figure_4, two_methods};
 use crate::failure::Failure;
 use jam::events::BLOW_UP;
-use jam::laws::{Algebraic, Model};
 use jam::ring::Ring;
 use jam::states::{Form, FormKind, gaps_state};
 use ode::{Control, Method, Problem, Step, integrate};
@@ -13,14 +12,7 @@ use std::ops::ControlFlow;
 
 /// The run of figure 4, unstable, in this form.
 pub fn case(kind: FormKind) -> Case {
-    let model = Model::Algebraic(Algebraic {
-        strength: 0.55,
-        relative: 0.0,
-        power: 2.0,
-        widening: 0.0,
-        epsilon: 0.1,
-        desired_speed: 3.0,
-    });
+    let model = figure_4(0.55);
     Case { model, ring: Ring { pedestrians: 67, length: 200.0 }, kind }
 }
 

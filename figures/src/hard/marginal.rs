@@ -3,10 +3,9 @@
 
 use super::Tables;
 use super::rows::{Rows, row};
-use super::run::{Case, two_methods};
+use super::run::{Case, figure_4, two_methods};
 use super::waves::growth_rate;
 use crate::failure::Failure;
-use jam::laws::{Algebraic, Model};
 use jam::ring::Ring;
 use jam::states::FormKind;
 use jam::uniform::steady_speed;
@@ -19,14 +18,7 @@ const TIME: f64 = 200.0;
 const AMPLITUDE: f64 = 1e-8;
 
 fn case(strength: f64, pedestrians: usize) -> Case {
-    let model = Model::Algebraic(Algebraic {
-        strength,
-        relative: 0.0,
-        power: 2.0,
-        widening: 0.0,
-        epsilon: 0.1,
-        desired_speed: 3.0,
-    });
+    let model = figure_4(strength);
     let ring = Ring { pedestrians, length: pedestrians as f64 * HEADWAY };
     Case { model, ring, kind: FormKind::Deviations }
 }

@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use jam::events::{Happening, Watch};
-use jam::laws::Model;
+use jam::laws::{Algebraic, Model};
 use jam::ring::{Ring, Start};
 use jam::states::{Form, FormKind};
 use ode::{Control, Method, Observer, Problem, Step, integrate};
@@ -83,6 +83,12 @@ impl Observer for Looking<'_> {
     fn stuck(&mut self, state: &[f64]) {
         self.last = state.to_vec();
     }
+}
+
+/// The law of figure 4, `<mu, 0, 2, 0>`, with this `mu`.
+pub fn figure_4(strength: f64) -> Model {
+    let (relative, power, widening, epsilon, desired_speed) = (0.0, 2.0, 0.0, 0.1, 3.0);
+    Model::Algebraic(Algebraic { strength, relative, power, widening, epsilon, desired_speed })
 }
 
 impl Case {

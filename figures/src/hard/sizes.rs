@@ -2,9 +2,8 @@
 
 use super::Tables;
 use super::rows::{Rows, row};
-use super::run::{Case, Ended, Leg, difference, two_methods};
+use super::run::{Case, Ended, Leg, difference, figure_4, two_methods};
 use crate::failure::Failure;
-use jam::laws::{Algebraic, Model};
 use jam::ring::Ring;
 use jam::states::FormKind;
 
@@ -14,14 +13,7 @@ const END: f64 = 1.0;
 const NEAR: usize = 10;
 
 fn run(pedestrians: usize, how: (ode::Method, ode::Control)) -> Result<Ended, Failure> {
-    let model = Model::Algebraic(Algebraic {
-        strength: 0.55,
-        relative: 0.0,
-        power: 2.0,
-        widening: 0.0,
-        epsilon: 0.1,
-        desired_speed: 3.0,
-    });
+    let model = figure_4(0.55);
     let ring = Ring { pedestrians, length: pedestrians as f64 * HEADWAY };
     let case = Case { model, ring, kind: FormKind::Deviations };
     case.run(0.1, Leg { method: how.0, control: how.1, begin: 0.0, end: END }).whole()

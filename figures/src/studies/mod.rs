@@ -11,8 +11,9 @@ mod verbatim;
 
 use crate::failure::{Failure, print};
 use crate::hard::Tables;
+use crate::hard::run::figure_4;
 use files::write::{atomic, with_path};
-use jam::laws::{Algebraic, Model};
+use jam::laws::Model;
 use jam::ring::Ring;
 use jam::states::FormKind;
 use std::path::PathBuf;
@@ -81,8 +82,7 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
 
 /// The law and the ring of figure 4, stable panel.
 fn figure_4_stable() -> (Model, Ring) {
-    let law = Algebraic { strength: 0.45, relative: 0.0, power: 2.0, widening: 0.0, epsilon: 0.1, desired_speed: 3.0 };
-    (Model::Algebraic(law), Ring { pedestrians: 67, length: 200.0 })
+    (figure_4(0.45), Ring { pedestrians: 67, length: 200.0 })
 }
 
 /// Its shift of the first pedestrian.

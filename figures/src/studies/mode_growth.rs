@@ -4,9 +4,9 @@ use super::{Extent, figure_4_stable};
 use crate::failure::Failure;
 use crate::hard::Tables;
 use crate::hard::rows::{Rows, row};
-use crate::hard::run::Case;
+use crate::hard::run::{Case, figure_4};
 use crate::hard::waves::growth_rate;
-use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
+use jam::laws::{Exponential, Logarithmic, Model};
 use jam::ring::Ring;
 use jam::states::FormKind;
 use jam::uniform::steady_speed;
@@ -25,16 +25,6 @@ const LONGEST: f64 = 200.0;
 type Pair = (&'static str, [Model; 2], Ring);
 
 fn laws() -> [Pair; 3] {
-    let algebraic = |strength| {
-        Model::Algebraic(Algebraic {
-            strength,
-            relative: 0.0,
-            power: 2.0,
-            widening: 0.0,
-            epsilon: 0.1,
-            desired_speed: 3.0,
-        })
-    };
     let exponential = |strength| {
         Model::Exponential(Exponential {
             strength,
@@ -48,7 +38,7 @@ fn laws() -> [Pair; 3] {
     let logarithmic = |desired_speed| Model::Logarithmic(Logarithmic { desired_speed, widening: 0.0, epsilon: 0.01 });
     let ring = |pedestrians| Ring { pedestrians, length: figure_4_stable().1.length };
     [
-        ("mode_growth_algebraic", [0.45, 0.55].map(algebraic), ring(67)),
+        ("mode_growth_algebraic", [0.45, 0.55].map(figure_4), ring(67)),
         ("mode_growth_exponential", [1.5, 3.0].map(exponential), ring(57)),
         // the scene of figures 11 to 13, and a desired speed at which it is stable
         ("mode_growth_logarithmic", [0.5, 1.0].map(logarithmic), ring(133)),
