@@ -21,8 +21,6 @@ pub(crate) struct Taylor {
     next_unit: f64,
     /// Rows of coefficients, that of order 0 first.
     coefficients: Vec<f64>,
-    /// Whether they belong to the state at hand.
-    are_ready: bool,
 }
 
 /// The order at a fixed step: higher ones gain nothing in double precision.
@@ -49,14 +47,7 @@ const OFFSET: f64 = 4.3;
 impl Taylor {
     pub(crate) fn new(dimension: usize, control: Control) -> Taylor {
         let order = order(control);
-        Taylor {
-            order,
-            dimension,
-            unit: 1.0,
-            next_unit: 1.0,
-            coefficients: vec![0.0; (order + 1) * dimension],
-            are_ready: false,
-        }
+        Taylor { order, dimension, unit: 1.0, next_unit: 1.0, coefficients: vec![0.0; (order + 1) * dimension] }
     }
 
     fn expand(&mut self, system: &dyn System, state: &[f64], rates: &[f64]) {
@@ -67,7 +58,6 @@ impl Taylor {
             *coefficient = self.unit * rate;
         }
         system.series(self.order, self.unit, &mut self.coefficients);
-        self.are_ready = true;
     }
 
     fn row(&self, k: usize) -> &[f64] {
@@ -77,8 +67,8 @@ impl Taylor {
 
 impl Stepper for Taylor {
     fn try_step(&mut self, system: &dyn System, from: Trial<'_>, change: &mut [f64], norm: Option<&Norm>) -> f64 {
-        // a shorter try from the same start has its series already; so does one whose length was proposed
-        if norm.is_none() || !self.are_ready {
+        // an adaptive step has its series from the proposal of its length, a shorter try after a rejection too
+        if norm.is_none() {
             self.expand(system, from.state, from.rates);
         }
         let h = from.h / self.unit;
