@@ -26,6 +26,7 @@ pub mod pool;
 pub mod precision;
 pub mod print;
 pub mod progress;
+pub mod python;
 pub mod record;
 pub mod rows;
 pub mod sources;

@@ -271,6 +271,11 @@ impl Paths {
         self.target.join("xtask")
     }
 
+    /// The folder of an environment of Python.
+    pub fn python(&self, name: &str) -> PathBuf {
+        self.target.join("python").join(name)
+    }
+
     /// What each figure was made from.
     pub fn state(&self) -> PathBuf {
         self.xtask().join("state.json")

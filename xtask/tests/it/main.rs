@@ -10,6 +10,7 @@ mod ids;
 mod judging;
 mod pool;
 mod progress;
+mod python;
 mod record;
 mod shop;
 mod tables;
