@@ -26,7 +26,7 @@ pub enum Verb {
     Verify(VerifyArgs),
     /// Say what is stale and why, without running anything
     Status(StatusArgs),
-    /// Show every input of a figure, which one changed, and the command to rebuild
+    /// Show every input of a figure, which one changed, and the command to rebuild; or a claim with its tests
     Explain(ExplainArgs),
     /// Show figure, label, title, binary, scene, outputs, last run time
     List(ListArgs),
@@ -137,7 +137,7 @@ pub struct StatusArgs {
 /// Options of `explain`.
 #[derive(Debug, Args)]
 pub struct ExplainArgs {
-    /// The figure
+    /// The figure; or the id of a claim, an erratum or a parameter, which is shown with its tests
     pub id: String,
     /// Print JSON
     #[arg(long)]
@@ -150,6 +150,9 @@ pub struct ListArgs {
     /// Which figures.
     #[command(flatten)]
     pub selection: Selection,
+    /// The claims with their verdicts in place of the figures
+    #[arg(long, conflicts_with_all = ["ids", "all"])]
+    pub claims: bool,
     /// Print JSON
     #[arg(long)]
     pub json: bool,

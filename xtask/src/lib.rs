@@ -15,6 +15,7 @@ pub mod failure;
 pub mod figure;
 pub mod golden;
 pub mod hashing;
+pub mod ledger;
 pub mod lock;
 pub mod manifest;
 pub mod numbers;

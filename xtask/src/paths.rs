@@ -66,6 +66,10 @@ pub const ACCURACY: &str = "data/accuracy";
 pub const ACCURACY_SUMS: &str = "data/accuracy/SHA256SUMS";
 /// The events of all runs, by name.
 pub const EVENTS: &str = "data/events.csv";
+/// What the ledger is written by hand from: claims, errata, parameters.
+pub const LEDGER_SOURCES: [&str; 3] = ["paper/claims.toml", "paper/errata.toml", "paper/parameters.toml"];
+/// What is found of each entry of the ledger, by name.
+pub const LEDGER: &str = "data/ledger.json";
 /// What to look at when every figure is as committed.
 pub const OPEN_ALL: &str = "open README.md for the table of figures, figures/*/fig*.png for the pictures";
 /// Checks that need more than Rust: spot values by NumPy.
@@ -230,6 +234,16 @@ impl Paths {
         self.root.join(EVENTS)
     }
 
+    /// A table by the name under which the ledger reads it, `fig11/trajectories`, as a name.
+    pub fn table(name: &str) -> String {
+        format!("data/{name}.csv")
+    }
+
+    /// What is found of each entry of the ledger.
+    pub fn ledger(&self) -> PathBuf {
+        self.root.join(LEDGER)
+    }
+
     /// The folder of the fonts that the pictures need.
     pub fn fonts(&self) -> PathBuf {
         self.root.join("crates/plot/fonts")
@@ -328,7 +342,7 @@ impl Paths {
     /// Whether a tracked file of this name is written by the runner, so that a change of it is no change of a source.
     pub fn is_output(name: &str) -> bool {
         let picture = name.starts_with("figures/") && (name.ends_with(".png") || name.ends_with(".svg"));
-        let data = ["data/SHA256SUMS", "data/golden/", "data/paper-scheme/", "data/manifest.json", EVENTS];
+        let data = ["data/SHA256SUMS", "data/golden/", "data/paper-scheme/", "data/manifest.json", EVENTS, LEDGER];
         picture || data.iter().any(|start| name.starts_with(start))
     }
 }

@@ -1,8 +1,10 @@
-//! `explain`: every input of a figure with its hash, which one changed, and the command to rebuild.
+//! `explain`: every input of a figure with its hash, which one changed, and the command to rebuild; or a claim, an
+//! erratum or a parameter with its tests.
 
 use crate::cli::ExplainArgs;
 use crate::failure::Failure;
 use crate::figure;
+use crate::ledger;
 use crate::paths::Paths;
 use crate::print;
 use crate::record::{self, Record, Records, Survey};
@@ -15,8 +17,11 @@ const DIGITS: usize = 12;
 /// Runs the verb.
 ///
 /// # Errors
-/// Usage: no such figure.
+/// Usage: no such figure, and no such entry of the ledger.
 pub fn run(paths: &Paths, arguments: &ExplainArgs) -> Result<(), Failure> {
+    if let Some((text, value)) = ledger::explain(paths, &arguments.id)? {
+        return if arguments.json { print::json(value) } else { print::out(&text) };
+    }
     let all = figure::discover(paths)?;
     let selected = figure::select(&all, std::slice::from_ref(&arguments.id), false)?;
     let records = Records::read(paths)?;

@@ -8,9 +8,10 @@ use crate::distance;
 use crate::estimate::Estimate;
 use crate::failure::Failure;
 use crate::figure::{self, Figure};
+use crate::ledger;
 use crate::lock::Lock;
 use crate::manifest;
-use crate::paths::{Paths, Scheme};
+use crate::paths::{LEDGER, Paths, Scheme};
 use crate::plan::{self, Node, Step, Wish};
 use crate::pool::Outcome;
 use crate::print;
@@ -63,8 +64,26 @@ pub fn run(paths: &Paths, arguments: &FiguresArgs) -> Result<(), Failure> {
     report.print(paths, arguments.json, whole, verdict.is_ok())?;
     if paths.scheme == Scheme::Paper {
         tell_distances(paths, &all, arguments.json)?;
+    } else if whole && work::verdict(&nodes, &outcomes).is_ok() {
+        write_ledger(paths, &all, &sources, &records)?;
     }
     verdict
+}
+
+/// Writes the ledger if every supplement that it reads is fresh; else says what is missing.
+fn write_ledger(paths: &Paths, all: &[Figure], sources: &Sources, records: &Records) -> Result<(), Failure> {
+    let read = ledger::supplements(paths)?;
+    let wanted: Vec<&Figure> = all.iter().filter(|figure| read.contains(&figure.id)).collect();
+    let surveys = record::survey(paths, &wanted, sources, records)?;
+    let stale: Vec<&str> =
+        surveys.iter().filter(|survey| !survey.reasons.is_empty()).map(|survey| &*survey.figure.id).collect();
+    if !stale.is_empty() {
+        let stale = stale.join(" ");
+        eprintln!("{LEDGER} left as it is: {stale} not made with these sources (cargo xtask figures --all)");
+        return Ok(());
+    }
+    ledger::write(paths)?.differences().iter().for_each(|line| eprintln!("{line}"));
+    Ok(())
 }
 
 /// The figures meant; for the paper's scheme those with a run.

@@ -4,6 +4,7 @@ use super::figures::{Times, read_times};
 use crate::cli::ListArgs;
 use crate::failure::Failure;
 use crate::figure::{self, Figure};
+use crate::ledger;
 use crate::outputs;
 use crate::paths::Paths;
 use crate::print;
@@ -14,6 +15,10 @@ use serde_json::{Value, json};
 /// # Errors
 /// Usage: no such figure.
 pub fn run(paths: &Paths, arguments: &ListArgs) -> Result<(), Failure> {
+    if arguments.claims {
+        let (text, value) = ledger::list(paths)?;
+        return if arguments.json { print::json(value) } else { print::out(&text) };
+    }
     let all = figure::discover(paths)?;
     let ids = &arguments.selection.ids;
     let selected = if ids.is_empty() { all.iter().collect() } else { figure::select(&all, ids, false)? };

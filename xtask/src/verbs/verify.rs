@@ -1,4 +1,4 @@
-//! `verify`: recomputes into a scratch folder and judges bytes and numbers against what is committed.
+//! `verify`: recomputes into a scratch folder and judges bytes, numbers and claims against what is committed.
 
 use super::summary::{Committed, stray};
 use crate::cli::VerifyArgs;
@@ -9,6 +9,7 @@ use crate::events::{self, ByScene, Moved};
 use crate::failure::Failure;
 use crate::figure::{self, Figure};
 use crate::golden::{self, Distances};
+use crate::ledger;
 use crate::lock::Lock;
 use crate::numbers::{Distance, Worst};
 use crate::paths::{EVENTS, Paths};
@@ -43,11 +44,11 @@ struct Reference {
 /// Runs the verb.
 ///
 /// # Errors
-/// Differs: bytes or numbers are not as committed, or nothing is committed. Otherwise what kept a figure from being
-/// made.
+/// Differs: bytes, numbers or verdicts of claims are not as committed, or nothing is committed. Usage: the ledger is
+/// malformed. Otherwise what kept a figure from being made.
 pub fn run(paths: &Paths, arguments: &VerifyArgs) -> Result<(), Failure> {
     let all = figure::discover(paths)?;
-    let selected = figure::select(&all, &arguments.selection.ids, arguments.selection.all)?;
+    let selected = choose(paths, &all, arguments)?;
     let committed = Committed::read(paths)?;
     if let Some(figure) = selected.iter().find(|figure| committed.list(figure.is_supplement()).is_none()) {
         let name = paths.sums(figure.is_supplement());
@@ -66,12 +67,24 @@ pub fn run(paths: &Paths, arguments: &VerifyArgs) -> Result<(), Failure> {
     })?;
     let reference = Reference { sums: committed, events, scenes: record::scenes(paths, &all, &sources.numeric()) };
     let verdicts = judge(paths, &scratch, &surveys, &reference)?;
-    let strays = match arguments.selection.ids.is_empty() {
-        true => strays(paths, &reference, &selected),
-        false => Vec::new(),
-    };
-    show(&verdicts, &strays, arguments.json)?;
-    conclude(&verdicts, &strays, &scratch)
+    let whole = arguments.selection.ids.is_empty();
+    let figures: BTreeSet<&str> = selected.iter().map(|figure| &*figure.id).collect();
+    let claims = ledger::judge(paths, &scratch, (!whole).then_some(&figures))?;
+    let listed: Vec<&Figure> = figure::select(&all, &[], arguments.selection.all)?;
+    let strays = if whole { strays(paths, &reference, &listed) } else { Vec::new() };
+    show(&verdicts, &claims, &strays, arguments.json)?;
+    conclude(&verdicts, &claims, &strays, &scratch)
+}
+
+/// The figures meant; without one those of the paper and the supplements that the ledger reads.
+fn choose<'a>(paths: &Paths, all: &'a [Figure], arguments: &VerifyArgs) -> Result<Vec<&'a Figure>, Failure> {
+    let read = ledger::supplements(paths)?;
+    let selected = figure::select(all, &arguments.selection.ids, arguments.selection.all)?;
+    if !arguments.selection.ids.is_empty() {
+        return Ok(selected);
+    }
+    let ids: Vec<String> = selected.iter().map(|figure| figure.id.clone()).chain(read).collect();
+    figure::select(all, &ids, false)
 }
 
 /// Makes everything that the figures need in the scratch folder.
@@ -135,9 +148,15 @@ fn moved_events(scratch: &Paths, survey: &Survey<'_>, reference: &Reference) -> 
     Ok(moved)
 }
 
-fn conclude(verdicts: &[Verdict], strays: &[String], scratch: &Paths) -> Result<(), Failure> {
+fn conclude(
+    verdicts: &[Verdict],
+    claims: &ledger::Verdicts,
+    strays: &[String],
+    scratch: &Paths,
+) -> Result<(), Failure> {
     let mut wrong: Vec<&str> = verdicts.iter().filter(|verdict| !verdict.is_same()).map(|one| &*one.id).collect();
     wrong.extend((!strays.is_empty()).then_some("lines that belong to no figure"));
+    wrong.extend((!claims.is_same()).then_some("claims"));
     if wrong.is_empty() {
         return disk::remove(&scratch.base);
     }
@@ -218,11 +237,11 @@ fn word(same: bool) -> &'static str {
     if same { State::Same.word() } else { State::Differs.word() }
 }
 
-fn show(verdicts: &[Verdict], strays: &[String], as_json: bool) -> Result<(), Failure> {
+fn show(verdicts: &[Verdict], claims: &ledger::Verdicts, strays: &[String], as_json: bool) -> Result<(), Failure> {
     if as_json {
         let figures: Vec<Value> = verdicts.iter().map(Verdict::to_json).collect();
-        let ok = strays.is_empty() && verdicts.iter().all(Verdict::is_same);
-        return print::json(json!({ "figures": figures, "strays": strays, "ok": ok }));
+        let ok = strays.is_empty() && verdicts.iter().all(Verdict::is_same) && claims.is_same();
+        return print::json(json!({ "figures": figures, "claims": claims.to_json(), "strays": strays, "ok": ok }));
     }
     let mut rows = vec![print::row(&["figure", "label", "bytes", "numbers"])];
     for verdict in verdicts {
@@ -230,7 +249,7 @@ fn show(verdicts: &[Verdict], strays: &[String], as_json: bool) -> Result<(), Fa
         let numbers = if verdict.numbers.is_empty() { "no tables" } else { numbers };
         rows.push(print::row(&[&verdict.id, &verdict.label, bytes, numbers]));
     }
-    let details = verdicts.iter().flat_map(Verdict::details).chain(strays.iter().cloned());
+    let details = verdicts.iter().flat_map(Verdict::details).chain(claims.details()).chain(strays.iter().cloned());
     let details: Vec<String> = details.map(|line| format!("{line}\n")).collect();
-    print::out(&format!("{}{}", print::table(&rows), details.concat()))
+    print::out(&format!("{}{}\n{}", print::table(&rows), claims.line(), details.concat()))
 }
