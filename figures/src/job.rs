@@ -98,6 +98,22 @@ impl Job {
         Ok(atomic(&self.arguments.tables.join(format!("{name}.csv")), &table.to_csv())?)
     }
 
+    /// Writes a table that has words, or empty cells, under this name.
+    ///
+    /// # Errors
+    /// It holds a number that is not finite, or the file cannot be written.
+    pub fn write_rows(&self, name: &str, rows: &Rows) -> Result<(), Failure> {
+        Ok(atomic(&self.arguments.tables.join(format!("{name}.csv")), &rows.to_csv(name)?)?)
+    }
+
+    /// Reads a table of this figure that has words.
+    ///
+    /// # Errors
+    /// It is missing.
+    pub fn read_rows(&self, name: &str) -> Result<Rows, Failure> {
+        Rows::read(&self.arguments.tables.join(format!("{name}.csv")))
+    }
+
     /// Reads a table of this figure.
     ///
     /// # Errors
