@@ -90,6 +90,15 @@ pub fn supplements(paths: &Paths) -> Result<BTreeSet<String>, Failure> {
     Ok(figures.filter(|figure| figure.starts_with('s')).map(str::to_owned).collect())
 }
 
+/// Whether every table that the ledger reads is there.
+///
+/// # Errors
+/// Usage: a file of the ledger is malformed.
+pub fn is_complete(paths: &Paths) -> Result<bool, Failure> {
+    let tables = Tables::new(paths, paths)?;
+    Ok(Sources::read(paths)?.tables()?.iter().all(|table| tables.has(table)))
+}
+
 /// Judges the ledger on the tables of the checkout and writes `data/ledger.json`. Returns the verdicts.
 ///
 /// # Errors

@@ -63,12 +63,12 @@ fn sheet(measure: &Measure, tables: &Tables<'_>, place: &Place) -> Result<Rc<She
     let sheet = tables.get(&measure.table).map_err(|problem| place.fail("table", problem))?;
     if let Some(name) = &measure.beside {
         let other = tables.get(name).map_err(|problem| place.fail("beside", problem))?;
-        let on = if measure.on.is_empty() { keys(&sheet, &other) } else { measure.on.clone() };
+        let on = measure.on.clone().unwrap_or_else(|| keys(&sheet, &other));
         let hint = |problem: String| place.fail("beside", format!("{problem}; name the columns to share: on = [..]"));
         return sheet.beside(&other, &on).map(Rc::new).map_err(hint);
     }
     if let Some(by) = &measure.next {
-        let mut on = if measure.on.is_empty() { keys(&sheet, &sheet) } else { measure.on.clone() };
+        let mut on = measure.on.clone().unwrap_or_else(|| keys(&sheet, &sheet));
         on.retain(|name| name != by);
         let hint = |problem: String| place.fail("next", format!("{problem}; name the columns to share: on = [..]"));
         return sheet.next(by, &on).map(Rc::new).map_err(hint);

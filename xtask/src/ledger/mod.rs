@@ -45,5 +45,5 @@ pub mod words;
 mod judge;
 mod show;
 
-pub use judge::{Verdicts, judge, supplements, write};
+pub use judge::{Verdicts, is_complete, judge, supplements, write};
 pub use show::{explain, list};

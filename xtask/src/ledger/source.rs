@@ -104,9 +104,8 @@ pub struct Measure {
     pub beside: Option<String>,
     /// The column by which the next row is put beside each one.
     pub next: Option<String>,
-    /// The columns that two rows side by side must share.
-    #[serde(default)]
-    pub on: Vec<String>,
+    /// The columns that two rows side by side must share; without it those that have no stated error.
+    pub on: Option<Vec<String>>,
     /// Conditions that the rows must meet.
     #[serde(default, rename = "where")]
     pub conditions: Vec<String>,
@@ -465,7 +464,7 @@ impl Measure {
         if self.beside.is_some() && self.next.is_some() {
             return Err(place.fail("next", "stands beside `beside`; a measure has one of them"));
         }
-        if !self.on.is_empty() && self.beside.is_none() && self.next.is_none() {
+        if self.on.is_some() && self.beside.is_none() && self.next.is_none() {
             return Err(place.fail("on", "is only for `beside` and `next`"));
         }
         for condition in self.conditions.iter().chain(&self.among) {

@@ -1,4 +1,4 @@
-//! `bless`: accepts new sums and samples after showing what changes.
+//! `bless`: accepts new sums and samples after showing what changes, and which claims get another verdict.
 
 use super::summary::Committed;
 use super::verify::describe;
@@ -7,9 +7,10 @@ use crate::disk;
 use crate::failure::Failure;
 use crate::figure;
 use crate::golden;
+use crate::ledger;
 use crate::lock::Lock;
 use crate::outputs;
-use crate::paths::{Paths, Scheme};
+use crate::paths::{LEDGER_SOURCES, Paths, Scheme};
 use crate::print;
 use crate::record::{self, Records, Survey};
 use crate::sources::Sources;
@@ -28,8 +29,8 @@ struct Change {
 /// Runs the verb. Nothing is written unless everything can be accepted.
 ///
 /// # Errors
-/// Stale: a figure is. Differs: a tracked file other than an output is modified, or numbers moved and `--numbers` was
-/// not given.
+/// Stale: a figure is. Differs: a tracked file other than an output is modified, or numbers moved or a claim got
+/// another verdict and `--numbers` was not given.
 pub fn run(paths: &Paths, arguments: &BlessArgs) -> Result<(), Failure> {
     let paths = &paths.with_scheme(arguments.scheme);
     let all = figure::discover(paths)?;
@@ -48,6 +49,13 @@ pub fn run(paths: &Paths, arguments: &BlessArgs) -> Result<(), Failure> {
             moved.push(survey.figure.id.as_str());
         }
     }
+    let changed = changed_verdicts(paths)?;
+    print::out(&changed.concat())?;
+    if !changed.is_empty() && !arguments.numbers {
+        let problem =
+            "claims are not as recorded; nothing written (--numbers accepts the numbers, the verdicts stand in";
+        return Err(Failure::Differs(format!("{problem} {})", LEDGER_SOURCES.join(", "))));
+    }
     if !moved.is_empty() && !arguments.numbers {
         let moved = moved.join(" ");
         return Err(Failure::Differs(format!("numbers moved: {moved}; nothing written (--numbers accepts them)")));
@@ -58,10 +66,24 @@ pub fn run(paths: &Paths, arguments: &BlessArgs) -> Result<(), Failure> {
         write_sums(paths, &surveys, &committed, supplement, whole)?;
     }
     print::out(&format!("{} figures accepted\n", surveys.len()))?;
-    match paths.scheme {
-        Scheme::Adaptive => surveys.iter().try_for_each(|survey| write_samples(paths, survey)),
-        Scheme::Paper => Ok(()),
+    if paths.scheme == Scheme::Paper {
+        return Ok(());
     }
+    surveys.iter().try_for_each(|survey| write_samples(paths, survey))?;
+    if ledger::is_complete(paths)? {
+        ledger::write(paths)?;
+    }
+    Ok(())
+}
+
+/// What the tables that are there now say of the claims, where it is not what is recorded; nothing while tables are
+/// missing.
+fn changed_verdicts(paths: &Paths) -> Result<Vec<String>, Failure> {
+    if paths.scheme == Scheme::Paper || !ledger::is_complete(paths)? {
+        return Ok(Vec::new());
+    }
+    let lines = ledger::judge(paths, paths, None)?.differences();
+    Ok(lines.into_iter().map(|line| line + "\n").collect())
 }
 
 fn refuse_stale(surveys: &[Survey<'_>]) -> Result<(), Failure> {
