@@ -37,6 +37,7 @@ pub fn run(paths: &Paths, arguments: &FiguresArgs) -> Result<(), Failure> {
     // read before the work, so that a malformed list is told at once
     let committed = summary::Committed::read(paths)?;
     manifest::read(paths)?;
+    ledger::supplements(paths)?;
     if arguments.dry_run {
         return dry_run(paths, &all, &selected, arguments);
     }

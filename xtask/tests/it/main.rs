@@ -8,6 +8,7 @@ mod distance;
 mod figures;
 mod ids;
 mod judging;
+mod ledger;
 mod pool;
 mod progress;
 mod python;
