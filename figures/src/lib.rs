@@ -1,9 +1,11 @@
 //! What the figures' binaries share: the command line and where tables and pictures go ([`job`]), panels that several
 //! figures draw ([`panels`], [`precision_panel`]), exit codes ([`failure`]); the two programs for scenes of one's own
 //! ([`simulate`] with [`checkpoint`], [`map`]); and the tables of the report of accuracy: error against work
-//! ([`precision`]), rounding and growth ([`studies`]), hard cases ([`hard`]). What the jams depend on ([`parameters`]).
+//! ([`precision`]), rounding and growth ([`studies`]), hard cases ([`hard`]). What the jams depend on
+//! ([`parameters`]), and where stability ends ([`thresholds`]).
 
 pub mod checkpoint;
+pub mod draw;
 pub mod failure;
 pub mod hard;
 pub mod job;
@@ -14,6 +16,7 @@ pub mod precision;
 pub mod precision_panel;
 pub mod simulate;
 pub mod studies;
+pub mod thresholds;
 
 pub use failure::Failure;
 pub use job::{Job, figure};

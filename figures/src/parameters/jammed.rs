@@ -1,5 +1,6 @@
 //! One run of the logarithmic law as figures 11 to 13 show it, and the numbers that describe its jams.
 
+use crate::draw::Draw;
 use crate::failure::Failure;
 use jam::events::Watch;
 use jam::jams::{self, Drift};
@@ -64,11 +65,12 @@ impl Run {
     }
 
     /// The state at the start, in deviations from the uniform flow.
-    fn state(&self, form: &dyn Form) -> Vec<f64> {
+    pub fn state(&self, form: &dyn Form) -> Vec<f64> {
         match self.start {
             Start::One(shift) => form.start(jam::ring::Start { shift }),
             Start::Random(size) => {
-                let (count, places) = (self.pedestrians, random(self.pedestrians, size));
+                let (count, mut draw) = (self.pedestrians, Draw::default());
+                let places: Vec<f64> = (0..count).map(|_| draw.between(-size, size)).collect();
                 let mut state = form.start(jam::ring::Start { shift: 0.0 });
                 for n in 0..count {
                     state[n] += places[(n + 1) % count] - places[n];
@@ -78,17 +80,6 @@ impl Run {
             }
         }
     }
-}
-
-/// So many numbers between minus and plus `size`, always the same: Knuth's linear congruential generator of 64 bits.
-fn random(count: usize, size: f64) -> Vec<f64> {
-    let mut bits: u64 = 1;
-    let mut next = || {
-        bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        // the upper 53 bits: evenly spread over [0, 1)
-        (bits >> 11) as f64 / (1_u64 << 53) as f64
-    };
-    (0..count).map(|_| size * (2.0 * next() - 1.0)).collect()
 }
 
 /// What a run shows. The last [`LATE`] of its time count as late; a run that an overlap ends shows only its events and,
