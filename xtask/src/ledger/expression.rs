@@ -3,11 +3,12 @@
 use super::sheet::{Cell, Sheet, Stated};
 use super::uncertain::{Outcome, Relation, Sign, Uncertain};
 
-/// A number or the name of a column (or, on the right of a comparison, a word).
+/// A number or the name of a column (or, on the right of a comparison, a word; in quotes where a column has that name).
 #[derive(Clone, Debug, PartialEq)]
 enum Term {
     Number(f64),
     Name(String),
+    Quoted(String),
 }
 
 /// `v`, `2`, `v - v_beside`.
@@ -71,7 +72,9 @@ pub struct Binding<'a> {
 
 impl Term {
     fn parse(text: &str) -> Result<Term, String> {
+        let quoted = text.strip_prefix('\'').and_then(|text| text.strip_suffix('\''));
         match text.parse::<f64>() {
+            _ if quoted.is_some() => Ok(Term::Quoted(quoted.unwrap_or("").to_owned())),
             Ok(number) if number.is_finite() => Ok(Term::Number(number)),
             Ok(_) => Err(format!("{text} is not finite")),
             Err(_) if text.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"_-".contains(&byte)) => {
@@ -109,7 +112,7 @@ impl Expression {
         let terms = [Some(&self.first), self.rest.as_ref().map(|(_, term)| term)];
         let name = |term: &Term| match term {
             Term::Name(name) => Some(name.clone()),
-            Term::Number(_) => None,
+            Term::Number(_) | Term::Quoted(_) => None,
         };
         terms.into_iter().flatten().filter_map(name).collect()
     }
@@ -121,6 +124,14 @@ impl Expression {
         }
     }
 
+    /// The word that this is, in a table with these columns.
+    fn word(&self, sheet: &Sheet) -> Option<&str> {
+        match (&self.first, &self.rest) {
+            (Term::Quoted(word), None) => Some(word),
+            _ => self.lone_name().filter(|name| sheet.place(name).is_none()),
+        }
+    }
+
     /// Finds the columns.
     ///
     /// # Errors
@@ -129,6 +140,7 @@ impl Expression {
         let value = |term: &Term| match term {
             Term::Number(number) => Ok(Value::Number(*number)),
             Term::Name(name) => binding.column(name),
+            Term::Quoted(word) => Err(format!("'{word}' is a word, where a number or a column is needed")),
         };
         let rest = self.rest.as_ref().map(|(sign, term)| Ok::<_, String>((*sign, value(term)?))).transpose()?;
         Ok(Bound { first: value(&self.first)?, rest })
@@ -214,8 +226,7 @@ impl Condition {
     /// # Errors
     /// A name that is no column, a word that stands nowhere, or words that are to be ordered.
     pub fn bind(&self, binding: &Binding<'_>) -> Result<BoundCondition, String> {
-        let word = self.right.lone_name().filter(|name| binding.sheet.place(name).is_none());
-        let Some(word) = word else {
+        let Some(word) = self.right.word(binding.sheet) else {
             let (left, right) = (self.left.bind(binding)?, self.right.bind(binding)?);
             return Ok(BoundCondition::Numbers(left, self.relation, right));
         };

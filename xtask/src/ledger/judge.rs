@@ -80,14 +80,13 @@ fn keep<T>(all: Vec<T>, belongs: impl Fn(&T) -> Result<bool, Failure>) -> Result
     Ok(kept)
 }
 
-/// The supplements whose tables the ledger reads.
+/// The figures and supplements whose tables the ledger reads.
 ///
 /// # Errors
 /// Usage: a file of the ledger is malformed.
-pub fn supplements(paths: &Paths) -> Result<BTreeSet<String>, Failure> {
+pub fn figures(paths: &Paths) -> Result<BTreeSet<String>, Failure> {
     let tables = Sources::read(paths)?.tables()?;
-    let figures = tables.iter().filter_map(|table| figure_of(table));
-    Ok(figures.filter(|figure| figure.starts_with('s')).map(str::to_owned).collect())
+    Ok(tables.iter().filter_map(|table| figure_of(table)).map(str::to_owned).collect())
 }
 
 /// Whether every table that the ledger reads is there.
@@ -152,7 +151,10 @@ impl Verdicts {
     pub fn details(&self) -> Vec<String> {
         let mut lines = self.differences();
         if let Some(state) = self.committed.filter(|state| *state != State::Same) {
-            lines.push(format!("  {}: {LEDGER} (cargo xtask figures --all writes it)", state.word()));
+            lines.push(format!(
+                "  {}: {LEDGER} (cargo xtask figures writes it when all that it reads is made)",
+                state.word()
+            ));
         }
         lines
     }

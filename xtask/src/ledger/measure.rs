@@ -42,11 +42,11 @@ fn of_table(measure: &Measure, tables: &Tables<'_>, place: &Place) -> Result<Unc
         let bound = conditions.iter().map(|text| Condition::parse(text)?.bind(&binding));
         bound.collect::<Result<_, String>>().map_err(|problem| place.fail(key, of_the_table(measure, &problem)))
     };
-    let (wanted, among) = (bind("where", &measure.conditions)?, bind("among", &measure.among)?);
+    let wanted = bind("where", &measure.conditions)?;
     let fail = |problem: String| place.fail("where", of_the_table(measure, &problem));
-    let chosen = choose(&sheet, &wanted, &among).map_err(fail)?;
+    let chosen = choose(&sheet, &wanted).map_err(fail)?;
     if measure.take.counts() {
-        return counted(measure.take, &chosen).map_err(|problem| place.fail("among", problem));
+        return counted(measure.take, &chosen, sheet.rows()).map_err(|problem| place.fail("among", problem));
     }
     let of = of.ok_or_else(|| place.fail("of", "is missing"))?;
     let of = of.bind(&binding).map_err(|problem| place.fail("of", of_the_table(measure, &problem)))?;
@@ -58,9 +58,13 @@ fn of_the_table(measure: &Measure, problem: &str) -> String {
     format!("{} ({})", problem, measure.table)
 }
 
-/// The table, with the other one or the next rows beside it.
+/// The rows of the table that are looked at, with the other table or the next rows beside them.
 fn sheet(measure: &Measure, tables: &Tables<'_>, place: &Place) -> Result<Rc<Sheet>, Failure> {
-    let sheet = tables.get(&measure.table).map_err(|problem| place.fail("table", problem))?;
+    let mut sheet = tables.get(&measure.table).map_err(|problem| place.fail("table", problem))?;
+    if !measure.among.is_empty() {
+        let fail = |problem: String| place.fail("among", of_the_table(measure, &problem));
+        sheet = Rc::new(among(&sheet, &measure.among).map_err(fail)?);
+    }
     if let Some(name) = &measure.beside {
         let other = tables.get(name).map_err(|problem| place.fail("beside", problem))?;
         let on = measure.on.clone().unwrap_or_else(|| keys(&sheet, &other));
@@ -76,6 +80,17 @@ fn sheet(measure: &Measure, tables: &Tables<'_>, place: &Place) -> Result<Rc<She
     Ok(sheet)
 }
 
+/// The rows that meet conditions of which none may be open.
+fn among(sheet: &Sheet, conditions: &[String]) -> Result<Sheet, String> {
+    let binding = Binding { sheet, errors: None };
+    let bound = conditions.iter().map(|text| Condition::parse(text)?.bind(&binding));
+    let chosen = choose(sheet, &bound.collect::<Result<Vec<_>, String>>()?)?;
+    match chosen.open.first() {
+        Some(row) => Err(format!("row {row} (from 0): its error leaves open whether it belongs")),
+        None => Ok(sheet.rows_only(&chosen.sure)),
+    }
+}
+
 /// The columns of both tables that name rows: those without a stated error.
 fn keys(sheet: &Sheet, other: &Sheet) -> Vec<String> {
     let exact = |sheet: &Sheet, name: &str| sheet.columns.iter().any(|one| one.name == name && one.error.is_none());
@@ -88,25 +103,15 @@ fn keys(sheet: &Sheet, other: &Sheet) -> Vec<String> {
 struct Chosen {
     sure: Vec<usize>,
     open: Vec<usize>,
-    /// Rows that `among` leaves for sure.
-    all: usize,
-    /// Rows of which it is open whether `among` leaves them.
-    all_open: usize,
 }
 
-fn choose(sheet: &Sheet, wanted: &[BoundCondition], among: &[BoundCondition]) -> Result<Chosen, String> {
+fn choose(sheet: &Sheet, wanted: &[BoundCondition]) -> Result<Chosen, String> {
     let mut chosen = Chosen::default();
     for row in 0..sheet.rows() {
-        let of_all = hold(among, sheet, row)?;
-        match of_all {
-            Outcome::True => chosen.all += 1,
-            Outcome::Undecided => chosen.all_open += 1,
-            Outcome::False => continue,
-        }
-        match (hold(wanted, sheet, row)?, of_all) {
-            (Outcome::True, Outcome::True) => chosen.sure.push(row),
-            (Outcome::False, _) => {}
-            _ => chosen.open.push(row),
+        match hold(wanted, sheet, row)? {
+            Outcome::True => chosen.sure.push(row),
+            Outcome::Undecided => chosen.open.push(row),
+            Outcome::False => {}
         }
     }
     Ok(chosen)
@@ -125,16 +130,13 @@ fn hold(conditions: &[BoundCondition], sheet: &Sheet, row: usize) -> Result<Outc
     Ok(all)
 }
 
-/// The number of rows, or their share. Rows of which it is open count as the error.
-fn counted(take: Take, chosen: &Chosen) -> Result<Uncertain, String> {
-    let (sure, open) = (chosen.sure.len() as f64, chosen.open.len() as f64);
-    if take == Take::Count {
-        return Ok(Uncertain { value: sure, error: open });
-    }
-    match (chosen.all, chosen.all_open) {
-        (0, _) => Err("leaves no row, so there is no share".to_owned()),
-        (all, 0) => Ok(Uncertain { value: sure / all as f64, error: open / all as f64 }),
-        (all, _) => Ok(Uncertain { value: sure / all as f64, error: f64::INFINITY }),
+/// The number of rows, or their share of all. Rows of which it is open count as the error.
+fn counted(take: Take, chosen: &Chosen, all: usize) -> Result<Uncertain, String> {
+    let found = Uncertain { value: chosen.sure.len() as f64, error: chosen.open.len() as f64 };
+    match (take, all) {
+        (Take::Share, 0) => Err("no row is left to be a share of".to_owned()),
+        (Take::Share, all) => Ok(found.combine(Sign::Over, Uncertain::exact(all as f64))),
+        _ => Ok(found),
     }
 }
 

@@ -12,7 +12,7 @@
 //! of = "v"                      # a column, or two things with + - * / between blanks: "v - v_beside"
 //! table = "fig11/trajectories"  # below data/, without .csv
 //! where = ["t >= 1", "v < 0"]   # all must hold; op one of < <= > >= = !=
-//! among = ["t >= 1"]            # share only: of which rows; without it of all
+//! among = ["t >= 1"]            # the rows looked at, before others are put beside them; share is a share of these
 //! beside = "fig11/other"        # puts rows of another table beside these; its columns end in _beside
 //! next = "t"                    # or puts the next row by this column beside each one; its columns end in _next
 //! on = ["t", "n"]               # the columns that two rows side by side share; else those without a stated error
@@ -22,7 +22,7 @@
 //! ```
 //!
 //! On the right of a comparison stands a number, a column, two of them with a sign, a word that stands in the column on
-//! the left, or `empty`. A comparison of numbers with an empty cell does not hold.
+//! the left (in single quotes where a column has that name), or `empty`. A comparison of numbers with an empty cell does not hold.
 //!
 //! Every number has an error: that of `error_of`; else the one the manifest states for the column, a part of the
 //! column's range (of tables in closed form, a part of numbers above 1); else none, the number is taken as it is written. A comparison is true or false only if it is so for
@@ -45,5 +45,5 @@ pub mod words;
 mod judge;
 mod show;
 
-pub use judge::{Verdicts, is_complete, judge, supplements, write};
+pub use judge::{Verdicts, figures, is_complete, judge, write};
 pub use show::{explain, list};

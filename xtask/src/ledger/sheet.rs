@@ -130,6 +130,16 @@ impl Sheet {
         self.columns.iter().map(|column| column.name.as_str()).collect()
     }
 
+    /// The table with these rows only.
+    pub fn rows_only(&self, rows: &[usize]) -> Sheet {
+        let taken = |column: &Column| Column {
+            name: column.name.clone(),
+            cells: rows.iter().map(|&row| column.cells[row].clone()).collect(),
+            error: column.error,
+        };
+        Sheet { columns: self.columns.iter().map(taken).collect() }
+    }
+
     /// This table with another one beside it: each row with the one row of the other that has the same cells in the
     /// columns `on`. Columns of the other get [`BESIDE`] behind their names. Rows without a partner are left out.
     ///

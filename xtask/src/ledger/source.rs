@@ -109,7 +109,7 @@ pub struct Measure {
     /// Conditions that the rows must meet.
     #[serde(default, rename = "where")]
     pub conditions: Vec<String>,
-    /// For `share`: conditions of the rows it is a share of.
+    /// Conditions of the rows that are looked at, before others are put beside them; `share` is a share of these.
     #[serde(default)]
     pub among: Vec<String>,
     /// The column that holds the errors of what `of` names.
@@ -457,9 +457,6 @@ impl Measure {
         if self.take.counts() && self.of.is_some() && self.error_of.is_none() {
             return Err(place
                 .fail("of", format!("`{}` counts rows; `of` only names whose error error_of is", self.take.word())));
-        }
-        if !self.among.is_empty() && self.take != Take::Share {
-            return Err(place.fail("among", "is only for `share`"));
         }
         if self.beside.is_some() && self.next.is_some() {
             return Err(place.fail("next", "stands beside `beside`; a measure has one of them"));

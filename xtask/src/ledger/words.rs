@@ -20,13 +20,15 @@ pub fn describe(measure: &Measure, place: &Place) -> Result<String, Failure> {
     let of = measure.of.as_deref().filter(|_| !measure.take.counts()).unwrap_or("");
     let what = match measure.take {
         Take::Count => "number of rows".to_owned(),
-        Take::Share if measure.among.is_empty() => "share of rows".to_owned(),
-        Take::Share => format!("share of the rows with {}", measure.among.join(" and ")),
+        Take::Share => "share of rows".to_owned(),
         Take::Only => of.to_owned(),
         Take::First | Take::Last | Take::Least | Take::Largest => format!("{} {of}", measure.take.word()),
         Take::Mean | Take::Span => format!("{} of {of}", measure.take.word()),
     };
     let mut words = format!("{what} in {}", file(&measure.table));
+    if !measure.among.is_empty() {
+        words.push_str(&format!(" among those with {}", measure.among.join(" and ")));
+    }
     if let Some(beside) = &measure.beside {
         words.push_str(&format!(" beside {}", file(beside)));
     }

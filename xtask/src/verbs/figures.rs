@@ -37,7 +37,7 @@ pub fn run(paths: &Paths, arguments: &FiguresArgs) -> Result<(), Failure> {
     // read before the work, so that a malformed list is told at once
     let committed = summary::Committed::read(paths)?;
     manifest::read(paths)?;
-    ledger::supplements(paths)?;
+    ledger::figures(paths)?;
     if arguments.dry_run {
         return dry_run(paths, &all, &selected, arguments);
     }
@@ -65,22 +65,24 @@ pub fn run(paths: &Paths, arguments: &FiguresArgs) -> Result<(), Failure> {
     report.print(paths, arguments.json, whole, verdict.is_ok())?;
     if paths.scheme == Scheme::Paper {
         tell_distances(paths, &all, arguments.json)?;
-    } else if whole && work::verdict(&nodes, &outcomes).is_ok() {
+    } else if (whole || selected.iter().any(|figure| figure.is_supplement()))
+        && work::verdict(&nodes, &outcomes).is_ok()
+    {
         write_ledger(paths, &all, &sources, &records)?;
     }
     verdict
 }
 
-/// Writes the ledger if every supplement that it reads is fresh; else says what is missing.
+/// Writes the ledger if every figure and supplement that it reads is fresh; else says what is missing.
 fn write_ledger(paths: &Paths, all: &[Figure], sources: &Sources, records: &Records) -> Result<(), Failure> {
-    let read = ledger::supplements(paths)?;
+    let read = ledger::figures(paths)?;
     let wanted: Vec<&Figure> = all.iter().filter(|figure| read.contains(&figure.id)).collect();
     let surveys = record::survey(paths, &wanted, sources, records)?;
     let stale: Vec<&str> =
         surveys.iter().filter(|survey| !survey.reasons.is_empty()).map(|survey| &*survey.figure.id).collect();
     if !stale.is_empty() {
         let stale = stale.join(" ");
-        eprintln!("{LEDGER} left as it is: {stale} not made with these sources (cargo xtask figures --all)");
+        eprintln!("{LEDGER} left as it is: {stale} not made with these sources (cargo xtask figures {stale})");
         return Ok(());
     }
     ledger::write(paths)?.differences().iter().for_each(|line| eprintln!("{line}"));

@@ -78,11 +78,13 @@ pub fn run(paths: &Paths, arguments: &VerifyArgs) -> Result<(), Failure> {
 
 /// The figures meant; without one those of the paper and the supplements that the ledger reads.
 fn choose<'a>(paths: &Paths, all: &'a [Figure], arguments: &VerifyArgs) -> Result<Vec<&'a Figure>, Failure> {
-    let read = ledger::supplements(paths)?;
+    let read = ledger::figures(paths)?;
     let selected = figure::select(all, &arguments.selection.ids, arguments.selection.all)?;
     if !arguments.selection.ids.is_empty() {
         return Ok(selected);
     }
+    // a figure that the ledger names and that does not exist is told, with the claim, when the claim is judged
+    let read = read.into_iter().filter(|id| all.iter().any(|figure| figure.id == *id));
     let ids: Vec<String> = selected.iter().map(|figure| figure.id.clone()).chain(read).collect();
     figure::select(all, &ids, false)
 }
