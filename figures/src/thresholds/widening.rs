@@ -14,6 +14,9 @@ use jam::uniform::steady_speed;
 use ode::{Control, Method, Observer, Problem, Sampler, Step, integrate};
 use std::ops::ControlFlow;
 
+/// A law for each widening.
+type Widened = fn(f64) -> Model;
+
 /// The margin for long waves (negative: stable) and the largest growth rate on the ring, with the widening from 0 to 1 or
 /// as far as there is a uniform flow.
 ///
@@ -22,7 +25,7 @@ use std::ops::ControlFlow;
 pub fn table() -> Result<Rows, Failure> {
     let mut rows =
         Rows::new(&["law", "fixed", "a_v", "speed", "gap", "phi", "margin", "growth_rate", "growth_rate_error"]);
-    let laws: [(&str, fn(f64) -> Model, usize); 4] = [
+    let laws: [(&str, Widened, usize); 4] = [
         ("algebraic", |a_v| Model::Algebraic(algebraic(0.45, (0.0, 2.0, a_v))), 67),
         ("exponential", |a_v| Model::Exponential(exponential(1.5, 1.5, a_v)), 57),
         ("logarithmic", |a_v| logarithmic(1.0, a_v), 133),
