@@ -36,6 +36,10 @@ simulate *args:
 map *args:
     cargo xtask map {{args}}
 
+# write trajectories for other programs
+export *args:
+    cargo xtask export {{args}}
+
 # the tests
 test *args:
     cargo xtask test {{args}}

@@ -1,7 +1,7 @@
 //! The command line.
 
 use crate::paths::Scheme;
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::ffi::OsString;
 use std::path::PathBuf;
 
@@ -42,6 +42,8 @@ pub enum Verb {
     /// Compute a stability map: cargo xtask map SCENE.toml [options]; --help shows the options
     #[command(disable_help_flag = true)]
     Map(ForwardArgs),
+    /// Run a scene or a figure and write its trajectories in metres, as PedPy and JuPedSim read them
+    Export(ExportArgs),
     /// Describe the machine and the toolchain
     Describe(JsonArgs),
     /// Say what is missing and how to get it
@@ -224,6 +226,51 @@ pub struct ForwardArgs {
     /// Passed on as they are.
     #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
     pub arguments: Vec<OsString>,
+}
+
+/// Options of `export`.
+#[derive(Debug, Args)]
+pub struct ExportArgs {
+    /// A scene file, or a figure: fig11
+    #[arg(value_name = "SCENE|FIGURE")]
+    pub scene: String,
+    /// The panel of a scene that has several
+    #[arg(long)]
+    pub panel: Option<String>,
+    /// Folder for trajectories.txt and trajectories.sqlite; made if missing
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// a_0 in metres, half the length of a standing pedestrian; by default such that the desired speed is 1.2 m/s,
+    /// which the paper calls typical: 0.6 for figure 11
+    #[arg(long, value_name = "METRES", value_parser = positive, allow_negative_numbers = true)]
+    pub a0: Option<f64>,
+    /// tau in seconds, the relaxation time; the default is what the paper calls typical
+    #[arg(long, value_name = "SECONDS", default_value = "0.5", value_parser = positive, allow_negative_numbers = true)]
+    pub tau: f64,
+    /// Frames a second
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(8..=100_000))]
+    pub fps: u32,
+    /// Time at which the run ends, in units of tau; by default that of the scene
+    #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
+    pub t_end: Option<f64>,
+    /// Only the text that PedPy reads, or only JuPedSim's sqlite file
+    #[arg(long, value_enum)]
+    pub format: Option<Format>,
+}
+
+/// A kind of file with trajectories.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// `trajectories.txt`
+    Pedpy,
+    /// `trajectories.sqlite`
+    Jupedsim,
+}
+
+/// A finite number above 0.
+fn positive(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0);
+    number.ok_or_else(|| format!("{text}: must be a number above 0"))
 }
 
 /// Options of verbs that only print.

@@ -29,6 +29,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Verb::Bench(arguments) => verbs::bench::run(&paths, &arguments),
         Verb::Simulate(arguments) => verbs::forward::run(&paths, "simulate", &arguments),
         Verb::Map(arguments) => verbs::forward::run(&paths, "map", &arguments),
+        Verb::Export(arguments) => verbs::export::run(&paths, &arguments),
         Verb::Describe(arguments) => verbs::describe::run(&paths, &arguments),
         Verb::Doctor(arguments) => verbs::doctor::run(&paths, &arguments),
         Verb::Test => verbs::test::run(&paths),

@@ -50,9 +50,10 @@ pub const SHARED_SOURCES: [&str; 4] = ["crates/", "figures/src/", "figures/Cargo
 pub const SUPPLEMENT_SOURCES: [&str; 2] = ["data/accuracy/", "data/timing/"];
 /// Folders that are searched for sources.
 pub const SOURCE_FOLDERS: [&str; 5] = ["crates", "figures", "data/accuracy", "data/reference", "data/timing"];
-/// Below the folders searched, what reaches no figure: the page for browsers, solutions to compare with, archived benchmarks.
-pub const NO_SOURCES: [&str; 4] =
-    ["crates/browser/", "crates/reference/", "data/reference/solutions/", "data/timing/bench/"];
+/// Below the folders searched, what reaches no figure: the page for browsers, files for other programs, solutions to
+/// compare with, archived benchmarks.
+pub const NO_SOURCES: [&str; 5] =
+    ["crates/browser/", "crates/interchange/", "crates/reference/", "data/reference/solutions/", "data/timing/bench/"];
 /// How to get the fonts back.
 pub const FONTS_REMEDY: &str = "part of the checkout: git restore crates/plot/fonts";
 /// The fonts that the pictures embed, each with its SHA-256: a damaged one would be compiled in, and every picture would fail or differ.
@@ -288,6 +289,11 @@ impl Paths {
     /// The folder of an environment of Python.
     pub fn python(&self, name: &str) -> PathBuf {
         self.target.join("python").join(name)
+    }
+
+    /// Where a run lies while it is written for other programs; a folder of this process.
+    pub fn exported(&self) -> PathBuf {
+        self.xtask().join(Paths::temporary("export"))
     }
 
     /// What each figure was made from.

@@ -19,8 +19,12 @@ pub fn run(paths: &Paths, name: &str, arguments: &ForwardArgs) -> Result<(), Fai
     child::run_shown(Command::new(paths.binary(name)).args(&arguments.arguments))
 }
 
-/// The lock is held while building only: a user's run keeps nobody waiting.
-fn build(paths: &Paths) -> Result<(), Failure> {
+/// Builds the figures' binaries and tools if needed. The lock is held while building only: a user's run keeps nobody
+/// waiting.
+///
+/// # Errors
+/// They cannot be built.
+pub fn build(paths: &Paths) -> Result<(), Failure> {
     let all = figure::discover(paths)?;
     let _lock = Lock::take(paths)?;
     compile::ensure(paths, &all, &Sources::read(paths)?)

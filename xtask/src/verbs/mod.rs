@@ -8,6 +8,7 @@ pub mod clean;
 pub mod describe;
 pub mod doctor;
 pub mod explain;
+pub mod export;
 pub mod figures;
 pub mod forward;
 pub mod list;

@@ -1,0 +1,109 @@
+//! What both files say of themselves: the run, the ring, and the units.
+
+use crate::problem::Problem;
+use files::reader::{POSITIVE, Reader};
+use files::recipe::{Kind, Panel, Recipe};
+
+/// The desired speed that the paper calls typical, in metres a second; where `a_0` is not given it follows from this one.
+pub const TYPICAL_SPEED: f64 = 1.2;
+
+/// The lengths and times of the model in metres and seconds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Units {
+    /// `a_0`, in metres.
+    pub length: f64,
+    /// `tau`, in seconds.
+    pub time: f64,
+    /// Whether `a_0` follows from [`TYPICAL_SPEED`].
+    pub is_derived: bool,
+}
+
+/// The scene of a trajectory, and how it is written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Header {
+    /// What it shows, in words, on one line.
+    pub title: String,
+    /// The label of the paper, on one line; empty for a scene of one's own.
+    pub source: String,
+    /// The SHA-256 of everything in the scene that determines numbers.
+    pub scene: String,
+    /// The number of pedestrians.
+    pub pedestrians: u32,
+    /// The length of the ring in units of `a_0`.
+    pub ring: f64,
+    /// The desired speed in units of `a_0 / tau`.
+    pub desired_speed: f64,
+    /// Metres and seconds.
+    pub units: Units,
+    /// Frames a second.
+    pub rate: u32,
+}
+
+impl Header {
+    /// Reads what is needed from a scene. `length` is `a_0` in metres, by default such that the desired speed is
+    /// [`TYPICAL_SPEED`]; `time` is `tau` in seconds.
+    ///
+    /// # Errors
+    /// The panel is no run, or its ring or desired speed is missing or out of range, with file and line.
+    pub fn new(recipe: &Recipe, panel: &Panel, length: Option<f64>, time: f64, rate: u32) -> Result<Header, Problem> {
+        if panel.kind != Kind::Run {
+            return Err(Problem::Input(format!("{}: has no [run], so no trajectories", recipe.file)));
+        }
+        let mut tables = Reader::new(&recipe.file, "scene", &panel.tables);
+        let mut ring = Reader::new(&recipe.file, "ring", tables.section("ring")?);
+        let mut law = Reader::new(&recipe.file, "law", tables.section("law")?);
+        let desired_speed = law.number("v0", POSITIVE)?;
+        let derived = TYPICAL_SPEED * time / desired_speed;
+        Ok(Header {
+            title: line(&recipe.title),
+            source: line(&recipe.source),
+            scene: files::write::sha256(panel.determinants().as_bytes()),
+            pedestrians: ring.count("pedestrians", 2, 10_000_000)? as u32,
+            ring: ring.number("length", POSITIVE)?,
+            desired_speed,
+            units: Units { length: length.unwrap_or(derived), time, is_derived: length.is_none() },
+            rate,
+        })
+    }
+
+    /// The time between two frames, in units of `tau`.
+    pub fn interval(&self) -> f64 {
+        1.0 / (f64::from(self.rate) * self.units.time)
+    }
+
+    /// A position in metres.
+    pub fn metres(&self, x: f64) -> f64 {
+        self.units.length * x
+    }
+
+    /// The length of the ring in metres.
+    pub fn circumference(&self) -> f64 {
+        self.metres(self.ring)
+    }
+
+    /// Name and value of all that a reader has to know to go back to the model's numbers, in a fixed order.
+    pub fn facts(&self) -> Vec<(&'static str, String)> {
+        let Units { length, time, is_derived } = self.units;
+        let origin = match is_derived {
+            true => format!("desired speed of {TYPICAL_SPEED:?} m/s"),
+            false => "given".to_owned(),
+        };
+        vec![
+            ("title", self.title.clone()),
+            ("source", self.source.clone()),
+            ("scene_sha256", self.scene.clone()),
+            ("pedestrians", self.pedestrians.to_string()),
+            ("a_0", format!("{length:?} m")),
+            ("a_0_from", origin),
+            ("tau", format!("{time:?} s")),
+            ("ring_length", format!("{:?} m", self.circumference())),
+            ("desired_speed", format!("{:?} m/s", self.desired_speed * length / time)),
+            ("x", "unwrapped; modulo ring_length it is the place on the ring".to_owned()),
+        ]
+    }
+}
+
+/// A text on one line.
+fn line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,14 @@
+//! Trajectories for other programs, in metres and seconds: from the table `t, n, x, v` of a run ([`frames`]) and its
+//! scene ([`header`]) to text as PedPy reads it ([`text`]) and to JuPedSim's sqlite files ([`sqlite`]).
+//!
+//! No physics: positions are multiplied by a length. Both files are written row by row, beside their place, and put there
+//! when they are whole ([`draft`]); the same table and scene give the same bytes.
+
+pub mod draft;
+pub mod frames;
+pub mod header;
+pub mod problem;
+pub mod sqlite;
+pub mod text;
+
+pub use problem::Problem;

@@ -1,0 +1,45 @@
+//! Why nothing could be exported, and the exit code that says so.
+
+use std::fmt;
+use std::io;
+
+/// A message for the user and whether the input is to blame.
+#[derive(Debug, PartialEq)]
+pub enum Problem {
+    /// Bad input (exit code 2).
+    Input(String),
+    /// The work failed: disk full and the like (exit code 4).
+    Work(String),
+}
+
+impl Problem {
+    /// The exit code of the process.
+    pub fn code(&self) -> u8 {
+        match self {
+            Problem::Input(_) => 2,
+            Problem::Work(_) => 4,
+        }
+    }
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Problem::Input(text) | Problem::Work(text) => f.write_str(text),
+        }
+    }
+}
+
+impl std::error::Error for Problem {}
+
+impl From<io::Error> for Problem {
+    fn from(error: io::Error) -> Problem {
+        Problem::Work(error.to_string())
+    }
+}
+
+impl From<files::reader::RecipeError> for Problem {
+    fn from(error: files::reader::RecipeError) -> Problem {
+        Problem::Input(error.to_string())
+    }
+}

@@ -1,0 +1,39 @@
+//! Text as PedPy and the archive of pedestrian experiments have it: comments with the frame rate and the columns, then a
+//! line for each pedestrian in each frame.
+
+use crate::draft::Draft;
+use crate::frames::Row;
+use crate::header::Header;
+use crate::problem::Problem;
+use files::write::with_path;
+use std::fs::File;
+use std::io::{BufWriter, Write};
+
+/// Digits behind the point of a position in metres: it is written to half a nanometre.
+pub const DIGITS: usize = 9;
+
+/// Writes the draft; the number of rows.
+///
+/// # Errors
+/// A row cannot be read, or the file not be written.
+pub fn write(draft: &Draft, header: &Header, rows: impl Iterator<Item = Result<Row, Problem>>) -> Result<u64, Problem> {
+    let at = |error| Problem::from(with_path(error, draft.place()));
+    let mut file = BufWriter::new(File::create(draft.path()).map_err(at)?);
+    file.write_all(comments(header).as_bytes()).map_err(at)?;
+    let mut count = 0;
+    for row in rows {
+        let Row { frame, n, x } = row?;
+        writeln!(file, "{n} {frame} {:.DIGITS$} 0 0", header.metres(x)).map_err(at)?;
+        count += 1;
+    }
+    file.flush().map_err(at)?;
+    draft.flush()?;
+    Ok(count)
+}
+
+/// The comments. PedPy takes the first number in a line that has `framerate` in it, and looks for `x/m` and for `x/cm`
+/// everywhere: words from the scene stand behind the line that says it.
+fn comments(header: &Header) -> String {
+    let facts: String = header.facts().iter().map(|(name, value)| format!("# {name}: {value}\n")).collect();
+    format!("# framerate: {}\n{facts}# ID FR x/m y/m z/m\n", header.rate)
+}

@@ -1,0 +1,101 @@
+//! `export`: runs a scene with a sample for each frame, then writes the trajectories for other programs.
+
+use super::forward;
+use crate::child;
+use crate::cli::{ExportArgs, Format};
+use crate::disk;
+use crate::failure::Failure;
+use crate::figure;
+use crate::lock::Lock;
+use crate::paths::{Paths, RUN_TABLES};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// The command that builds the program that writes the files: in no other build, since it compiles SQLite.
+const BUILD: &str = "build --quiet --release --locked -p interchange";
+
+/// Runs the verb; paths among the arguments are relative to the current folder.
+///
+/// # Errors
+/// Usage: no such scene, figure or panel; no trajectories in it. Failed: a program cannot be built, a file not be
+/// written.
+pub fn run(paths: &Paths, arguments: &ExportArgs) -> Result<(), Failure> {
+    let scene = scene(paths, &arguments.scene)?;
+    build(paths)?;
+    let folder = paths.exported();
+    let result = simulate(paths, &scene, arguments, &folder).and_then(|table| write(paths, &scene, arguments, &table));
+    disk::remove(&folder)?;
+    result
+}
+
+/// The scene file that is meant: a file, or that of a figure.
+///
+/// # Errors
+/// Usage: no such figure.
+pub fn scene(paths: &Paths, wanted: &str) -> Result<PathBuf, Failure> {
+    let is_file = wanted.ends_with(".toml") || Path::new(wanted).is_file();
+    if is_file {
+        return Ok(PathBuf::from(wanted));
+    }
+    let all = figure::discover(paths)?;
+    Ok(paths.root.join(Paths::scene(&figure::find(&all, wanted)?.slug)))
+}
+
+/// Builds what runs scenes and what writes the files.
+///
+/// # Errors
+/// A program cannot be built.
+pub fn build(paths: &Paths) -> Result<(), Failure> {
+    forward::build(paths)?;
+    let _lock = Lock::take(paths)?;
+    let mut cargo = child::cargo();
+    cargo.args(BUILD.split(' ')).current_dir(&paths.root).env("CARGO_TARGET_DIR", &paths.target);
+    child::run_shown(&mut cargo).map_err(|failure| match failure {
+        Failure::Child(code) => Failure::Failed(format!("cargo {BUILD}: exit code {code}")),
+        other => other,
+    })
+}
+
+/// Runs the scene into `folder`; its table of trajectories, with a sample every `1 / (fps tau)`: the frames fall on
+/// whole multiples of `1 / fps` seconds.
+///
+/// # Errors
+/// The run fails, or its scene keeps no trajectories.
+pub fn simulate(paths: &Paths, scene: &Path, arguments: &ExportArgs, folder: &Path) -> Result<PathBuf, Failure> {
+    let interval = 1.0 / (f64::from(arguments.fps) * arguments.tau);
+    let mut program = Command::new(paths.binary("simulate"));
+    program.arg(scene).arg("--tables-only").arg("--out").arg(folder).arg("--sample").arg(format!("{interval:?}"));
+    program.args(arguments.panel.iter().flat_map(|panel| ["--panel", panel]));
+    program.args(arguments.t_end.iter().flat_map(|end| ["--t-end".to_owned(), format!("{end:?}")]));
+    child::run_shown(&mut program)?;
+    let table = folder.join(RUN_TABLES[1]);
+    match table.is_file() {
+        true => Ok(table),
+        false => {
+            let scene = scene.display();
+            Err(Failure::Usage(format!(
+                "{scene}: keeps no trajectories; set run.record = \"trajectories\" or leave it out"
+            )))
+        }
+    }
+}
+
+/// Writes the files from the table of a run.
+///
+/// # Errors
+/// They cannot be written.
+pub fn write(paths: &Paths, scene: &Path, arguments: &ExportArgs, table: &Path) -> Result<(), Failure> {
+    let mut program = Command::new(paths.binary("export"));
+    program.arg("--scene").arg(scene).arg("--table").arg(table).arg("--out").arg(&arguments.out);
+    program.args(["--tau", &format!("{:?}", arguments.tau), "--fps", &arguments.fps.to_string()]);
+    program.args(arguments.a0.iter().flat_map(|a0| ["--a0".to_owned(), format!("{a0:?}")]));
+    program.args(arguments.panel.iter().flat_map(|panel| ["--panel", panel]));
+    program.args(arguments.format.iter().flat_map(|format| {
+        let name = match format {
+            Format::Pedpy => "pedpy",
+            Format::Jupedsim => "jupedsim",
+        };
+        ["--format", name]
+    }));
+    child::run_shown(&mut program)
+}
