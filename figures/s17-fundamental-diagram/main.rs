@@ -14,14 +14,12 @@ fn main() -> ExitCode {
     figure(env!("CARGO_BIN_NAME"), tables, picture)
 }
 
-/// Headways of the uniform flow: 1 / STEPS of the length unit apart, up to LONGEST of it.
+/// Densities of the uniform flow: whole multiples of 1 / STEPS, up to MOST of them.
 const STEPS: u32 = 200;
-const LONGEST: u32 = 8;
+const MOST: u32 = 300;
 /// The states are those from FIRST on, every APART.
 const FIRST: f64 = 2000.0;
 const APART: f64 = 100.0;
-/// The end of the axes of densities.
-const DENSEST: f64 = 1.5;
 
 fn tables(job: &mut Job) -> Result<(), Failure> {
     let scene = scene::run::read(&job.recipe.file, &job.panel("main")?.tables)?;
@@ -29,14 +27,14 @@ fn tables(job: &mut Job) -> Result<(), Failure> {
     job.write("states", &states(&job.run_table("main", "trajectories")?, &scene))
 }
 
-/// The uniform flow at every headway, the densest first; `margin` is above 0 where long waves grow.
+/// The uniform flow at every density; `margin` is above 0 where long waves grow.
 fn steady(scene: &Scene) -> Result<Table, Failure> {
     let mut table = Table::new(&["headway", "density", "speed", "flow", "margin"]);
-    for step in STEPS / 2..=LONGEST * STEPS {
-        let headway = f64::from(step) / f64::from(STEPS);
+    for step in 1..=MOST {
+        let (density, headway) = (f64::from(step) / f64::from(STEPS), f64::from(STEPS) / f64::from(step));
         let speed = steady_speed(&scene.model, headway).map_err(Failure::work)?;
         let margin = scene.model.linearise(headway, speed).long_wave_margin();
-        table.push(&[headway, 1.0 / headway, speed, speed / headway, margin]);
+        table.push(&[headway, density, speed, speed * density, margin]);
     }
     Ok(table)
 }
@@ -59,12 +57,16 @@ fn states(run: &Table, scene: &Scene) -> Table {
 fn picture(job: &Job) -> Result<Picture, Failure> {
     let scene = scene::run::read(&job.recipe.file, &job.panel("main")?.tables)?;
     let mean = 1.0 / scene.ring.headway();
-    let speeds = panel(job, "speed", Axis::linear("speed $v$", 0.0, 1.0).steps(4), mean)?;
+    let speeds = panel(job, "speed", Axis::linear("speed $v$", 0.0, 1.2).steps(4), mean)?;
     let flows = panel(job, "flow", Axis::linear("flow $\\rho v$", 0.0, 0.6).steps(3), mean)?;
-    Ok(Picture::new(COLUMN_WIDTH, 110.0)
-        .columns(1)
-        .panel(speeds.legend(Legend::Corner(Corner::BottomLeft)))
-        .panel(flows.legend(Legend::Hidden).note("mean density", (mean + 0.02, 0.03))))
+    Ok(Picture::new(COLUMN_WIDTH, 110.0).columns(1).panel(speeds.legend(Legend::Corner(Corner::BottomLeft))).panel(
+        // who is faster than the uniform flow at the same headway slows down: the law says so
+        flows
+            .legend(Legend::Hidden)
+            .note("mean density", (mean + 0.02, 0.03))
+            .note("slowing down", (0.8, 0.525))
+            .note("speeding up", (0.8, 0.29)),
+    ))
 }
 
 /// A column against the density: the uniform flow, its unstable part thick, and the states.
@@ -72,12 +74,13 @@ fn panel(job: &Job, column: &str, axis: Axis, mean: f64) -> Result<Lines, Failur
     let steady = job.read("steady")?;
     let all = points(&steady, "density", column)?;
     let margins = steady.column("margin")?;
-    let is_drawn = |&(density, _): &(f64, f64)| density <= DENSEST;
-    let unstable = all.iter().zip(&margins).filter(|&(point, &margin)| margin > 0.0 && is_drawn(point));
+    let unstable = all.iter().zip(&margins).filter(|&(_, &margin)| margin > 0.0);
+    let unstable = unstable.map(|(&point, _)| point).collect();
     let states = points(&job.read("states")?, "density", column)?;
-    Ok(Lines::new(Axis::linear("density $\\rho = 1 / \\mathrm{headway}$", 0.0, DENSEST).steps(3), axis)
+    let densest = f64::from(MOST) / f64::from(STEPS);
+    Ok(Lines::new(Axis::linear("density $\\rho = 1 / \\mathrm{headway}$", 0.0, densest).steps(3), axis)
         .vertical(mean)
         .series(Series::points("run of figure 11", Marker::Circle, states).look(2).marker_size(0.5))
-        .series(Series::line("uniform flow", all.iter().copied().filter(is_drawn).collect()).look(0).solid())
-        .series(Series::line("unstable", unstable.map(|(&point, _)| point).collect()).look(1).solid().thick(2.5)))
+        .series(Series::line("uniform flow", all).look(0).solid())
+        .series(Series::line("unstable", unstable).look(1).solid().thick(2.5)))
 }

@@ -22,6 +22,7 @@ pub mod numbers;
 pub mod outputs;
 pub mod pairs;
 pub mod paths;
+pub mod pedpy;
 pub mod plan;
 pub mod pool;
 pub mod precision;

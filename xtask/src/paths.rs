@@ -75,6 +75,10 @@ pub const LEDGER: &str = "data/ledger.json";
 pub const OPEN_ALL: &str = "open README.md for the table of figures, figures/*/fig*.png for the pictures";
 /// Checks that need more than Rust: spot values by NumPy.
 pub const SPOT_CHECK: &str = "checks/spot.py";
+/// Checks that need more than Rust: exported trajectories read by PedPy.
+pub const PEDPY_CHECK: &str = "checks/pedpy/check.py";
+/// What that check needs, by hash.
+pub const PEDPY_REQUIREMENTS: &str = "checks/pedpy/requirements.txt";
 /// Checks that need more than Rust: other processors.
 pub const OTHER_MACHINES: &str = "checks/other-machines.sh";
 /// What is measured by `bench`.

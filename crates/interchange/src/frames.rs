@@ -63,8 +63,8 @@ impl<R: Read> Frames<R> {
     }
 
     fn row(&mut self) -> Result<Row, String> {
-        let [t, n, x, _] = [0, 1, 2, 3].map(|column| number(self.record.get(column)));
-        let (t, n, x) = (t?, n?, x?);
+        let [t, n, x, v] = [0, 1, 2, 3].map(|column| number(self.record.get(column)));
+        let (t, n, x, _) = (t?, n?, x?, v?);
         let expected = f64::from(self.frame) * self.interval;
         if n != f64::from(self.n) || (t - expected).abs() > SAME_TIME * self.interval {
             return Err(format!("pedestrian {n:?} at t = {t:?} in place of {} at {expected:?}", self.n));

@@ -4,8 +4,9 @@ use crate::problem::Problem;
 use files::reader::{POSITIVE, Reader};
 use files::recipe::{Kind, Panel, Recipe};
 
-/// The desired speed that the paper calls typical, in metres a second; where `a_0` is not given it follows from this one.
-pub const TYPICAL_SPEED: f64 = 1.2;
+/// The desired speed that the paper calls typical, in tenths of a metre a second; where `a_0` is not given it follows from
+/// this one. A whole number, so that a length such as 0.2 m is not missed by a rounding.
+pub const TYPICAL_SPEED: u32 = 12;
 
 /// The lengths and times of the model in metres and seconds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,7 +54,7 @@ impl Header {
         let mut ring = Reader::new(&recipe.file, "ring", tables.section("ring")?);
         let mut law = Reader::new(&recipe.file, "law", tables.section("law")?);
         let desired_speed = law.number("v0", POSITIVE)?;
-        let derived = TYPICAL_SPEED * time / desired_speed;
+        let derived = f64::from(TYPICAL_SPEED) * time / (10.0 * desired_speed);
         Ok(Header {
             title: line(&recipe.title),
             source: line(&recipe.source),
@@ -85,7 +86,7 @@ impl Header {
     pub fn facts(&self) -> Vec<(&'static str, String)> {
         let Units { length, time, is_derived } = self.units;
         let origin = match is_derived {
-            true => format!("desired speed of {TYPICAL_SPEED:?} m/s"),
+            true => format!("desired speed of {:?} m/s", f64::from(TYPICAL_SPEED) / 10.0),
             false => "given".to_owned(),
         };
         vec![
@@ -97,7 +98,7 @@ impl Header {
             ("a_0_from", origin),
             ("tau", format!("{time:?} s")),
             ("ring_length", format!("{:?} m", self.circumference())),
-            ("desired_speed", format!("{:?} m/s", self.desired_speed * length / time)),
+            ("desired_speed", format!("{:.6} m/s", self.desired_speed * length / time)),
             ("x", "unwrapped; modulo ring_length it is the place on the ring".to_owned()),
         ]
     }

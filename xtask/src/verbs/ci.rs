@@ -6,6 +6,7 @@ use crate::child;
 use crate::cli::{CiArgs, FiguresArgs, VerifyArgs};
 use crate::failure::Failure;
 use crate::paths::{COST, OTHER_MACHINES, Paths};
+use crate::pedpy;
 use std::process::Command;
 
 /// Runs the verb; stops at the first step that fails.
@@ -18,6 +19,8 @@ pub fn run(paths: &Paths, arguments: &CiArgs) -> Result<(), Failure> {
     // the tables first: the NumPy checks of `test` read them
     eprintln!("ci: figures");
     figures::run(paths, &FiguresArgs::default())?;
+    eprintln!("ci: what the check by PedPy needs");
+    pedpy::prepare(paths)?;
     eprintln!("ci: test");
     test::run(paths)?;
     eprintln!("ci: verify");

@@ -4,6 +4,7 @@ use super::doctor;
 use crate::child;
 use crate::failure::Failure;
 use crate::paths::{COST, OTHER_MACHINES, Paths, SPOT_CHECK};
+use crate::pedpy;
 use crate::print;
 use crate::sums::Sums;
 use std::process::Command;
@@ -17,6 +18,7 @@ pub fn run(paths: &Paths) -> Result<(), Failure> {
     cargo.args(["test", "--release", "--locked", "--workspace"]).current_dir(&paths.root);
     step("cargo test", cargo.env("CARGO_TARGET_DIR", &paths.target))?;
     spot_check(paths)?;
+    pedpy::check(paths)?;
     print::out(&format!("skipped: other machines ({OTHER_MACHINES}): cargo xtask ci --full\n"))?;
     print::out(&format!("skipped: instruction counts ({COST}): cargo xtask ci --full\n"))
 }
