@@ -19,6 +19,7 @@ fn main() -> io::Result<()> {
         "cargo" => cargo(),
         "simulate" => simulate(&arguments),
         "map" => exit(3),
+        "export" => fs::write("exported.txt", arguments[1..].join("\n")),
         "precision" | "hard" | "studies" => accuracy(&name, &arguments),
         _ => figure(&name, &arguments),
     }
@@ -65,7 +66,7 @@ fn cargo() -> io::Result<()> {
     let slugs = fs::read_dir("figures")?.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
     for name in slugs
         .filter(|slug| slug.contains('-'))
-        .chain(["simulate", "map", "precision", "hard", "studies"].map(str::to_owned))
+        .chain(["simulate", "map", "precision", "hard", "studies", "export"].map(str::to_owned))
     {
         let binary = release.join(name);
         if !binary.exists() {
@@ -85,9 +86,14 @@ fn fill_disk(name: &str, half: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// A run of 5000 samples; the check is 1e-9 away.
+/// A run of 5000 samples; the check is 1e-9 away. One that is sampled otherwise than its scene says is to be exported.
 fn simulate(arguments: &[String]) -> io::Result<()> {
     let Some(out) = value(arguments, "--out").map(PathBuf::from) else { return Ok(()) };
+    if let Some(interval) = value(arguments, "--sample") {
+        fs::create_dir_all(&out)?;
+        let keeps = !fs::read_to_string(&arguments[1])?.contains("record = \"std\"");
+        return if keeps { fs::write(out.join("trajectories.csv"), interval) } else { Ok(()) };
+    }
     let shift = if arguments.iter().any(|argument| argument == "--check") { 1e-9 } else { 0.0 };
     let rows: Vec<String> = (0..5000).map(|t| format!("{t},{:?}\n", f64::from(t % 3) + shift)).collect();
     let name = if shift > 0.0 { "check" } else { "simulate" };

@@ -5,6 +5,7 @@ mod bench;
 mod cli;
 mod data;
 mod distance;
+mod export;
 mod figures;
 mod ids;
 mod judging;
