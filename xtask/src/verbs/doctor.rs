@@ -7,6 +7,7 @@ use crate::disk;
 use crate::failure::Failure;
 use crate::paths::{FONTS_REMEDY, Paths, TOOLCHAIN};
 use crate::print;
+use crate::python;
 use serde_json::{Value, json};
 
 /// One thing that a verb may need.
@@ -63,6 +64,7 @@ fn findings(paths: &Paths) -> Result<Vec<Finding>, Failure> {
             child::first_line(&cargo, &["fmt", "--version"]),
             "needed by ci; rustup component add rustfmt",
         ),
+        finding("python", false, python(), "needed by a check of ci; Python 3.11 or later with venv or pip"),
         finding("numpy", false, numpy(), "needed by spot checks of test; pip install numpy"),
     ])
 }
@@ -73,6 +75,11 @@ fn pinned_rustc(paths: &Paths) -> Result<Option<String>, Failure> {
     let channel = pin.lines().find_map(|line| line.trim().strip_prefix("channel")?.trim().strip_prefix('='));
     let channel = channel.map_or("", |channel| channel.trim().trim_matches('"'));
     Ok(child::first_line("rustc", &["--version"]).filter(|version| version.contains(channel)))
+}
+
+/// The version of Python, when it is new enough for the packages that are pinned.
+fn python() -> Option<String> {
+    child::first_line(python::find()?.to_str()?, &["--version"])
 }
 
 /// The version of NumPy, when Python has it.
