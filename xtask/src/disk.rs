@@ -28,6 +28,46 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     files::write::atomic(path, bytes).map_err(Failure::failed)
 }
 
+/// The text of a file of the runner's own, which can be made again: empty when there is none, or none that can be read.
+pub fn read_own(path: &Path) -> String {
+    let is_file = path.metadata().is_ok_and(|data| data.is_file());
+    if is_file { fs::read_to_string(path).unwrap_or_default() } else { String::new() }
+}
+
+/// Writes a file of the runner's own whole or not at all; whatever else has its name gives way.
+///
+/// # Errors
+/// A folder or the file cannot be written, or what is in the way not be removed.
+pub fn write_own(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    if let Some(parent) = path.parent() {
+        own_folder(parent)?;
+    }
+    clear_for_file(path)?;
+    write(path, bytes)
+}
+
+/// Makes a folder of the runner's own and those above it; a file or a dead link of this name gives way.
+///
+/// # Errors
+/// The folder cannot be made, or what is in the way not be removed.
+pub fn own_folder(path: &Path) -> Result<(), Failure> {
+    if !path.is_dir() && fs::symlink_metadata(path).is_ok() {
+        remove(path)?;
+    }
+    create_folder(path)
+}
+
+/// Removes what has the name of a file that is going to be written and is none, so that a file can take its place.
+///
+/// # Errors
+/// It cannot be removed.
+pub fn clear_for_file(path: &Path) -> Result<(), Failure> {
+    match fs::symlink_metadata(path) {
+        Ok(data) if !data.is_file() => remove(path),
+        _ => Ok(()),
+    }
+}
+
 /// Writes a file unless it holds these bytes already, so that an unchanged file keeps its date.
 ///
 /// # Errors
@@ -72,14 +112,16 @@ pub fn replace(from: &Path, to: &Path) -> Result<(), Failure> {
     fs::rename(from, to).map_err(Failure::at(to))
 }
 
-/// The names in a folder, sorted; none when there is no such folder. Names that are not UTF-8 are left out.
+/// The names in a folder, sorted; none when there is no such folder or something else has its name. Names that are not UTF-8 are left out.
 ///
 /// # Errors
 /// The folder cannot be read.
 pub fn names(folder: &Path) -> Result<Vec<String>, Failure> {
     let entries = match fs::read_dir(folder) {
         Ok(entries) => entries,
-        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
+        Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => return Ok(Vec::new()),
+        // a link that leads round in a circle
+        Err(_) if folder.is_symlink() && folder.metadata().is_err() => return Ok(Vec::new()),
         Err(error) => return Err(Failure::at(folder)(error)),
     };
     let mut names = Vec::new();

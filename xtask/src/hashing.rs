@@ -2,6 +2,8 @@
 
 use crate::failure::Failure;
 use std::collections::BTreeMap;
+use std::fs;
+use std::io::ErrorKind;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -10,7 +12,7 @@ use std::thread;
 /// Hashes one file; `None` when there is none.
 pub type HashOne = dyn Fn(&Path) -> Result<Option<String>, Failure> + Sync;
 
-/// The hashes of files, in the order of `paths`; `None` for a file that is not there.
+/// The hashes of files, in the order of `paths`; `None` for what is not there or no file.
 ///
 /// # Errors
 /// A file that is there cannot be read.
@@ -49,11 +51,14 @@ pub fn hash_by(paths: &[PathBuf], hash: &HashOne) -> Result<Vec<Option<String>>,
     hashes.into_iter().collect()
 }
 
+/// A folder, a device or a link that leads nowhere in the place of a file is no file: it is made again, not read.
 fn hash(path: &Path) -> Result<Option<String>, Failure> {
-    match files::write::sha256_file(path) {
-        Ok(hash) => Ok(Some(hash)),
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(Failure::failed(error)),
+    match fs::metadata(path) {
+        Ok(data) if data.is_file() => files::write::sha256_file(path).map(Some).map_err(Failure::failed),
+        Ok(_) => Ok(None),
+        Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => Ok(None),
+        Err(_) if path.is_symlink() => Ok(None),
+        Err(error) => Err(Failure::at(path)(error)),
     }
 }
 

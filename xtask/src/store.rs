@@ -27,7 +27,8 @@ pub fn fresh(paths: &Paths, key: &str) -> PathBuf {
     paths.store().join(Paths::temporary(key))
 }
 
-/// Whether the stored run is there and every byte of it is as it was stored.
+/// Whether the stored run is there and every byte of it is as it was stored. The list must name every file: one that
+/// lost its end would otherwise let the files it no longer names pass.
 ///
 /// # Errors
 /// A file of it cannot be read.
@@ -35,9 +36,12 @@ pub fn is_sound(folder: &Path) -> Result<bool, Failure> {
     let Ok(Some(sums)) = Sums::read(&folder.join(STORE_SUMS), STORE_SUMS) else {
         return Ok(false);
     };
+    let mut names = disk::names(folder)?;
+    names.retain(|name| name != STORE_SUMS);
     let paths: Vec<PathBuf> = sums.by_name.keys().map(|name| folder.join(name)).collect();
     let hashes = hashing::hash_all(&paths)?;
     Ok(!paths.is_empty()
+        && names.iter().eq(sums.by_name.keys())
         && hashes.iter().zip(sums.by_name.values()).all(|(found, listed)| found.as_ref() == Some(listed)))
 }
 

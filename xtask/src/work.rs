@@ -131,9 +131,13 @@ fn draw(paths: &Paths, survey: &Survey<'_>, fresh: &Path, log: &Path, stop: &Ato
         Scheme::Adaptive => paths.output(&paths.pictures(&figure.slug, &figure.id)),
         Scheme::Paper => fresh.to_path_buf(),
     };
+    report.parent().map_or(Ok(()), disk::own_folder)?;
     disk::remove(&report)?;
-    for folder in [Some(fresh), Some(&pictures), report.parent()].into_iter().flatten() {
+    for folder in [fresh, &pictures] {
         disk::create_folder(folder)?;
+    }
+    for picture in outputs::pictures(paths, figure) {
+        disk::clear_for_file(&paths.output(&picture))?;
     }
     let mut command = Command::new(paths.binary(&figure.slug));
     command.current_dir(&paths.root).arg("--scene").arg(Paths::scene(&figure.slug));
@@ -167,6 +171,7 @@ fn put_in_place(paths: &Paths, survey: &Survey<'_>, fresh: &Path) -> Result<Hash
 /// # Errors
 /// A folder cannot be read or removed.
 pub fn sweep(paths: &Paths, all: &[Figure]) -> Result<(), Failure> {
+    disk::own_folder(&paths.store())?;
     leftovers(paths, all)?.iter().try_for_each(|path| disk::remove(path))
 }
 
