@@ -6,7 +6,7 @@ use crate::figure::Figure;
 use crate::hashing;
 use crate::manifest::Measured;
 use crate::outputs::{self, Hashes};
-use crate::paths::{LOCK_FILE, Paths};
+use crate::paths::{LOCK_FILE, Paths, Scheme};
 use crate::sources::{Inputs, Sources};
 use crate::store;
 use serde::{Deserialize, Serialize};
@@ -21,14 +21,16 @@ pub struct Record {
     pub inputs: Inputs,
     /// Every output with its hash.
     pub outputs: Hashes,
+    /// Hash of what its binary said of its accuracy; empty when it said nothing.
+    pub report: String,
     /// What the manifest says of it, once its runs were compared with their checks.
     pub measured: Option<Measured>,
 }
 
 impl Record {
     /// A figure just made.
-    pub fn new(inputs: Inputs, outputs: Hashes) -> Record {
-        Record { key: hashing::digest(&inputs), inputs, outputs, measured: None }
+    pub fn new(inputs: Inputs, outputs: Hashes, report: String) -> Record {
+        Record { key: hashing::digest(&inputs), inputs, outputs, report, measured: None }
     }
 }
 
@@ -39,14 +41,29 @@ pub struct Records {
     pub figures: BTreeMap<String, Record>,
 }
 
+/// The file: the records with their sum, so that damage is noticed.
+#[derive(Debug, Default, Serialize, Deserialize)]
+struct Sealed {
+    sha256: String,
+    #[serde(flatten)]
+    records: Records,
+}
+
+fn sum(records: &Records) -> Result<String, Failure> {
+    let text = serde_json::to_string(records).map_err(Failure::failed)?;
+    Ok(files::write::sha256(text.as_bytes()))
+}
+
 impl Records {
-    /// Reads the records; none when there is no file, or one of another form (then everything counts as stale).
+    /// Reads the records; none when there is no file, one of another form, or one that is not as it was written (then
+    /// everything counts as stale): what it says of errors and events would go into the manifest.
     ///
     /// # Errors
-    /// The file cannot be read.
+    /// None at present.
     pub fn read(paths: &Paths) -> Result<Records, Failure> {
-        let text = disk::read_text(&paths.state())?.unwrap_or_default();
-        Ok(serde_json::from_str(&text).unwrap_or_default())
+        let sealed: Sealed = serde_json::from_str(&disk::read_own(&paths.state())).unwrap_or_default();
+        let is_whole = sum(&sealed.records)? == sealed.sha256;
+        Ok(if is_whole { sealed.records } else { Records::default() })
     }
 
     /// Writes the records.
@@ -54,8 +71,9 @@ impl Records {
     /// # Errors
     /// The file cannot be written.
     pub fn write(&self, paths: &Paths) -> Result<(), Failure> {
-        let text = serde_json::to_string_pretty(self).map_err(Failure::failed)?;
-        disk::write(&paths.state(), text.as_bytes())
+        let sealed = Sealed { sha256: sum(self)?, records: self.clone() };
+        let text = serde_json::to_string_pretty(&sealed).map_err(Failure::failed)?;
+        disk::write_own(&paths.state(), text.as_bytes())
     }
 
     /// The record of a figure.
@@ -94,10 +112,24 @@ pub fn survey<'a>(
     let look = |(&figure, outputs): (&&'a Figure, Hashes)| {
         let runs = keys(paths, figure, &numeric);
         let inputs = sources.figure(figure, &runs);
-        let reasons = reasons(records.get(paths, figure), &inputs, &outputs);
-        Survey { figure, runs, inputs, outputs, reasons }
+        let record = records.get(paths, figure);
+        let mut reasons = reasons(record, &inputs, &outputs);
+        if let Some(record) = record.filter(|record| paths.scheme == Scheme::Adaptive && record.measured.is_none())
+            && report(paths, figure)? != record.report
+        {
+            reasons.push("what it said of its accuracy is not as recorded".to_owned());
+        }
+        Ok(Survey { figure, runs, inputs, outputs, reasons })
     };
-    Ok(figures.iter().zip(made).map(look).collect())
+    figures.iter().zip(made).map(look).collect()
+}
+
+/// The hash of what a figure's binary said of its accuracy; empty when it said nothing.
+///
+/// # Errors
+/// It cannot be read.
+pub fn report(paths: &Paths, figure: &Figure) -> Result<String, Failure> {
+    Ok(hashing::hash_all(&[paths.report(&figure.id)])?.swap_remove(0).unwrap_or_default())
 }
 
 /// The runs of a figure: panel and key.

@@ -131,7 +131,8 @@ fn make(
         }
         if let Step::Draw { figure } = node.step {
             let survey = &surveys[figure];
-            let record = Record::new(survey.inputs.clone(), made.outputs.clone());
+            let report = record::report(paths, survey.figure)?;
+            let record = Record::new(survey.inputs.clone(), made.outputs.clone(), report);
             records.figures.insert(paths.tables(&survey.figure.id), record);
             records.write(paths)?;
         }
@@ -141,7 +142,7 @@ fn make(
     let outcomes = work::carry_out(paths, surveys, nodes, effort.threads(), effort.keep_going, &mut made)?;
     if !nodes.is_empty() {
         let text = serde_json::to_string_pretty(&times).map_err(Failure::failed)?;
-        disk::write(&paths.times(), text.as_bytes())?;
+        disk::write_own(&paths.times(), text.as_bytes())?;
     }
     Ok(outcomes)
 }
@@ -271,6 +272,6 @@ fn reason<'a>(survey: &'a Survey<'_>, arguments: &FiguresArgs) -> &'a str {
 /// # Errors
 /// The file cannot be read.
 pub fn read_times(paths: &Paths) -> Result<Times, Failure> {
-    let text = disk::read_text(&paths.times())?.unwrap_or_default();
+    let text = disk::read_own(&paths.times());
     Ok(serde_json::from_str(&text).unwrap_or_default())
 }

@@ -15,7 +15,7 @@ fn a_figure_never_made_is_stale() {
 #[test]
 fn an_unchanged_figure_is_fresh() {
     let (inputs, outputs) = (named(&[("crates/a.rs", "1")]), named(&[("data/fig04/a.csv", "2")]));
-    assert!(reasons(Some(&Record::new(inputs.clone(), outputs.clone())), &inputs, &outputs).is_empty());
+    assert!(reasons(Some(&Record::new(inputs.clone(), outputs.clone(), String::new())), &inputs, &outputs).is_empty());
 }
 
 #[test]
@@ -36,7 +36,7 @@ fn every_change_is_named() {
         ("run main", "2"),
     ]);
     let made = named(&[("data/fig04/b.csv", "2"), ("data/fig04/c.csv", "1")]);
-    let found = reasons(Some(&Record::new(inputs, outputs)), &now, &made);
+    let found = reasons(Some(&Record::new(inputs, outputs, String::new())), &now, &made);
     assert_eq!(
         found,
         [
