@@ -2,6 +2,7 @@
 
 use crate::disk;
 use crate::failure::Failure;
+use crate::lock;
 use std::fs::File;
 use std::io::{BufRead, BufReader, ErrorKind, Read, Write};
 use std::path::Path;
@@ -49,11 +50,12 @@ pub fn run_logged(
 ) -> Result<(), Failure> {
     let name = command.get_program().to_string_lossy().into_owned();
     if let Some(folder) = log.parent() {
-        disk::create_folder(folder)?;
+        disk::own_folder(folder)?;
     }
+    disk::clear_for_file(log)?;
     let file = File::create(log).map_err(Failure::at(log))?;
     let twin = file.try_clone().map_err(Failure::at(log))?;
-    let child = command.stdin(Stdio::null()).stdout(file).stderr(Stdio::piped()).spawn();
+    let child = command.stdin(lock::stdin()).stdout(file).stderr(Stdio::piped()).spawn();
     let mut child = child.map_err(|error| not_started(&name, &error))?;
     let words = child.stderr.take();
     let status = thread::scope(|scope| {

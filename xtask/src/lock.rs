@@ -4,6 +4,11 @@ use crate::disk;
 use crate::failure::Failure;
 use crate::paths::Paths;
 use std::fs::{File, TryLockError};
+use std::process::Stdio;
+use std::sync::{Mutex, PoisonError};
+
+/// The lock of this process, for its programs.
+static HELD: Mutex<Option<File>> = Mutex::new(None);
 
 /// Held while the runner writes; freed when dropped, also by a crash.
 #[derive(Debug)]
@@ -18,7 +23,8 @@ impl Lock {
     /// The lock file cannot be written or locked.
     pub fn take(paths: &Paths) -> Result<Lock, Failure> {
         let path = paths.lock();
-        disk::create_folder(&paths.xtask())?;
+        disk::own_folder(&paths.xtask())?;
+        disk::clear_for_file(&path)?;
         let file = File::create(&path).map_err(Failure::at(&path))?;
         match file.try_lock() {
             Ok(()) => {}
@@ -28,6 +34,20 @@ impl Lock {
             }
             Err(TryLockError::Error(error)) => return Err(Failure::at(&path)(error)),
         }
+        *HELD.lock().unwrap_or_else(PoisonError::into_inner) = Some(file.try_clone().map_err(Failure::at(&path))?);
         Ok(Lock { _file: file })
     }
+}
+
+impl Drop for Lock {
+    fn drop(&mut self) {
+        *HELD.lock().unwrap_or_else(PoisonError::into_inner) = None;
+    }
+}
+
+/// An empty stdin for a program that writes for us: the lock file itself. Where only the runner is killed (not its
+/// programs), the lock stays taken until the last of them has ended, and none of them writes beside the next run.
+pub fn stdin() -> Stdio {
+    let held = HELD.lock().unwrap_or_else(PoisonError::into_inner);
+    held.as_ref().and_then(|file| file.try_clone().ok()).map_or_else(Stdio::null, Stdio::from)
 }
