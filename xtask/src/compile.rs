@@ -6,20 +6,21 @@ use crate::failure::Failure;
 use crate::figure::Figure;
 use crate::hashing;
 use crate::paths::{FONT_SUMS, FONTS_REMEDY, Paths};
-use crate::sources::Sources;
+use crate::sources::{Inputs, Sources};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::fs::File;
 use std::path::Path;
-use std::time::UNIX_EPOCH;
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 /// Binaries beside those of the figures.
 pub const TOOLS: [&str; 5] = ["simulate", "map", "precision", "hard", "studies"];
 
-/// What was built: the hash of the sources, and size and date of each binary, so that one that was built by hand since
+/// What was built: the hashes of the sources, and size and date of each binary, so that one that was built by hand since
 /// then is not taken for ours.
 #[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Built {
-    sources: String,
+    sources: Inputs,
     binaries: BTreeMap<String, (u64, u128)>,
 }
 
@@ -31,8 +32,7 @@ pub const COMMAND: &str = "cargo build --release --locked -p figures";
 /// # Errors
 /// The record of the last build cannot be read.
 pub fn is_needed(paths: &Paths, figures: &[Figure], sources: &Sources) -> Result<bool, Failure> {
-    let text = disk::read_text(&paths.build_record())?.unwrap_or_default();
-    let recorded: Built = serde_json::from_str(&text).unwrap_or_default();
+    let recorded = recorded(paths);
     Ok(recorded != current(paths, figures, sources) || recorded.binaries.len() != names(figures).count())
 }
 
@@ -45,6 +45,7 @@ pub fn ensure(paths: &Paths, figures: &[Figure], sources: &Sources) -> Result<()
         return Ok(());
     }
     check_fonts(paths)?;
+    redate(paths, figures, &recorded(paths).sources, sources)?;
     disk::remove(&paths.build_record())?;
     let mut cargo = child::cargo();
     cargo.args(COMMAND.split(' ').skip(1)).current_dir(&paths.root).env("CARGO_TARGET_DIR", &paths.target);
@@ -56,7 +57,26 @@ pub fn ensure(paths: &Paths, figures: &[Figure], sources: &Sources) -> Result<()
     if let Some(name) = names(figures).find(|name| !built.binaries.contains_key(*name)) {
         return Err(Failure::Failed(format!("{COMMAND} made no binary {name}")));
     }
-    disk::write(&paths.build_record(), json(&built)?.as_bytes())
+    disk::write_own(&paths.build_record(), json(&built)?.as_bytes())
+}
+
+fn recorded(paths: &Paths) -> Built {
+    serde_json::from_str(&disk::read_own(&paths.build_record())).unwrap_or_default()
+}
+
+/// Cargo compares dates. A source that has changed since the last build and yet is older than what was built then (the
+/// clock was set back, or an archive has kept its dates) would leave the binary as it was: it gets a later date.
+fn redate(paths: &Paths, figures: &[Figure], built_from: &Inputs, sources: &Sources) -> Result<(), Failure> {
+    let Some(newest) = names(figures).filter_map(|name| date(&paths.binary(name))).max() else { return Ok(()) };
+    let changed = |(name, hash): &(&String, &String)| built_from.get(*name) != Some(*hash);
+    for (name, _) in sources.files.iter().filter(|_| !built_from.is_empty()).filter(changed) {
+        let path = paths.root.join(name);
+        if date(&path).is_some_and(|date| date <= newest) {
+            let later = File::open(&path).and_then(|file| file.set_modified(newest + Duration::from_secs(1)));
+            later.map_err(Failure::at(&path))?;
+        }
+    }
+    Ok(())
 }
 
 /// Whether the fonts that the pictures embed are there, byte for byte.
@@ -83,14 +103,17 @@ fn names(figures: &[Figure]) -> impl Iterator<Item = &str> {
 
 fn current(paths: &Paths, figures: &[Figure], sources: &Sources) -> Built {
     let binaries = names(figures).filter_map(|name| Some((name.to_owned(), stamp(&paths.binary(name))?)));
-    Built { sources: sources.build(), binaries: binaries.collect() }
+    Built { sources: sources.files.clone(), binaries: binaries.collect() }
 }
 
 /// Bytes, and nanoseconds since 1970.
 fn stamp(path: &Path) -> Option<(u64, u128)> {
-    let data = path.metadata().ok()?;
-    let date = data.modified().ok()?.duration_since(UNIX_EPOCH).ok()?;
-    Some((data.len(), date.as_nanos()))
+    let date = date(path)?.duration_since(UNIX_EPOCH).ok()?;
+    Some((path.metadata().ok()?.len(), date.as_nanos()))
+}
+
+fn date(path: &Path) -> Option<SystemTime> {
+    path.metadata().and_then(|data| data.modified()).ok()
 }
 
 fn json(built: &Built) -> Result<String, Failure> {
