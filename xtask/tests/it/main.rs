@@ -6,6 +6,8 @@ mod cli;
 mod data;
 mod distance;
 mod export;
+#[cfg(unix)]
+mod faults;
 mod figures;
 mod ids;
 mod judging;
