@@ -28,6 +28,10 @@ bless *args:
 accuracy *args:
     cargo xtask accuracy {{args}}
 
+# the page: one HTML file
+report *args:
+    cargo xtask report {{args}}
+
 # run a scene of one's own
 simulate *args:
     cargo xtask simulate {{args}}

@@ -36,6 +36,8 @@ pub enum Verb {
     Accuracy(AccuracyArgs),
     /// Measure seconds and instructions of the laws, of steps and of whole runs; against another commit, their ratios
     Bench(BenchArgs),
+    /// Write the page: one HTML file with everything in it, which opens without a network
+    Report(ReportArgs),
     /// Run a scene: cargo xtask simulate SCENE.toml [options]; --help shows the options
     #[command(disable_help_flag = true)]
     Simulate(ForwardArgs),
@@ -218,6 +220,14 @@ fn percent(text: &str) -> Result<f64, String> {
     let number: Option<f64> = text.strip_suffix('%').unwrap_or(text).parse().ok();
     let fraction = number.filter(|number| number.is_finite() && *number >= 0.0).map(|number| number / 100.0);
     fraction.ok_or_else(|| format!("{text}: must be a percentage such as 5%"))
+}
+
+/// Options of `report`.
+#[derive(Debug, Args)]
+pub struct ReportArgs {
+    /// Where to write the page, in place of paper/report.html
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
 }
 
 /// Arguments that another program reads.

@@ -4,6 +4,7 @@
 //! verbs share. Data flows `figure -> sources -> freshness -> plan -> pool -> outputs -> sums, manifest`.
 
 pub mod benchmarks;
+pub mod browser;
 pub mod child;
 pub mod cli;
 pub mod compile;
@@ -13,6 +14,7 @@ pub mod estimate;
 pub mod events;
 pub mod failure;
 pub mod figure;
+pub mod gate;
 pub mod golden;
 pub mod hashing;
 pub mod ledger;
@@ -20,6 +22,7 @@ pub mod lock;
 pub mod manifest;
 pub mod numbers;
 pub mod outputs;
+pub mod page;
 pub mod pairs;
 pub mod paths;
 pub mod pedpy;

@@ -71,6 +71,12 @@ pub const EVENTS: &str = "data/events.csv";
 pub const LEDGER_SOURCES: [&str; 3] = ["paper/claims.toml", "paper/errata.toml", "paper/parameters.toml"];
 /// What is found of each entry of the ledger, by name.
 pub const LEDGER: &str = "data/ledger.json";
+/// The page, by name.
+pub const PAGE: &str = "paper/report.html";
+/// The sums of what is made from the figures, by name.
+pub const PAPER_SUMS: &str = "paper/SHA256SUMS";
+/// The tests of the page in a browser.
+pub const BROWSER_CHECK: &str = "checks/browser";
 /// What to look at when every figure is as committed.
 pub const OPEN_ALL: &str = "open README.md for the table of figures, figures/*/fig*.png for the pictures";
 /// Checks that need more than Rust: spot values by NumPy.
@@ -222,6 +228,26 @@ impl Paths {
     /// A table of values from outside.
     pub fn reference(&self, name: &str) -> PathBuf {
         self.root.join("data/reference").join(format!("{name}.csv"))
+    }
+
+    /// A table of the report of accuracy.
+    pub fn accuracy(&self, name: &str) -> PathBuf {
+        self.root.join(ACCURACY).join(format!("{name}.csv"))
+    }
+
+    /// The description of every table and column.
+    pub fn data_package(&self) -> PathBuf {
+        self.root.join("data/datapackage.json")
+    }
+
+    /// The claims, errata and parameters with their numbers.
+    pub fn ledger(&self) -> PathBuf {
+        self.root.join("data/ledger.json")
+    }
+
+    /// What each picture shows, in words.
+    pub fn alternatives(&self) -> PathBuf {
+        self.root.join("paper/alternatives.toml")
     }
 
     /// The committed samples of a figure's tables, by name.

@@ -12,6 +12,16 @@ pub struct Sums {
     pub by_name: BTreeMap<String, String>,
 }
 
+/// Puts a line in a list, in place of the line of that name.
+///
+/// # Errors
+/// The list is malformed, or cannot be read or written.
+pub fn record(list: &Path, name: &str, hash: &str) -> Result<(), Failure> {
+    let mut sums = Sums::read(list, &list.display().to_string())?.unwrap_or_default();
+    sums.by_name.insert(name.to_owned(), hash.to_owned());
+    disk::write_if_changed(list, sums.to_text().as_bytes())
+}
+
 /// What a comparison of one file says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {

@@ -12,6 +12,7 @@ pub mod export;
 pub mod figures;
 pub mod forward;
 pub mod list;
+pub mod report;
 pub mod status;
 pub mod summary;
 pub mod test;

@@ -1,0 +1,147 @@
+//! Claims, errata and parameters as HTML.
+
+use super::html::{code, escape, latex, measured, number, prose, table};
+use super::ledger::{Claim, Erratum, Ledger, Parameter, Test, VERDICTS};
+
+/// The verdicts at a glance: a bar and a list of counts.
+pub fn glance(ledger: &Ledger) -> String {
+    let shown = VERDICTS.iter().filter(|verdict| ledger.count(verdict) > 0);
+    let part = |verdict: &&str| {
+        format!("<span class=\"{}\" style=\"flex-grow:{}\"></span>", class(verdict), ledger.count(verdict))
+    };
+    let bar: String = shown.map(part).collect();
+    let item = |verdict: &&str| {
+        let (count, class) = (ledger.count(verdict), class(verdict));
+        format!(
+            "<li class=\"{class}\"><a href=\"#claims\" data-verdict=\"{verdict}\"><b>{count}</b> {verdict}</a></li>\n"
+        )
+    };
+    let list: String = VERDICTS.iter().map(item).collect();
+    format!("<div class=\"bar\" aria-hidden=\"true\">{bar}</div>\n<ul class=\"verdicts\">{list}</ul>\n")
+}
+
+/// A name for style sheets.
+fn class(verdict: &str) -> String {
+    verdict.replace(' ', "-")
+}
+
+/// The boxes that choose verdicts, with their counts.
+pub fn verdict_boxes(ledger: &Ledger) -> String {
+    let one = |verdict: &&str| {
+        let (class, count) = (class(verdict), ledger.count(verdict));
+        format!(
+            "<label class=\"{class}\"><input type=\"checkbox\" name=\"verdict\" value=\"{verdict}\" checked> {verdict} \
+             <span class=\"count\">{count}</span></label>\n"
+        )
+    };
+    VERDICTS.iter().map(one).collect()
+}
+
+/// The labels that claims stand at, as options.
+pub fn label_options(ledger: &Ledger) -> String {
+    let labels: std::collections::BTreeSet<&str> = ledger.claims.iter().map(|claim| claim.label.as_str()).collect();
+    labels.iter().map(|label| format!("<option>{}</option>", escape(label))).collect()
+}
+
+/// All claims.
+pub fn claims(ledger: &Ledger) -> String {
+    ledger.claims.iter().map(claim).collect()
+}
+
+fn claim(claim: &Claim) -> String {
+    let id = escape(&claim.id);
+    let noted = |name: &str, words: &Option<String>| {
+        let words = words.as_deref().filter(|words| !words.is_empty());
+        words.map_or(String::new(), |words| format!("<p><b>{name}:</b> {}</p>\n", prose(words)))
+    };
+    let notes = noted("Condition", &claim.condition) + &noted("Why", &claim.why);
+    format!(
+        "<article class=\"claim\" id=\"claim-{id}\" data-verdict=\"{verdict}\" data-label=\"{label}\">\n\
+         <h3>{says}</h3>\n<p class=\"meta\"><span class=\"verdict {class}\">{verdict}</span> {label_code}</p>\n\
+         <p>{finding}</p>\n{notes}{tests}</article>\n",
+        verdict = escape(&claim.verdict),
+        class = class(&claim.verdict),
+        label = escape(&claim.label),
+        label_code = code(&claim.label),
+        says = prose(&claim.says),
+        finding = prose(&claim.finding),
+        tests = tests(&claim.id, &claim.tests),
+    )
+}
+
+/// The numbers behind a statement, folded.
+fn tests(id: &str, tests: &[Test]) -> String {
+    if tests.is_empty() {
+        return String::new();
+    }
+    let rows: Vec<Vec<String>> = tests.iter().map(test).collect();
+    let head = ["measure", "value", "error", "must be", "outcome"];
+    let name = format!("Numbers behind {id}");
+    let commands: std::collections::BTreeSet<&str> = tests.iter().map(|test| test.command.as_str()).collect();
+    let commands: Vec<String> = commands.into_iter().filter(|text| !text.is_empty()).map(code).collect();
+    let count = if tests.len() == 1 { "1 number".to_owned() } else { format!("{} numbers", tests.len()) };
+    format!(
+        "<details><summary>{count} behind it</summary>\n{}<p class=\"commands\">{}</p></details>\n",
+        table(&name, &head, &rows),
+        commands.join("<br>")
+    )
+}
+
+fn test(test: &Test) -> Vec<String> {
+    let value = test.value.map_or("none".to_owned(), |value| measured(value, test.error));
+    let error = match test.error {
+        None => "unknown".to_owned(),
+        Some(0.0) => "exact".to_owned(),
+        Some(error) => number(error, 2),
+    };
+    let is = test.is.as_deref().unwrap_or("");
+    vec![prose(&test.words), value, error, escape(is), escape(test.outcome())]
+}
+
+/// All errata.
+pub fn errata(ledger: &Ledger) -> String {
+    ledger.errata.iter().map(erratum).collect()
+}
+
+fn erratum(erratum: &Erratum) -> String {
+    let touches = match erratum.touches.as_slice() {
+        [] => "No figure changes.".to_owned(),
+        figures => format!("Touches {}.", links(figures)),
+    };
+    format!(
+        "<article class=\"erratum\" id=\"erratum-{id}\">\n<h3>{label}</h3>\n<dl><dt>The paper</dt><dd>{says}</dd>\n\
+         <dt>Should read</dt><dd>{should}</dd>\n<dt>Why</dt><dd>{why}</dd></dl>\n<p class=\"meta\">{touches}</p>\n\
+         {tests}</article>\n",
+        id = escape(&erratum.id),
+        label = escape(&erratum.label),
+        says = prose(&erratum.says),
+        should = prose(&erratum.should),
+        why = prose(&erratum.why),
+        tests = tests(&erratum.id, &erratum.tests),
+    )
+}
+
+/// All parameters as a table.
+pub fn parameters(ledger: &Ledger) -> String {
+    let rows: Vec<Vec<String>> = ledger.parameters.iter().map(parameter).collect();
+    table("Parameters", &["symbol", "what", "figures", "source", "how much depends on it"], &rows)
+}
+
+fn parameter(parameter: &Parameter) -> Vec<String> {
+    vec![
+        escape(&latex(&parameter.symbol)),
+        prose(&parameter.name),
+        links(&parameter.figures),
+        prose(&parameter.source),
+        format!("{}{}", prose(&parameter.influence), tests(&parameter.id, &parameter.tests)),
+    ]
+}
+
+/// Figures by their names, each a link to its place on the page.
+fn links(figures: &[String]) -> String {
+    let link = |id: &String| match id.strip_prefix("fig").map(|digits| digits.trim_start_matches('0')) {
+        Some(number) => format!("<a href=\"#{id}\">figure {number}</a>", id = escape(id)),
+        None => escape(id),
+    };
+    figures.iter().map(link).collect::<Vec<_>>().join(", ")
+}

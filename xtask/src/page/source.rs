@@ -1,0 +1,113 @@
+//! What the page is made from: figures, manifest, descriptions of columns, tables, the ledger. Read once.
+
+use super::ledger::Ledger;
+use crate::disk;
+use crate::failure::Failure;
+use crate::figure::{self, Figure};
+use crate::manifest::{self, Entry};
+use crate::paths::Paths;
+use files::reader::{Section, Value as Toml};
+use files::table::Table;
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+/// Everything that the page reads.
+#[derive(Debug)]
+pub struct Source<'a> {
+    /// Where it lies.
+    pub paths: &'a Paths,
+    /// Figures of the paper, then supplements.
+    pub figures: Vec<Figure>,
+    /// What is known of each output.
+    pub manifest: BTreeMap<String, Entry>,
+    /// The claims, errata and parameters.
+    pub ledger: Ledger,
+    /// What each picture shows, in words, by figure.
+    alternatives: BTreeMap<String, String>,
+    /// Words for the columns of each table, by `fig03/left` and column.
+    columns: BTreeMap<(String, String), String>,
+}
+
+impl Source<'_> {
+    /// Reads all but the tables.
+    ///
+    /// # Errors
+    /// A file is missing or malformed.
+    pub fn read(paths: &Paths) -> Result<Source<'_>, Failure> {
+        Ok(Source {
+            paths,
+            figures: figure::discover(paths)?,
+            manifest: manifest::read(paths)?,
+            ledger: Ledger::read(paths)?,
+            alternatives: alternatives(paths)?,
+            columns: columns(paths)?,
+        })
+    }
+
+    /// The words that stand for a picture.
+    ///
+    /// # Errors
+    /// There are none: a picture without them is lost on those who cannot see it.
+    pub fn alternative(&self, id: &str) -> Result<&str, Failure> {
+        let missing = || Failure::failed(format!("{}: no words for {id}", self.paths.alternatives().display()));
+        self.alternatives.get(id).map(String::as_str).ok_or_else(missing)
+    }
+
+    /// What a column means; empty where it is not described.
+    pub fn words(&self, table: &str, column: &str) -> &str {
+        self.columns.get(&(table.to_owned(), column.to_owned())).map_or("", String::as_str)
+    }
+
+    /// A table, `fig03/left`.
+    ///
+    /// # Errors
+    /// It is missing or malformed.
+    pub fn table(&self, name: &str) -> Result<Table, Failure> {
+        let path = self.paths.output(&format!("data/{name}.csv"));
+        Table::read(&path).map_err(Failure::at(&path))
+    }
+
+    /// The words of a text file of the checkout.
+    ///
+    /// # Errors
+    /// It is missing.
+    pub fn text(&self, name: &str) -> Result<String, Failure> {
+        let path = self.paths.root.join(name);
+        disk::read_text(&path)?.ok_or_else(|| Failure::failed(format!("{}: no such file", path.display())))
+    }
+
+    /// The bytes of a picture.
+    ///
+    /// # Errors
+    /// It is missing.
+    pub fn bytes(&self, name: &str) -> Result<Vec<u8>, Failure> {
+        let path = self.paths.output(name);
+        std::fs::read(&path).map_err(Failure::at(&path))
+    }
+}
+
+fn alternatives(paths: &Paths) -> Result<BTreeMap<String, String>, Failure> {
+    let path = paths.alternatives();
+    let text = disk::read_text(&path)?.ok_or_else(|| Failure::failed(format!("{}: no such file", path.display())))?;
+    let section = Section::parse(&path.display().to_string(), &text).map_err(Failure::failed)?;
+    let words = section.entries.into_iter().filter_map(|(id, entry)| match entry.value {
+        Toml::Text(words) => Some((id, words)),
+        _ => None,
+    });
+    Ok(words.collect())
+}
+
+fn columns(paths: &Paths) -> Result<BTreeMap<(String, String), String>, Failure> {
+    let path = paths.data_package();
+    let text = disk::read_text(&path)?.ok_or_else(|| Failure::failed(format!("{}: no such file", path.display())))?;
+    let package: Value = serde_json::from_str(&text).map_err(Failure::at(&path))?;
+    let mut columns = BTreeMap::new();
+    for resource in package["resources"].as_array().into_iter().flatten() {
+        let table = resource["path"].as_str().unwrap_or("").trim_end_matches(".csv");
+        for field in resource["schema"]["fields"].as_array().into_iter().flatten() {
+            let (name, title) = (field["name"].as_str().unwrap_or(""), field["title"].as_str().unwrap_or(""));
+            columns.insert((table.to_owned(), name.to_owned()), title.to_owned());
+        }
+    }
+    Ok(columns)
+}
