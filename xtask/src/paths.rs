@@ -311,6 +311,11 @@ impl Paths {
         self.root.join("data/timing/bench").join(format!("{commit}{against}.json"))
     }
 
+    /// Where the tests of the page lie with the packages that they need.
+    pub fn browser(&self) -> PathBuf {
+        self.target.join("browser")
+    }
+
     /// The runner's own folder.
     pub fn xtask(&self) -> PathBuf {
         self.target.join("xtask")

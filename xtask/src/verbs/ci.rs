@@ -2,6 +2,7 @@
 
 use super::test::{self, step};
 use super::{figures, verify};
+use crate::browser;
 use crate::child;
 use crate::cli::{CiArgs, FiguresArgs, VerifyArgs};
 use crate::failure::Failure;
@@ -21,6 +22,7 @@ pub fn run(paths: &Paths, arguments: &CiArgs) -> Result<(), Failure> {
     figures::run(paths, &FiguresArgs::default())?;
     eprintln!("ci: what the check by PedPy needs");
     pedpy::prepare(paths)?;
+    browser::install(paths)?;
     eprintln!("ci: test");
     test::run(paths)?;
     eprintln!("ci: verify");

@@ -1,5 +1,6 @@
 //! `doctor`: what is missing and how to get it.
 
+use crate::browser;
 use crate::child;
 use crate::cli::JsonArgs;
 use crate::compile;
@@ -65,6 +66,8 @@ fn findings(paths: &Paths) -> Result<Vec<Finding>, Failure> {
             "needed by ci; rustup component add rustfmt",
         ),
         finding("python", false, python(), "needed by a check of ci; Python 3.11 or later with venv or pip"),
+        finding("chromium", false, browser::browser(), "needed by the tests of the page; apt-get install chromium"),
+        finding("node", false, browser::node(), "needed by the tests of the page; apt-get install nodejs npm"),
         finding("numpy", false, numpy(), "needed by spot checks of test; pip install numpy"),
     ])
 }

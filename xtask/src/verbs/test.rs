@@ -1,6 +1,7 @@
 //! `test`: the tests that Rust alone can run; what needs more is skipped aloud.
 
 use super::doctor;
+use crate::browser;
 use crate::child;
 use crate::failure::Failure;
 use crate::paths::{COST, OTHER_MACHINES, Paths, SPOT_CHECK};
@@ -19,6 +20,7 @@ pub fn run(paths: &Paths) -> Result<(), Failure> {
     step("cargo test", cargo.env("CARGO_TARGET_DIR", &paths.target))?;
     spot_check(paths)?;
     pedpy::check(paths)?;
+    browser::test(paths)?;
     print::out(&format!("skipped: other machines ({OTHER_MACHINES}): cargo xtask ci --full\n"))?;
     print::out(&format!("skipped: instruction counts ({COST}): cargo xtask ci --full\n"))
 }

@@ -90,7 +90,7 @@ class MapView {
     this.host.append(
       make('h4', {}, 'Read the map'), make('div', { class: 'controls' }, ...panels), this.canvas, this.scale, this.readout,
       make('div', { class: 'controls' }, button('+', 'Zoom in', () => this.zoom(2)),
-        button('−', 'Zoom out', () => this.zoom(0.5)), button('All', 'Show the whole map', () => this.whole())),
+        button('−', 'Zoom out', () => this.zoom(0.5)), button('All', 'All of the map', () => this.whole())),
       make('p', { class: 'hint', id: hint }, 'Arrow keys move the crosshair by a cell, with Shift by ten; plus and minus '
         + 'zoom, 0 shows all. By pointer: click, then turn the wheel, or pinch; drag to move.'));
     this.host.hidden = false;

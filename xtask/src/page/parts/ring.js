@@ -14,7 +14,7 @@ class Ring {
 
   build() {
     const { last, pedestrians } = index.ring;
-    this.circle = make('canvas', { class: 'circle', role: 'img' });
+    this.circle = make('canvas', { class: 'circle', role: 'img', 'aria-label': 'The ring of pedestrians' });
     this.strip = make('canvas', {
       class: 'strip', role: 'img', onpointerdown: (event) => this.jump(event),
       'aria-label': 'All positions against time, coloured by speed: dark bands are jams that travel backwards. A line stands at the time shown.',
