@@ -12,6 +12,7 @@ mod figures;
 mod ids;
 mod judging;
 mod ledger;
+mod page;
 mod pool;
 mod progress;
 mod python;

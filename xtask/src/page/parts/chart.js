@@ -104,7 +104,7 @@ class Chart {
 
   drawSeries(context, series, at, height10, colour) {
     context.strokeStyle = colour;
-    context.lineWidth = 1.75;
+    context.lineWidth = 1.8;
     context.beginPath();
     let pen = false;
     series.x.forEach((x, i) => {

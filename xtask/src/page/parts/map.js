@@ -216,7 +216,7 @@ class MapView {
   wheel(event) {
     if (document.activeElement !== this.canvas && !event.ctrlKey) return;
     event.preventDefault();
-    this.zoom(event.deltaY < 0 ? 1.25 : 0.8, this.inCells(event));
+    this.zoom(event.deltaY < 0 ? 1.2 : 1 / 1.2, this.inCells(event));
   }
 
   draw() {
@@ -251,7 +251,7 @@ class MapView {
       context.lineTo(place.x(toX), place.y(toY));
     }
     context.strokeStyle = '#000';
-    context.lineWidth = 1.75;
+    context.lineWidth = 1.8;
     context.stroke();
   }
 
