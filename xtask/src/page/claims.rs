@@ -95,7 +95,8 @@ fn test(test: &Test) -> Vec<String> {
         Some(error) => number(error, 2),
     };
     let is = test.is.as_deref().unwrap_or("");
-    vec![prose(&test.words), value, error, escape(is), escape(test.outcome())]
+    let under = if test.under { "under the condition: " } else { "" };
+    vec![format!("{under}{}", prose(&test.words)), value, error, escape(is), escape(test.outcome())]
 }
 
 /// All errata.

@@ -132,7 +132,7 @@ fn map(
     Ok(json!({
         "figure": figure.id, "panel": panel.name.replace('_', " "), "id": id, "table": format!("data/{name}.csv"),
         "difference": scenes::difference(recipe, panel), "x": x, "y": y, "clip": clip,
-        "value": { "symbol": symbol(column), "words": source.words(&name, column) },
+        "value": { "symbol": source.symbol(&name, column), "words": source.words(&name, column) },
     }))
 }
 

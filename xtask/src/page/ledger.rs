@@ -87,9 +87,11 @@ pub struct Parameter {
 pub struct Test {
     /// Its name; may be empty.
     pub name: Option<String>,
+    /// Whether it tests the statement under its condition, not as it is written.
+    pub under: bool,
     /// What is measured.
     pub words: String,
-    /// The command that makes the table.
+    /// How to see it again.
     pub command: String,
     /// What was found; nothing where no row is left.
     pub value: Option<f64>,

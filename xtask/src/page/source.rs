@@ -1,5 +1,6 @@
 //! What the page is made from: figures, manifest, descriptions of columns, tables, the ledger. Read once.
 
+use super::html;
 use super::ledger::Ledger;
 use crate::disk;
 use crate::failure::Failure;
@@ -24,8 +25,8 @@ pub struct Source<'a> {
     pub ledger: Ledger,
     /// What each picture shows, in words, by figure.
     alternatives: BTreeMap<String, String>,
-    /// Words for the columns of each table, by `fig03/left` and column.
-    columns: BTreeMap<(String, String), String>,
+    /// Words and LaTeX symbol of the columns of each table, by `fig03/left` and column.
+    columns: BTreeMap<(String, String), (String, String)>,
 }
 
 impl Source<'_> {
@@ -55,7 +56,13 @@ impl Source<'_> {
 
     /// What a column means; empty where it is not described.
     pub fn words(&self, table: &str, column: &str) -> &str {
-        self.columns.get(&(table.to_owned(), column.to_owned())).map_or("", String::as_str)
+        self.columns.get(&(table.to_owned(), column.to_owned())).map_or("", |(words, _)| words)
+    }
+
+    /// The symbol of a column; the criteria differ in theirs from figure to figure.
+    pub fn symbol(&self, table: &str, column: &str) -> String {
+        let described = self.columns.get(&(table.to_owned(), column.to_owned())).filter(|_| column == "phi");
+        described.map_or_else(|| html::symbol(column).to_owned(), |(_, symbol)| html::latex(symbol))
     }
 
     /// A table, `fig03/left`.
@@ -97,7 +104,7 @@ fn alternatives(paths: &Paths) -> Result<BTreeMap<String, String>, Failure> {
     Ok(words.collect())
 }
 
-fn columns(paths: &Paths) -> Result<BTreeMap<(String, String), String>, Failure> {
+fn columns(paths: &Paths) -> Result<BTreeMap<(String, String), (String, String)>, Failure> {
     let path = paths.data_package();
     let text = disk::read_text(&path)?.ok_or_else(|| Failure::failed(format!("{}: no such file", path.display())))?;
     let package: Value = serde_json::from_str(&text).map_err(Failure::at(&path))?;
@@ -105,8 +112,8 @@ fn columns(paths: &Paths) -> Result<BTreeMap<(String, String), String>, Failure>
     for resource in package["resources"].as_array().into_iter().flatten() {
         let table = resource["path"].as_str().unwrap_or("").trim_end_matches(".csv");
         for field in resource["schema"]["fields"].as_array().into_iter().flatten() {
-            let (name, title) = (field["name"].as_str().unwrap_or(""), field["title"].as_str().unwrap_or(""));
-            columns.insert((table.to_owned(), name.to_owned()), title.to_owned());
+            let text = |key: &str| field[key].as_str().unwrap_or("").to_owned();
+            columns.insert((table.to_owned(), text("name")), (text("title"), text("symbol")));
         }
     }
     Ok(columns)

@@ -188,7 +188,7 @@ class Ring {
     this.image.width = columns;
     this.image.height = rows;
     const context = this.image.getContext('2d');
-    const tall = (rows / pedestrians) * 1.25;
+    const tall = (rows / pedestrians) * 1.3;
     for (let column = 0; column < columns; column += 1) {
       const sample = Math.round((column * (samples - 1)) / (columns - 1));
       for (let n = 0; n < pedestrians; n += 1) {

@@ -9,7 +9,7 @@ function startColours() {
   const apply = (scheme) => {
     if (scheme === SCHEMES[0]) delete document.documentElement.dataset.theme;
     else document.documentElement.dataset.theme = scheme;
-    button.textContent = `Colours: ${scheme}`;
+    button.lastChild.textContent = scheme;
     changed();
   };
   let scheme = SCHEMES[0];
