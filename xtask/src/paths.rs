@@ -240,11 +240,6 @@ impl Paths {
         self.root.join("data/datapackage.json")
     }
 
-    /// The claims, errata and parameters with their numbers.
-    pub fn ledger(&self) -> PathBuf {
-        self.root.join("data/ledger.json")
-    }
-
     /// What each picture shows, in words.
     pub fn alternatives(&self) -> PathBuf {
         self.root.join("paper/alternatives.toml")
