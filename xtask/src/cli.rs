@@ -38,6 +38,8 @@ pub enum Verb {
     Bench(BenchArgs),
     /// Write the page: one HTML file with everything in it, which opens without a network
     Report(ReportArgs),
+    /// Set the report as PDF, with its pictures and its numbers
+    Paper(PaperArgs),
     /// Run a scene: cargo xtask simulate SCENE.toml [options]; --help shows the options
     #[command(disable_help_flag = true)]
     Simulate(ForwardArgs),
@@ -289,6 +291,17 @@ pub struct JsonArgs {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
+}
+
+/// Options of `paper`.
+#[derive(Debug, Default, Args)]
+pub struct PaperArgs {
+    /// Accept the numbers and the sums of the document and of its pictures
+    #[arg(long)]
+    pub bless: bool,
+    /// Check the PDF too: tags, alternative texts, fonts, what it claims of PDF/A and PDF/UA (needs Python)
+    #[arg(long)]
+    pub check: bool,
 }
 
 /// Options of `ci`.

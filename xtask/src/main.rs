@@ -28,6 +28,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Verb::Accuracy(arguments) => verbs::accuracy::run(&paths, &arguments),
         Verb::Bench(arguments) => verbs::bench::run(&paths, &arguments),
         Verb::Report(arguments) => verbs::report::run(&paths, &arguments),
+        Verb::Paper(arguments) => verbs::paper::run(&paths, &arguments),
         Verb::Simulate(arguments) => verbs::forward::run(&paths, "simulate", &arguments),
         Verb::Map(arguments) => verbs::forward::run(&paths, "map", &arguments),
         Verb::Export(arguments) => verbs::export::run(&paths, &arguments),

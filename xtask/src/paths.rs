@@ -65,6 +65,34 @@ pub const FONT_SUMS: [(&str, &str); 2] = [
 pub const ACCURACY: &str = "data/accuracy";
 /// The sums of those tables, by name.
 pub const ACCURACY_SUMS: &str = "data/accuracy/SHA256SUMS";
+/// The ledger of claims, errata and parameters, by name.
+pub const LEDGER: &str = "data/ledger.json";
+/// How far the paper's scheme is from the accurate and the published curves, by name.
+pub const PAPER_DISTANCES: &str = "data/paper-scheme/distance.csv";
+/// Events of the reference solutions, by name.
+pub const REFERENCE_EVENTS: &str = "data/reference/solutions/events.csv";
+/// The document's main file, by name.
+pub const DOCUMENT: &str = "paper/main.typ";
+/// The document, by name.
+pub const DOCUMENT_PDF: &str = "paper/jamming-reproduction.pdf";
+/// The file that sets one picture, by name.
+pub const PICTURE_SOURCE: &str = "paper/picture.typ";
+/// The sums of the document and of the pictures, by name.
+pub const DOCUMENT_SUMS: &str = "paper/SHA256SUMS";
+/// The numbers of the document, by name.
+pub const NUMBERS_JSON: &str = "paper/numbers.json";
+/// The same as LaTeX macros, by name.
+pub const NUMBERS_TEX: &str = "paper/numbers.tex";
+/// Numerals that may stand in the document's text, by name.
+pub const ALLOWED_NUMERALS: &str = "paper/numerals.txt";
+/// The typesetter's pinned wheel, by name.
+pub const TYPST_PIN: &str = "paper/requirements.txt";
+/// What makes the wheel behave as the program, by name.
+pub const TYPST_STAND_IN: &str = "paper/typeset.py";
+/// The check of the PDF, by name.
+pub const PDF_CHECK: &str = "checks/pdf.py";
+/// What that check needs, by name.
+pub const PDF_CHECK_PIN: &str = "checks/requirements-pdf.txt";
 /// The events of all runs, by name.
 pub const EVENTS: &str = "data/events.csv";
 /// What the ledger is written by hand from: claims, errata, parameters.
@@ -309,6 +337,16 @@ impl Paths {
     /// Where the tests of the page lie with the packages that they need.
     pub fn browser(&self) -> PathBuf {
         self.target.join("browser")
+    }
+
+    /// The folder of the document's sources.
+    pub fn document(&self) -> PathBuf {
+        self.root.join("paper")
+    }
+
+    /// A picture as PDF, by name.
+    pub fn picture_pdf(id: &str) -> String {
+        format!("paper/pictures/{id}.pdf")
     }
 
     /// The runner's own folder.

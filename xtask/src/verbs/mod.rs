@@ -13,6 +13,7 @@ pub mod figures;
 pub mod forward;
 pub mod list;
 pub mod report;
+pub mod paper;
 pub mod status;
 pub mod summary;
 pub mod test;
