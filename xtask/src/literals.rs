@@ -29,6 +29,8 @@ const NAMING: [&str; 14] = [
 ];
 /// Named arguments of the kind of `numbering: "1.1"`.
 const PATTERNS: [&str; 1] = ["numbering"];
+/// Named arguments that are text, also of a function whose other strings name something.
+const SPOKEN: [&str; 2] = ["alt", "caption"];
 /// Words of code after which a string is the name of a file.
 const IMPORTING: [&str; 2] = ["import", "include"];
 /// Statements, which go on to the end of the line.
@@ -330,10 +332,11 @@ impl<'a> Scanner<'a> {
             }
             Some(c) if c.is_alphabetic() || c == '_' => {
                 let word = self.take(is_identifier);
-                match IMPORTING.contains(&word) {
-                    true => self.statement(true),
-                    false if PATTERNS.contains(&word) && self.peek() == Some(':') => self.argument(),
-                    false => self.postfix(word),
+                match self.peek() {
+                    _ if IMPORTING.contains(&word) => self.statement(true),
+                    Some(':') if PATTERNS.contains(&word) => self.argument(true),
+                    Some(':') if SPOKEN.contains(&word) => self.argument(false),
+                    _ => self.postfix(word),
                 }
             }
             Some(c) if c.is_ascii_digit() && is_naming => {
@@ -344,10 +347,10 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// The value of a named argument whose strings are patterns.
-    fn argument(&mut self) {
+    /// The value of a named argument.
+    fn argument(&mut self, is_naming: bool) {
         while self.peek().is_some_and(|next| !matches!(next, ',' | ')' | '\n')) {
-            self.token(true);
+            self.token(is_naming);
         }
     }
 

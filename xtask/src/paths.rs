@@ -75,6 +75,8 @@ pub const REFERENCE_EVENTS: &str = "data/reference/solutions/events.csv";
 pub const DOCUMENT: &str = "paper/main.typ";
 /// The document, by name.
 pub const DOCUMENT_PDF: &str = "paper/jamming-reproduction.pdf";
+/// The folder of the pictures as PDF, by name.
+pub const PICTURE_PDFS: &str = "paper/pictures";
 /// The file that sets one picture, by name.
 pub const PICTURE_SOURCE: &str = "paper/picture.typ";
 /// The sums of the document and of the pictures, by name.
@@ -346,7 +348,7 @@ impl Paths {
 
     /// A picture as PDF, by name.
     pub fn picture_pdf(id: &str) -> String {
-        format!("paper/pictures/{id}.pdf")
+        format!("{PICTURE_PDFS}/{id}.pdf")
     }
 
     /// The runner's own folder.

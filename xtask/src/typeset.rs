@@ -32,6 +32,12 @@ pub fn on_path() -> Option<String> {
     child::first_line("typst", &["--version"]).filter(|line| line.split_whitespace().nth(1) == Some(VERSION))
 }
 
+/// What there is without installing anything: the program, or the wheel installed before; for `doctor`.
+pub fn at_hand(paths: &Paths) -> Option<String> {
+    let installed = || python::installed(paths, "typst", TYPST_PIN).map(|_| format!("wheel {VERSION} below target"));
+    on_path().or_else(installed)
+}
+
 /// Finds the program, or the wheel, which is installed below target on the first call.
 ///
 /// # Errors

@@ -16,8 +16,8 @@ pub fn collect(source: &Source<'_>, all: &mut Quantities) {
                 let is_shared = panels.values().all(|other| other.get(key) == Some(&value));
                 let name =
                     if is_shared { format!("{}.{key}", figure.id) } else { format!("{}.{panel}.{key}", figure.id) };
-                // the wave number's axis ends at pi; every digit of it says less than three
-                match key.starts_with("map.") && value > 3.14 && value < 3.15 {
+                // the wave number's axis ends at pi: sixteen digits of it say less than three
+                match value == std::f64::consts::PI {
                     true => all.rounded(&name, value, 3, &format!("{from}: {key}")),
                     false => all.exact(&name, value, &format!("{from}: {key}")),
                 }

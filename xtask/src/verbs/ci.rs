@@ -1,8 +1,8 @@
 //! `ci`: what continuous integration runs.
 
 use super::test::{self, step};
-use super::{figures, verify};
 use crate::browser;
+use super::{figures, paper, verify};
 use crate::child;
 use crate::cli::{CiArgs, FiguresArgs, VerifyArgs};
 use crate::failure::Failure;
@@ -27,6 +27,8 @@ pub fn run(paths: &Paths, arguments: &CiArgs) -> Result<(), Failure> {
     test::run(paths)?;
     eprintln!("ci: verify");
     verify::run(paths, &VerifyArgs::default())?;
+    eprintln!("ci: paper");
+    paper::ci(paths)?;
     if arguments.full {
         cargo(paths, &["test", "--release", "--locked", "--workspace", "--", "--ignored"])?;
         eprintln!("ci: {OTHER_MACHINES}");

@@ -4,7 +4,7 @@ use crate::disk;
 use crate::failure::Failure;
 use crate::figure;
 use crate::lock::Lock;
-use crate::paths::{Paths, Scheme};
+use crate::paths::{DOCUMENT_PDF, PICTURE_PDFS, Paths, Scheme};
 use crate::print;
 use crate::work;
 use std::path::PathBuf;
@@ -27,6 +27,7 @@ pub fn run(paths: &Paths) -> Result<(), Failure> {
             doomed.push(paths.output(&paths.with_scheme(scheme).tables(&figure.id)));
         }
     }
+    doomed.extend([paths.root.join(DOCUMENT_PDF), paths.root.join(PICTURE_PDFS)]);
     doomed.extend(work::leftovers(paths, &all)?);
     for path in doomed.iter().filter(|path| path.exists()) {
         disk::remove(path)?;

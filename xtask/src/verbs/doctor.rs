@@ -9,6 +9,7 @@ use crate::failure::Failure;
 use crate::paths::{FONTS_REMEDY, Paths, TOOLCHAIN};
 use crate::print;
 use crate::python;
+use crate::typeset;
 use serde_json::{Value, json};
 
 /// One thing that a verb may need.
@@ -68,6 +69,12 @@ fn findings(paths: &Paths) -> Result<Vec<Finding>, Failure> {
         finding("python", false, python(), "needed by a check of ci; Python 3.11 or later with venv or pip"),
         finding("chromium", false, browser::browser(), "needed by the tests of the page; apt-get install chromium"),
         finding("node", false, browser::node(), "needed by the tests of the page; apt-get install nodejs npm"),
+        finding(
+            "typst",
+            false,
+            typeset::at_hand(paths),
+            "needed by paper, which installs it: Python 3.9 with pip or venv, a network",
+        ),
         finding("numpy", false, numpy(), "needed by spot checks of test; pip install numpy"),
     ])
 }

@@ -8,7 +8,7 @@ use crate::gate;
 use crate::hashing;
 use crate::literals;
 use crate::paths::{DOCUMENT, DOCUMENT_PDF, DOCUMENT_SUMS, NUMBERS_JSON, NUMBERS_TEX, PDF_CHECK, PDF_CHECK_PIN};
-use crate::paths::{PICTURE_SOURCE, Paths};
+use crate::paths::{PICTURE_PDFS, PICTURE_SOURCE, Paths};
 use crate::print;
 use crate::python;
 use crate::quantities::Quantities;
@@ -35,7 +35,7 @@ pub fn run(paths: &Paths, arguments: &PaperArgs) -> Result<(), Failure> {
     if arguments.check {
         check_pdf(paths)?;
     }
-    print::out(&format!("{DOCUMENT_PDF}, {} pictures beside it in paper/pictures, {NUMBERS_TEX}\n", made.len() - 1))
+    print::out(&format!("{DOCUMENT_PDF}, {} pictures in {PICTURE_PDFS}, {NUMBERS_TEX}\n", made.len() - 1))
 }
 
 /// The step of `ci`: the document as committed, and what it claims of itself. Skipped aloud where there is neither a

@@ -13,6 +13,7 @@ mod ids;
 mod judging;
 mod ledger;
 mod page;
+mod paper;
 mod pool;
 mod progress;
 mod python;
