@@ -65,8 +65,6 @@ pub const FONT_SUMS: [(&str, &str); 2] = [
 pub const ACCURACY: &str = "data/accuracy";
 /// The sums of those tables, by name.
 pub const ACCURACY_SUMS: &str = "data/accuracy/SHA256SUMS";
-/// The ledger of claims, errata and parameters, by name.
-pub const LEDGER: &str = "data/ledger.json";
 /// How far the paper's scheme is from the accurate and the published curves, by name.
 pub const PAPER_DISTANCES: &str = "data/paper-scheme/distance.csv";
 /// Events of the reference solutions, by name.

@@ -19,7 +19,7 @@ const DEAF_TO: [&str; 5] =
     ["SOURCE_DATE_EPOCH", "TYPST_FONT_PATHS", "TYPST_ROOT", "TYPST_PACKAGE_PATH", "TYPST_PACKAGE_CACHE_PATH"];
 
 /// A typesetter that was found.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Typesetter {
     /// The program on PATH.
     Program,
@@ -34,8 +34,8 @@ pub fn on_path() -> Option<String> {
 
 /// What there is without installing anything: the program, or the wheel installed before; for `doctor`.
 pub fn at_hand(paths: &Paths) -> Option<String> {
-    let installed = || python::installed(paths, "typst", TYPST_PIN).map(|_| format!("wheel {VERSION} below target"));
-    on_path().or_else(installed)
+    let installed = || python::installed(paths, "typst", TYPST_PIN).ok().flatten();
+    on_path().or_else(|| installed().map(|_| format!("wheel {VERSION} below target")))
 }
 
 /// Finds the program, or the wheel, which is installed below target on the first call.
@@ -46,12 +46,14 @@ pub fn find(paths: &Paths) -> Result<Typesetter, Failure> {
     if on_path().is_some() {
         return Ok(Typesetter::Program);
     }
-    python::with_packages(paths, "typst", TYPST_PIN).map(Typesetter::Wheel).map_err(|failure| match failure {
-        Failure::Unsupported(why) => Failure::Unsupported(format!(
+    // whatever keeps the wheel away, a missing Python or a missing network, the machine cannot do it
+    python::install(paths, "typst", TYPST_PIN).map(Typesetter::Wheel).map_err(|failure| {
+        let why = failure.text();
+        Failure::Unsupported(format!(
             "no typesetter: no typst {VERSION} on PATH, and its wheel cannot be installed\n{why}\n\
-             install typst {VERSION}, or Python 3 with pip or venv (Debian: python3-venv) and run this once with a network"
-        )),
-        other => other,
+             install typst {VERSION}, or run this once with a network and Python ({})",
+            python::REMEDY
+        ))
     })
 }
 

@@ -1,5 +1,6 @@
 //! `paper`: sets the report as PDF, with its pictures, from figures that verify and from numbers of the tables.
 
+use crate::child;
 use crate::cli::PaperArgs;
 use crate::disk;
 use crate::failure::Failure;
@@ -13,7 +14,7 @@ use crate::print;
 use crate::python;
 use crate::quantities::Quantities;
 use crate::sums::{State, Sums};
-use crate::typeset;
+use crate::typeset::{self, Typesetter};
 use std::path::PathBuf;
 use std::process::Command;
 
@@ -29,8 +30,10 @@ pub fn run(paths: &Paths, arguments: &PaperArgs) -> Result<(), Failure> {
     let all = figure::discover(paths)?;
     gate::figures_verify(paths, &all)?;
     literals::check(paths)?;
+    // before the numbers are collected, which takes longer
+    let typesetter = typeset::find(paths)?;
     numbers(paths, &all, arguments.bless)?;
-    let made = set(paths, &all)?;
+    let made = set(paths, &all, &typesetter)?;
     compare(paths, &made, arguments.bless)?;
     if arguments.check {
         check_pdf(paths)?;
@@ -57,9 +60,12 @@ pub fn ci(paths: &Paths) -> Result<(), Failure> {
 
 /// Python with a way to install packages, where this user may install programs.
 fn install_python() {
-    let has_pip = |program: &str| Command::new(program).args(["-m", "pip", "--version"]).output();
-    let is_there = python::interpreter().is_ok_and(|program| has_pip(program).is_ok_and(|pip| pip.status.success()));
-    if is_there {
+    let can = |program: PathBuf| {
+        let program = program.to_string_lossy().into_owned();
+        let has = |module: &str| child::first_line(&program, &["-m", module, "--help"]).is_some();
+        has("ensurepip") || has("pip")
+    };
+    if python::find().is_some_and(can) {
         return;
     }
     eprintln!("ci: installing python3, python3-venv");
@@ -98,8 +104,7 @@ fn numbers(paths: &Paths, all: &[Figure], bless: bool) -> Result<(), Failure> {
 }
 
 /// Sets the document and the pictures; their names.
-fn set(paths: &Paths, all: &[Figure]) -> Result<Vec<String>, Failure> {
-    let typesetter = typeset::find(paths)?;
+fn set(paths: &Paths, all: &[Figure], typesetter: &Typesetter) -> Result<Vec<String>, Failure> {
     let mut made = vec![DOCUMENT_PDF.to_owned()];
     place(paths, DOCUMENT_PDF, |output| typesetter.set(paths, DOCUMENT, output, &[]))?;
     for figure in all {
@@ -141,7 +146,7 @@ fn compare(paths: &Paths, made: &[String], bless: bool) -> Result<(), Failure> {
 
 /// What the PDF claims, checked from outside.
 fn check_pdf(paths: &Paths) -> Result<(), Failure> {
-    let python = python::with_packages(paths, "pdf", PDF_CHECK_PIN)?;
+    let python = python::install(paths, "pdf", PDF_CHECK_PIN)?;
     let mut command = python.command();
     super::test::step(PDF_CHECK, command.arg(PDF_CHECK).arg(DOCUMENT_PDF).current_dir(&paths.root))
 }
