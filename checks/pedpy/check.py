@@ -156,6 +156,9 @@ def individual(run, states, steady, allowed_speed):
     check(bool(is_next.all()), f"neighbours of Voronoi cells: {len(pairs)} pairs, all next to each other in the row")
     distances = pedpy.compute_neighbor_distance(traj_data=ring, neighborhood=pairs)
     ahead = distances[(distances.neighbor_id == distances.id + 1) & (distances.id >= 0)].sort_values(["frame", "id"])
+    if len(ahead) != len(states):
+        check(False, f"{len(ahead)} pedestrians have a neighbour ahead, in place of {len(states)}")
+        return
     ours = run.a_0 * states.headway.to_numpy()
     # two positions and a length of the ring, each rounded once, in our units and in metres
     allowed = 6 * ULP * np.abs(run.x).max()

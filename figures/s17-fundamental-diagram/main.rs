@@ -20,6 +20,8 @@ const MOST: u32 = 300;
 /// The states are those from FIRST on, every APART.
 const FIRST: f64 = 2000.0;
 const APART: f64 = 100.0;
+/// Every so many states are drawn.
+const DRAWN: usize = 3;
 
 fn tables(job: &mut Job) -> Result<(), Failure> {
     let scene = scene::run::read(&job.recipe.file, &job.panel("main")?.tables)?;
@@ -80,7 +82,7 @@ fn panel(job: &Job, column: &str, axis: Axis, mean: f64) -> Result<Lines, Failur
     let densest = f64::from(MOST) / f64::from(STEPS);
     Ok(Lines::new(Axis::linear("density $\\rho = 1 / \\mathrm{headway}$", 0.0, densest).steps(3), axis)
         .vertical(mean)
-        .series(Series::points("run of figure 11", Marker::Circle, states).look(2).marker_size(0.5))
+        .series(Series::points("run of figure 11", Marker::Circle, states).every(DRAWN).look(2).marker_size(0.5))
         .series(Series::line("uniform flow", all).look(0).solid())
         .series(Series::line("unstable", unstable).look(1).solid().thick(2.5)))
 }
