@@ -86,13 +86,14 @@ fn fill_disk(name: &str, half: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// A run of 5000 samples; the check is 1e-9 away. One that is sampled otherwise than its scene says is to be exported.
+/// A run of 5000 samples; the check is 1e-9 away. One that is sampled otherwise than its scene says is
+/// to be exported: its scene is kept as `scene-run.txt`.
 fn simulate(arguments: &[String]) -> io::Result<()> {
     let Some(out) = value(arguments, "--out").map(PathBuf::from) else { return Ok(()) };
     if let Some(interval) = value(arguments, "--sample") {
         fs::create_dir_all(&out)?;
-        let keeps = !fs::read_to_string(&arguments[1])?.contains("record = \"std\"");
-        return if keeps { fs::write(out.join("trajectories.csv"), interval) } else { Ok(()) };
+        fs::copy(&arguments[1], "scene-run.txt")?;
+        return fs::write(out.join("trajectories.csv"), interval);
     }
     let shift = if arguments.iter().any(|argument| argument == "--check") { 1e-9 } else { 0.0 };
     let rows: Vec<String> = (0..5000).map(|t| format!("{t},{:?}\n", f64::from(t % 3) + shift)).collect();

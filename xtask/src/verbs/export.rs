@@ -8,6 +8,7 @@ use crate::failure::Failure;
 use crate::figure;
 use crate::lock::Lock;
 use crate::paths::{Paths, RUN_TABLES};
+use files::recipe::{self, Panel};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -17,7 +18,7 @@ const BUILD: &str = "build --quiet --release --locked -p interchange";
 /// Runs the verb; paths among the arguments are relative to the current folder.
 ///
 /// # Errors
-/// Usage: no such scene, figure or panel; no trajectories in it. Failed: a program cannot be built, a file not be
+/// Usage: no such scene, figure or panel; no run in it. Failed: a program cannot be built, a file not be
 /// written.
 pub fn run(paths: &Paths, arguments: &ExportArgs) -> Result<(), Failure> {
     let scene = scene(paths, &arguments.scene)?;
@@ -60,24 +61,36 @@ pub fn build(paths: &Paths) -> Result<(), Failure> {
 /// whole multiples of `1 / fps` seconds.
 ///
 /// # Errors
-/// The run fails, or its scene keeps no trajectories.
+/// The run fails.
 pub fn simulate(paths: &Paths, scene: &Path, arguments: &ExportArgs, folder: &Path) -> Result<PathBuf, Failure> {
     let interval = 1.0 / (f64::from(arguments.fps) * arguments.tau);
     let mut program = Command::new(paths.binary("simulate"));
-    program.arg(scene).arg("--tables-only").arg("--out").arg(folder).arg("--sample").arg(format!("{interval:?}"));
-    program.args(arguments.panel.iter().flat_map(|panel| ["--panel", panel]));
-    program.args(arguments.t_end.iter().flat_map(|end| ["--t-end".to_owned(), format!("{end:?}")]));
-    child::run_shown(&mut program)?;
-    let table = folder.join(RUN_TABLES[1]);
-    match table.is_file() {
-        true => Ok(table),
-        false => {
-            let scene = scene.display();
-            Err(Failure::Usage(format!(
-                "{scene}: keeps no trajectories; set run.record = \"trajectories\" or leave it out"
-            )))
+    match with_trajectories(scene, arguments)? {
+        Some(text) => {
+            let file = folder.join("scene.toml");
+            disk::write(&file, text.as_bytes())?;
+            program.arg(file);
+        }
+        None => {
+            program.arg(scene).args(arguments.panel.iter().flat_map(|panel| ["--panel", panel]));
         }
     }
+    program.arg("--tables-only").arg("--out").arg(folder).arg("--sample").arg(format!("{interval:?}"));
+    program.args(arguments.t_end.iter().flat_map(|end| ["--t-end".to_owned(), format!("{end:?}")]));
+    child::run_shown(&mut program)?;
+    Ok(folder.join(RUN_TABLES[1]))
+}
+
+/// A scene of the chosen panel alone that keeps its trajectories; `None` when the scene as it is does so (or has no
+/// panel that is meant, which `simulate` will say).
+fn with_trajectories(scene: &Path, arguments: &ExportArgs) -> Result<Option<String>, Failure> {
+    const STD: &str = "run.record = \"std\"";
+    let recipe = recipe::read(scene).map_err(|error| Failure::Usage(error.to_string()))?;
+    let is_meant =
+        |panel: &&Panel| arguments.panel.as_ref().map_or(recipe.panels.len() == 1, |name| *name == panel.name);
+    let determinants = recipe.panels.iter().find(is_meant).map(Panel::determinants).unwrap_or_default();
+    let is_left_out = determinants.lines().any(|line| line == STD);
+    Ok(is_left_out.then(|| determinants.replace(STD, "run.record = \"trajectories\"")))
 }
 
 /// Writes the files from the table of a run.

@@ -42,12 +42,25 @@ fn a_scene_of_ones_own_with_every_option() {
     }
 }
 
+/// Figures of deviations keep no trajectories; the stand-in for `simulate` leaves no table for a scene that says so.
+#[test]
+fn a_scene_that_keeps_only_deviations_is_run_with_trajectories() {
+    let shop = Shop::new("export-std");
+    let panels = "[panel.left.law]\nmu = 0.4\n[panel.right.law]\nmu = 0.5\n";
+    shop.write("std.toml", &format!("title = \"std\"\n[run]\nrecord = \"std\"\nt_end = 2\n{panels}"));
+    shop.xtask(&["export", "std.toml", "--panel", "right", "--out", "mine"]).expect(0);
+    let words = words(&shop);
+    assert_eq!([value(&words, "--scene"), value(&words, "--panel")], [Some("std.toml"), Some("right")]);
+    assert_eq!(shop.read("scene-run.txt"), "law.mu = 0.5\nrun.record = \"trajectories\"\nrun.t_end = 2.0");
+}
+
 #[test]
 fn what_cannot_be_exported_is_bad_input() {
     let shop = Shop::new("export-refused");
-    shop.write("std.toml", "title = \"std\"\n[run]\nrecord = \"std\"\n");
+    shop.write("broken.toml", "[run\n");
     for (arguments, told) in [
-        (&["std.toml"][..], "std.toml: keeps no trajectories"),
+        (&["nothing.toml"][..], "nothing.toml"),
+        (&["broken.toml"], "broken.toml:1"),
         (&["fig77"], "no figure fig77"),
         (&["fig11", "--fps", "7"], "7 is not in 8..=100000"),
         (&["fig11", "--tau", "0"], "0: must be a number above 0"),
