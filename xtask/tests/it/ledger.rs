@@ -431,6 +431,54 @@ fn tables_of_figures_are_told_from_committed_ones() {
     }
 }
 
+/// The checkout that holds this test.
+fn checkout() -> Paths {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    Paths { base: root.clone(), target: root.join("target"), root, scheme: Scheme::Adaptive }
+}
+
+#[test]
+fn the_committed_ledger_belongs_to_the_files_written_by_hand() {
+    let paths = checkout();
+    let sources = Sources::read(&paths).expect("the ledger's files");
+    let text = fs::read_to_string(paths.ledger()).expect("data/ledger.json");
+    let ledger: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let claims = ledger["claims"].as_array().expect("claims");
+    assert!(claims.len() >= 40, "{} claims", claims.len());
+    assert_eq!(claims.len(), sources.claims.len());
+    for (found, claim) in claims.iter().zip(&sources.claims) {
+        let words = Some(claim.verdict.words());
+        assert_eq!((found["id"].as_str(), found["says"].as_str()), (Some(&*claim.id), Some(&*claim.says)));
+        assert_eq!((found["verdict"].as_str(), found["verdict_found"].as_str()), (words, words), "{}", claim.id);
+        assert_eq!(found["tests"].as_array().map(Vec::len), Some(claim.tests.len() + claim.under.len()));
+        let finding = found["finding"].as_str().unwrap_or("{");
+        assert!(!finding.contains(['{', '}']), "{finding}");
+    }
+    assert_eq!(ledger["errata"].as_array().map(Vec::len), Some(sources.errata.len()));
+    assert_eq!(ledger["parameters"].as_array().map(Vec::len), Some(sources.parameters.len()));
+}
+
+#[test]
+fn claims_over_committed_tables_are_found_as_committed() {
+    let paths = checkout();
+    let mut sources = Sources::read(&paths).expect("the ledger's files");
+    let is_committed = |claim: &xtask::ledger::source::Claim| {
+        let tests = claim.all_tests();
+        let tables = tests.iter().flat_map(|(place, _, measure)| measure.tables(place).expect("tables"));
+        tables.into_iter().all(|table| figure_of(&table).is_none())
+    };
+    sources.claims.retain(is_committed);
+    (sources.errata, sources.parameters) = (Vec::new(), Vec::new());
+    assert!(sources.claims.len() >= 10, "{} claims", sources.claims.len());
+    let ledger = Ledger::new(&sources, &Tables::new(&paths, &paths).expect("tables")).expect("a ledger");
+    let text = fs::read_to_string(paths.ledger()).expect("data/ledger.json");
+    let committed: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    for claim in &ledger.claims {
+        let wanted = committed["claims"].as_array().into_iter().flatten().find(|one| one["id"] == *claim.id);
+        assert_eq!(serde_json::to_value(claim).ok().as_ref(), wanted, "{}", claim.id);
+    }
+}
+
 /// Claims on the shop's map: figure 5 is as it is, figure 6 and the committed events are others'.
 const CLAIMS: &str = r#"
 [[claim]]
