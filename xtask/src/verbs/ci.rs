@@ -1,8 +1,8 @@
 //! `ci`: what continuous integration runs.
 
 use super::test::{self, step};
-use crate::browser;
 use super::{figures, paper, verify};
+use crate::browser;
 use crate::child;
 use crate::cli::{CiArgs, FiguresArgs, VerifyArgs};
 use crate::failure::Failure;
