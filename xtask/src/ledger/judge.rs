@@ -1,8 +1,9 @@
 //! The ledger as the verbs use it: judged on tables made now, compared with what is recorded and committed, written.
 
+use super::entry::{Claim, Erratum, Parameter, Verdict};
 use super::report::{JudgedClaim, Ledger};
 use super::show;
-use super::source::{Claim, Erratum, Parameter, Sources, Tests, Verdict};
+use super::source::{Sources, Tests};
 use super::tables::{Tables, figure_of};
 use crate::disk;
 use crate::failure::Failure;

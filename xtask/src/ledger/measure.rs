@@ -1,8 +1,10 @@
 //! Measures over tables: rows are chosen, then become one number with its error.
 
+use super::check::Operand;
+use super::entry::{Measure, Take};
 use super::expression::{Binding, Bound, BoundCondition, Condition, Expression};
 use super::sheet::Sheet;
-use super::source::{Measure, Operand, Place, Take};
+use super::source::Place;
 use super::tables::Tables;
 use super::uncertain::{Outcome, Sign, Uncertain};
 use crate::failure::Failure;

@@ -1,8 +1,9 @@
 //! What is found: each entry with its tests, values, outcomes and verdict; the form of `data/ledger.json`.
 
+use super::entry::{Claim, Erratum, Measure, Parameter, Verdict};
 use super::measure;
 use super::requirement::Requirement;
-use super::source::{Claim, Erratum, Measure, Parameter, Place, Sources, Tests, Verdict};
+use super::source::{Place, Sources, Tests};
 use super::tables::Tables;
 use super::uncertain::{Outcome, Uncertain};
 use super::words;

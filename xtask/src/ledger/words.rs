@@ -1,6 +1,8 @@
 //! Words for a reader: a measure as a sentence, numbers with as many digits as their error carries, placeholders.
 
-use super::source::{Measure, Operand, Place, Take};
+use super::check::Operand;
+use super::entry::{Measure, Take};
+use super::source::Place;
 use super::uncertain::Uncertain;
 use crate::failure::Failure;
 use crate::paths::Paths;

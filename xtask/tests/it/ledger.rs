@@ -5,9 +5,10 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 use xtask::failure::Failure;
+use xtask::ledger::entry::{Claim, Verdict};
 use xtask::ledger::report::{self, Ledger, Tested};
 use xtask::ledger::requirement::Requirement;
-use xtask::ledger::source::{Sources, Verdict};
+use xtask::ledger::source::Sources;
 use xtask::ledger::tables::{Tables, figure_of};
 use xtask::ledger::uncertain::{Outcome, Relation, Sign, Uncertain};
 use xtask::ledger::{self, words};
@@ -462,7 +463,7 @@ fn the_committed_ledger_belongs_to_the_files_written_by_hand() {
 fn claims_over_committed_tables_are_found_as_committed() {
     let paths = checkout();
     let mut sources = Sources::read(&paths).expect("the ledger's files");
-    let is_committed = |claim: &xtask::ledger::source::Claim| {
+    let is_committed = |claim: &Claim| {
         let tests = claim.all_tests();
         let tables = tests.iter().flat_map(|(place, _, measure)| measure.tables(place).expect("tables"));
         tables.into_iter().all(|table| figure_of(&table).is_none())
