@@ -298,6 +298,11 @@ impl Paths {
         self.root.join(LEDGER)
     }
 
+    /// From what the ledger was written the last time.
+    pub fn ledger_record(&self) -> PathBuf {
+        self.xtask().join("ledger")
+    }
+
     /// The folder of the fonts that the pictures need.
     pub fn fonts(&self) -> PathBuf {
         self.root.join("crates/plot/fonts")

@@ -7,10 +7,13 @@ use super::source::{Sources, Tests};
 use super::tables::{Tables, figure_of};
 use crate::disk;
 use crate::failure::Failure;
+use crate::hashing;
 use crate::paths::{LEDGER, LEDGER_SOURCES, Paths};
 use crate::sums::State;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
+use std::env;
+use std::path::PathBuf;
 
 /// The level "claims" of `verify`.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -99,24 +102,37 @@ pub fn is_complete(paths: &Paths) -> Result<bool, Failure> {
     Ok(Sources::read(paths)?.tables()?.iter().all(|table| tables.has(table)))
 }
 
-/// Judges the ledger on the tables of the checkout and writes `data/ledger.json`. Returns the verdicts.
+/// Judges the ledger on the tables of the checkout, writes `data/ledger.json`, and tells what is not as recorded. A
+/// ledger that was found so the last time, from the same files by the same runner, is left alone.
 ///
 /// # Errors
-/// As [`judge`]; or the file cannot be written.
-pub fn write(paths: &Paths) -> Result<Verdicts, Failure> {
-    let verdicts = judge(paths, paths, None)?;
-    if verdicts.committed == Some(State::Same) && verdicts.ledger.is_empty() {
-        return Ok(verdicts);
+/// As [`judge`]; or a file cannot be read or written.
+pub fn write(paths: &Paths) -> Result<Vec<String>, Failure> {
+    let sources = Sources::read(paths)?;
+    if disk::read_text(&paths.ledger_record())?.as_deref() == Some(&record(paths, &sources)?) {
+        return Ok(Vec::new());
     }
-    disk::write_if_changed(&paths.ledger(), verdicts.ledger.to_text()?.as_bytes())?;
-    Ok(verdicts)
+    let verdicts = judge(paths, paths, None)?;
+    if !sources.is_empty() || paths.ledger().exists() {
+        disk::write_if_changed(&paths.ledger(), verdicts.ledger.to_text()?.as_bytes())?;
+    }
+    let differences = verdicts.differences();
+    if differences.is_empty() {
+        disk::write(&paths.ledger_record(), record(paths, &sources)?.as_bytes())?;
+    }
+    Ok(differences)
 }
 
-impl Ledger {
-    /// Whether it has no entry.
-    pub fn is_empty(&self) -> bool {
-        self.claims.is_empty() && self.errata.is_empty() && self.parameters.is_empty()
-    }
+/// One hash over everything that the ledger follows from, and the ledger.
+fn record(paths: &Paths, sources: &Sources) -> Result<String, Failure> {
+    let tables = Tables::new(paths, paths)?;
+    let mut files: Vec<PathBuf> = sources.tables()?.iter().map(|table| tables.path(table)).collect();
+    files.extend(LEDGER_SOURCES.map(|name| paths.root.join(name)));
+    files.extend([paths.manifest(), paths.ledger()]);
+    files.extend(env::current_exe().ok());
+    let names = files.iter().map(|path| path.display().to_string());
+    let hashes = hashing::hash_all(&files)?.into_iter().map(Option::unwrap_or_default);
+    Ok(hashing::digest(&names.zip(hashes).collect()))
 }
 
 impl JudgedClaim {

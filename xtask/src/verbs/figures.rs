@@ -85,7 +85,7 @@ fn write_ledger(paths: &Paths, all: &[Figure], sources: &Sources, records: &Reco
         eprintln!("{LEDGER} left as it is: {stale} not made with these sources (cargo xtask figures {stale})");
         return Ok(());
     }
-    ledger::write(paths)?.differences().iter().for_each(|line| eprintln!("{line}"));
+    ledger::write(paths)?.iter().for_each(|line| eprintln!("{line}"));
     Ok(())
 }
 

@@ -539,6 +539,10 @@ fn figures_write_the_ledger_and_verify_judges_it() {
     assert!(ended.out.contains("3 claims: holds 2, does not hold 1"), "{}", ended.out);
     shop.xtask(&["figures", "--force"]).expect(0);
     assert_eq!(shop.read("data/ledger.json"), text, "the same bytes again");
+    shop.edit("data/ledger.json", "\"holds\"", "\"does not hold\"");
+    assert!(shop.xtask(&["verify"]).expect(1).out.contains("differs: data/ledger.json"));
+    shop.xtask(&["figures"]).expect(0);
+    assert_eq!(shop.read("data/ledger.json"), text, "a ledger edited by hand is written again");
     let ended = shop.xtask(&["verify", "--json"]).expect(0).json();
     assert_eq!((&ended["claims"]["verdict"], &ended["claims"]["ledger"]), (&"same".into(), &"same".into()));
 }
