@@ -2,7 +2,8 @@
 //! figures draw ([`panels`], [`precision_panel`]), exit codes ([`failure`]); the two programs for scenes of one's own
 //! ([`simulate`] with [`checkpoint`], [`map`]); and the tables of the report of accuracy: error against work
 //! ([`precision`]), rounding and growth ([`studies`]), hard cases ([`hard`]). What the jams depend on
-//! ([`parameters`]), and where stability ends ([`thresholds`]).
+//! ([`parameters`]), where stability ends ([`thresholds`]), and published curves beside
+//! runs by fixed steps ([`overlay`]).
 
 pub mod checkpoint;
 pub mod draw;
@@ -10,6 +11,7 @@ pub mod failure;
 pub mod hard;
 pub mod job;
 pub mod map;
+pub mod overlay;
 pub mod panels;
 pub mod parameters;
 pub mod precision;

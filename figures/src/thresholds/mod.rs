@@ -1,7 +1,7 @@
 //! Where stability ends, exactly, and what the source says about it: critical values for all waves and for those of a
 //! ring, criteria against growth rates in random cases, what the laws do beyond the linear theory.
 
-mod all_waves;
+pub mod all_waves;
 mod contact;
 pub mod critical;
 pub mod monotone;
