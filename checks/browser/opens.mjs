@@ -29,6 +29,7 @@ async function withoutScripts(harness, tables) {
   const claims = tables.json('data/ledger.json').claims.length;
   harness.equal('without scripts: all claims are shown', await page.locator('.claim:visible').count(), claims);
   harness.equal('without scripts: nothing that needs them is shown', await page.locator('.scripted:visible, .explorer:visible').count(), 0);
+  harness.equal('without scripts: what stands in their place is', await page.locator('.unscripted:visible').count(), 2);
   await page.locator('#fig03 summary').last().click();
   harness.check('without scripts: details open', await page.locator('#fig03 table').first().isVisible());
   await harness.close('without scripts', opened);
@@ -78,7 +79,7 @@ async function keyboard(harness) {
   harness.equal('the first stop skips to the content', await page.evaluate(() => document.activeElement.className), 'skip');
   await page.keyboard.press('Enter');
   harness.equal('it goes there', await page.evaluate(() => document.activeElement.id), 'main');
-  const levels = await page.evaluate(() => [...document.querySelectorAll('h1, h2, h3, h4')].filter((one) => one.offsetParent).map((one) => Number(one.tagName[1])));
+  const levels = await page.evaluate(() => [...document.querySelectorAll('h1, h2, h3, h4, h5, h6')].filter((one) => one.offsetParent).map((one) => Number(one.tagName[1])));
   harness.check('headings go down by one', levels[0] === 1 && levels.every((level, i) => i === 0 || level <= levels[i - 1] + 1), levels.join(' '));
   const marks = await page.evaluate(() => ['header', 'nav', 'main', 'footer'].filter((name) => document.querySelectorAll(`body > ${name}`).length === 1).join(' '));
   harness.equal('landmarks', marks, 'header nav main footer');
