@@ -7,8 +7,9 @@ use crate::failure::Failure;
 use crate::figure;
 use crate::gate;
 use crate::page;
-use crate::paths::{BROWSER_CHECK, Paths};
+use crate::paths::{BROWSER_CHECK, PAGE, PAPER_SUMS, Paths};
 use crate::print;
+use crate::sums::Sums;
 use crate::verbs::test::step;
 use std::path::Path;
 use std::process::Command;
@@ -49,16 +50,29 @@ pub fn install(paths: &Paths) -> Result<(), Failure> {
 /// Writes the page and tests it; what is missing for that is said aloud.
 ///
 /// # Errors
-/// Differs: a check fails.
+/// Differs: a check fails, or the page is not the one whose sum is committed.
 pub fn test(paths: &Paths) -> Result<(), Failure> {
     if let Some(why) = obstacle(paths)? {
         return print::out(&format!("skipped: the page in a browser ({BROWSER_CHECK}): {why}\n"));
     }
     copy(paths)?;
-    let page = paths.browser().join("report.html");
-    disk::write(&page, page::render(paths)?.as_bytes())?;
+    let (page, html) = (paths.browser().join("report.html"), page::render(paths)?);
+    disk::write(&page, html.as_bytes())?;
+    check_sum(paths, &html)?;
     let mut node = Command::new("node");
     step(BROWSER_CHECK, node.arg(paths.browser().join("test.mjs")).arg(page).arg(&paths.root))
+}
+
+/// Whether the page has its committed sum, if there is one.
+fn check_sum(paths: &Paths, html: &str) -> Result<(), Failure> {
+    let committed = Sums::read(&paths.root.join(PAPER_SUMS), PAPER_SUMS)?.unwrap_or_default();
+    let hash = files::write::sha256(html.as_bytes());
+    match committed.by_name.get(PAGE) {
+        Some(expected) if *expected != hash => Err(Failure::Differs(format!(
+            "{PAGE} has the sum {hash}, {PAPER_SUMS} {expected}; cargo xtask report writes the new one"
+        ))),
+        _ => Ok(()),
+    }
 }
 
 /// Why the tests cannot run here.

@@ -12,6 +12,9 @@ use files::table::Table;
 use serde_json::Value;
 use std::collections::BTreeMap;
 
+/// Words and LaTeX symbol of columns, by table and column.
+type Columns = BTreeMap<(String, String), (String, String)>;
+
 /// Everything that the page reads.
 #[derive(Debug)]
 pub struct Source<'a> {
@@ -25,8 +28,8 @@ pub struct Source<'a> {
     pub ledger: Ledger,
     /// What each picture shows, in words, by figure.
     alternatives: BTreeMap<String, String>,
-    /// Words and LaTeX symbol of the columns of each table, by `fig03/left` and column.
-    columns: BTreeMap<(String, String), (String, String)>,
+    /// What the columns of each table mean, by `fig03/left` and column.
+    columns: Columns,
 }
 
 impl Source<'_> {
@@ -104,7 +107,7 @@ fn alternatives(paths: &Paths) -> Result<BTreeMap<String, String>, Failure> {
     Ok(words.collect())
 }
 
-fn columns(paths: &Paths) -> Result<BTreeMap<(String, String), (String, String)>, Failure> {
+fn columns(paths: &Paths) -> Result<Columns, Failure> {
     let path = paths.data_package();
     let text = disk::read_text(&path)?.ok_or_else(|| Failure::failed(format!("{}: no such file", path.display())))?;
     let package: Value = serde_json::from_str(&text).map_err(Failure::at(&path))?;
