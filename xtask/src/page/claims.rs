@@ -54,7 +54,9 @@ fn claim(claim: &Claim) -> String {
         let words = words.as_deref().filter(|words| !words.is_empty());
         words.map_or(String::new(), |words| format!("<p><b>{name}:</b> {}</p>\n", prose(words)))
     };
-    let notes = noted("Condition", &claim.condition) + &noted("Why", &claim.why);
+    let changed = Some(claim.verdict_found.clone()).filter(|found| *found != claim.verdict);
+    let notes =
+        noted("The tables now say", &changed) + &noted("Condition", &claim.condition) + &noted("Why", &claim.why);
     format!(
         "<article class=\"claim\" id=\"claim-{id}\" data-verdict=\"{verdict}\" data-label=\"{label}\">\n\
          <h3>{says}</h3>\n<p class=\"meta\"><span class=\"verdict {class}\">{verdict}</span> {label_code}</p>\n\
@@ -129,9 +131,10 @@ pub fn parameters(ledger: &Ledger) -> String {
 }
 
 fn parameter(parameter: &Parameter) -> Vec<String> {
+    let scenes: Vec<String> = parameter.scenes.iter().map(|key| code(key)).collect();
     vec![
         escape(&latex(&parameter.symbol)),
-        prose(&parameter.name),
+        format!("{}<br>{}", prose(&parameter.name), scenes.join("<br>")),
         links(&parameter.figures),
         prose(&parameter.source),
         format!("{}{}", prose(&parameter.influence), tests(&parameter.id, &parameter.tests)),

@@ -31,6 +31,8 @@ pub struct Claim {
     pub says: String,
     /// One of [`VERDICTS`].
     pub verdict: String,
+    /// What the tables say; the same, unless one of them changed.
+    pub verdict_found: String,
     /// The condition, if there is one.
     pub condition: Option<String>,
     /// Why it cannot be decided, if so.
@@ -73,6 +75,8 @@ pub struct Parameter {
     pub name: String,
     /// Figures that use it.
     pub figures: Vec<String>,
+    /// Where it stands, `fig04-algebraic-std/scene.toml: law.mu`.
+    pub scenes: Vec<String>,
     /// A label of the paper, or `chosen: why`.
     pub source: String,
     /// How much the results depend on it.

@@ -38,7 +38,7 @@ class Ring {
       make('div', { class: 'controls' }, this.button, make('label', {}, 'Pace', this.speed),
         make('label', {}, 'Follow pedestrian', this.number)),
       this.readout,
-      make('p', { class: 'hint' }, `Positions and speeds are rounded to ${words(index.ring.unit)}; between two samples, one time unit apart, they are joined by straight lines. Nothing moves until Play is pressed.`));
+      make('p', { class: 'hint' }, `In the strip time runs to the right, the position on the ring upwards; a click goes to that time. Positions and speeds are rounded to ${words(index.ring.unit)}; between two samples, one time unit apart, they are joined by straight lines. Nothing moves until Play is pressed.`));
   }
 
   bar() {
