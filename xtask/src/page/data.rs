@@ -60,9 +60,9 @@ pub struct Data {
     pub elements: String,
 }
 
-/// Whether a figure is made of maps.
+/// Whether a figure is made of maps that the page carries.
 pub fn has_maps(figure: &Figure) -> bool {
-    panels(figure).any(|panel| panel.kind == Kind::Map)
+    !figure.is_supplement() && panels(figure).any(|panel| panel.kind == Kind::Map)
 }
 
 /// Whether a figure is made of curves that the page carries.

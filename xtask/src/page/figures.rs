@@ -78,7 +78,7 @@ fn caption(source: &Source<'_>, figure: &Figure) -> String {
         if !all.is_empty() {
             let _ = write!(caption, "{}. ", all.join(", "));
         }
-        for panel in recipe.panels.iter().filter(|_| recipe.panels.len() > 1) {
+        for panel in recipe.panels.iter().filter(|_| recipe.panels.len() > 1 && !figure.is_supplement()) {
             let difference = scenes::difference(recipe, panel);
             if !difference.is_empty() {
                 let _ = write!(caption, "{}: {}. ", capital(&panel.name.replace('_', " ")), escape(&difference));
