@@ -103,6 +103,9 @@ fn test(test: &Test) -> Vec<String> {
 
 /// All errata.
 pub fn errata(ledger: &Ledger) -> String {
+    if ledger.errata.is_empty() {
+        return "<p>None are recorded.</p>\n".to_owned();
+    }
     ledger.errata.iter().map(erratum).collect()
 }
 
@@ -126,6 +129,9 @@ fn erratum(erratum: &Erratum) -> String {
 
 /// All parameters as a table.
 pub fn parameters(ledger: &Ledger) -> String {
+    if ledger.parameters.is_empty() {
+        return "<p>None are recorded.</p>\n".to_owned();
+    }
     let rows: Vec<Vec<String>> = ledger.parameters.iter().map(parameter).collect();
     table("Parameters", &["symbol", "what", "figures", "source", "how much depends on it"], &rows)
 }

@@ -11,6 +11,7 @@ pub mod data;
 pub mod figures;
 pub mod html;
 pub mod ledger;
+pub mod machines;
 pub mod scenes;
 pub mod source;
 
@@ -71,6 +72,7 @@ fn sections(source: &Source<'_>) -> Result<BTreeMap<&'static str, String>, Failu
         ("errata", claims::errata(ledger)),
         ("parameters", claims::parameters(ledger)),
         ("contents", contents(source)),
+        ("machines", machines::rows(source)?),
     ]);
     slots.extend(counts(source));
     slots.extend(distances(source)?);
