@@ -52,6 +52,10 @@ test *args:
 ci *args:
     cargo xtask ci {{args}}
 
+# the report as PDF
+paper *args:
+    cargo xtask paper {{args}}
+
 # the machine and the toolchain
 describe *args:
     cargo xtask describe {{args}}

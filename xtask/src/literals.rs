@@ -38,6 +38,41 @@ const STATEMENTS: [&str; 10] = ["let", "set", "show", "if", "for", "while", "imp
 /// Units behind which a number is a measure of the page.
 const UNITS: [&str; 8] = ["pt", "mm", "cm", "em", "in", "fr", "deg", "%"];
 
+/// Numerals in words, from eleven on: a number of the data is one in this dress too. Smaller ones count what the text
+/// itself shows ("two panels").
+const WORDS: [&str; 30] = [
+    "eleven",
+    "twelve",
+    "thirteen",
+    "fourteen",
+    "fifteen",
+    "sixteen",
+    "seventeen",
+    "eighteen",
+    "nineteen",
+    "twenty",
+    "thirty",
+    "forty",
+    "fifty",
+    "sixty",
+    "seventy",
+    "eighty",
+    "ninety",
+    "hundred",
+    "hundreds",
+    "thousand",
+    "thousands",
+    "million",
+    "millions",
+    "billion",
+    "dozen",
+    "percent",
+    "tenth",
+    "tenths",
+    "hundredth",
+    "thousandth",
+];
+
 /// A numeral that may not stand where it does.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Stray {
@@ -189,12 +224,19 @@ impl<'a> Scanner<'a> {
                     self.take(|c| c != '>');
                     self.skip();
                 }
-                _ if next.is_alphabetic() => {
-                    self.take(is_word);
-                }
+                _ if next.is_alphabetic() => self.word(),
                 _ if next.is_numeric() => self.numeral(),
                 _ => self.skip(),
             }
+        }
+    }
+
+    /// A word of text, which may be a numeral.
+    fn word(&mut self) {
+        let at = self.at;
+        let word = self.take(is_word);
+        if WORDS.contains(&word.to_lowercase().as_str()) {
+            self.stray(at, word);
         }
     }
 
@@ -376,9 +418,10 @@ impl<'a> Scanner<'a> {
                     self.skip();
                     self.skip();
                 }
-                _ if next.is_alphabetic() => {
+                _ if next.is_alphabetic() && is_naming => {
                     self.take(is_word);
                 }
+                _ if next.is_alphabetic() => self.word(),
                 _ if next.is_numeric() && !is_naming => self.numeral(),
                 _ => self.skip(),
             }

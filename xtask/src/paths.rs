@@ -426,7 +426,17 @@ impl Paths {
     /// Whether a tracked file of this name is written by the runner, so that a change of it is no change of a source.
     pub fn is_output(name: &str) -> bool {
         let picture = name.starts_with("figures/") && (name.ends_with(".png") || name.ends_with(".svg"));
-        let data = ["data/SHA256SUMS", "data/golden/", "data/paper-scheme/", "data/manifest.json", EVENTS, LEDGER];
+        let data = [
+            "data/SHA256SUMS",
+            "data/golden/",
+            "data/paper-scheme/",
+            "data/manifest.json",
+            EVENTS,
+            LEDGER,
+            NUMBERS_JSON,
+            NUMBERS_TEX,
+            DOCUMENT_SUMS,
+        ];
         picture || data.iter().any(|start| name.starts_with(start))
     }
 }

@@ -25,6 +25,7 @@ pub fn collect(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure>
         work(source, all, scene)?;
         error_growth(source, all, scene)?;
     }
+    advantage(all);
     growth_rates(source, all)?;
     rounding(source, all)?;
     verbatim(source, all)?;
@@ -65,10 +66,26 @@ fn work(source: &Source<'_>, all: &mut Quantities, name: &str) -> Result<(), Fai
             all.exact(&format!("{start}.{target:e}.{method}.work"), found, &from);
         }
     }
+    all.exact("precision.methods", scene.floors().len() as f64, &from);
     for row in scene.floors() {
         all.rounded(&format!("{start}.{}.floor", row.method), row.error.unwrap_or(f64::NAN), 2, &from);
     }
     Ok(())
+}
+
+/// How much cheaper the classical Runge-Kutta method is than Heun's, over all scenes and errors where both get there.
+fn advantage(all: &mut Quantities) {
+    let mut ratios = Vec::new();
+    for (scene, target) in SCENES.iter().flat_map(|scene| COARSE_TARGETS.map(|target| (scene, target))) {
+        let work = |method: &str| all.by_name.get(&format!("precision.{scene}.{target:e}.{method}.work"))?.value;
+        ratios.extend(work("heun").zip(work("rk4")).map(|(heun, rk4)| heun / rk4));
+    }
+    ratios.sort_by(f64::total_cmp);
+    if let (Some(least), Some(largest)) = (ratios.first(), ratios.last()) {
+        let from = format!("{ACCURACY}/precision_*.csv: right-hand sides of heun by those of rk4");
+        all.rounded("fixed.heun-by-rk4.least", *least, 2, &from);
+        all.rounded("fixed.heun-by-rk4.largest", *largest, 2, &from);
+    }
 }
 
 /// The most that an error has grown by in a scene, of the two directions tried.

@@ -11,6 +11,8 @@ use serde_json::Value;
 /// # Errors
 /// A table is missing, or lacks a column or a row.
 pub fn collect(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
+    let figures = source.figures.iter().filter(|figure| !figure.is_supplement()).count();
+    all.exact("figures.count", figures as f64, "figures/");
     errors(source, all);
     events(source, all)?;
     for figure in ["fig04", "fig07"] {

@@ -23,12 +23,13 @@ pub fn run(paths: &Paths, arguments: &CiArgs) -> Result<(), Failure> {
     eprintln!("ci: what the check by PedPy needs");
     pedpy::prepare(paths)?;
     browser::install(paths)?;
+    // what it installs, tests of the document find
+    eprintln!("ci: paper");
+    paper::ci(paths)?;
     eprintln!("ci: test");
     test::run(paths)?;
     eprintln!("ci: verify");
     verify::run(paths, &VerifyArgs::default())?;
-    eprintln!("ci: paper");
-    paper::ci(paths)?;
     if arguments.full {
         cargo(paths, &["test", "--release", "--locked", "--workspace", "--", "--ignored"])?;
         eprintln!("ci: {OTHER_MACHINES}");

@@ -73,7 +73,7 @@ fn findings(paths: &Paths) -> Result<Vec<Finding>, Failure> {
             "typst",
             false,
             typeset::at_hand(paths),
-            "needed by paper, which installs it: Python 3.9 with pip or venv, a network",
+            "needed by paper, which installs it where there is Python 3.11 and a network",
         ),
         finding("numpy", false, numpy(), "needed by spot checks of test; pip install numpy"),
     ])
