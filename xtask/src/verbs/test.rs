@@ -8,6 +8,7 @@ use crate::paths::{COST, OTHER_MACHINES, Paths, SPOT_CHECK};
 use crate::pedpy;
 use crate::print;
 use crate::sums::Sums;
+use crate::typeset;
 use std::process::Command;
 
 /// Runs the verb.
@@ -21,6 +22,9 @@ pub fn run(paths: &Paths) -> Result<(), Failure> {
     spot_check(paths)?;
     pedpy::check(paths)?;
     browser::test(paths)?;
+    if typeset::at_hand(paths).is_none() {
+        print::out("skipped: setting the report: no typst; cargo xtask paper installs it\n")?;
+    }
     print::out(&format!("skipped: other machines ({OTHER_MACHINES}): cargo xtask ci --full\n"))?;
     print::out(&format!("skipped: instruction counts ({COST}): cargo xtask ci --full\n"))
 }
