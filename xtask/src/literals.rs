@@ -7,7 +7,8 @@
 
 use crate::disk;
 use crate::failure::Failure;
-use crate::paths::{ALLOWED_NUMERALS, Paths};
+use crate::paths::{ALLOWED_NUMERALS, NUMBERS_JSON, Paths};
+use serde_json::Value;
 use std::collections::BTreeSet;
 
 /// Functions whose strings name something, or repeat what the source states.
@@ -90,6 +91,7 @@ pub struct Stray {
 /// Differs: a numeral stands in the text, or the list of allowed ones has an entry that is not used; all of them.
 pub fn check(paths: &Paths) -> Result<(), Failure> {
     let allowed = allowed(&disk::read_text(&paths.root.join(ALLOWED_NUMERALS))?.unwrap_or_default())?;
+    let measured = measured(&disk::read_text(&paths.root.join(NUMBERS_JSON))?.unwrap_or_default());
     let mut used = BTreeSet::new();
     let mut wrong = Vec::new();
     for file in disk::walk(&paths.document(), &|_| true)? {
@@ -98,6 +100,8 @@ pub fn check(paths: &Paths) -> Result<(), Failure> {
         }
         let text = disk::read_text(&file)?.unwrap_or_default();
         let name = file.strip_prefix(&paths.root).unwrap_or(&file).display().to_string();
+        let disguised = said(&text).into_iter().filter(|(_, numeral)| measured.contains(*numeral));
+        wrong.extend(disguised.map(|(line, numeral)| format!("{name}:{line}: {numeral} was measured, not said")));
         for stray in strays(&text) {
             match allowed.iter().find(|entry| covers(&text, entry, stray.at)) {
                 Some(entry) => {
@@ -116,6 +120,29 @@ pub fn check(paths: &Paths) -> Result<(), Failure> {
             wrong.join("\n")
         ))),
     }
+}
+
+/// Numerals in what the source is said to state, with their lines.
+pub fn said(text: &str) -> Vec<(usize, &str)> {
+    let mut found = Vec::new();
+    for (at, open) in text.match_indices("said(\"") {
+        let inner = text[at + open.len()..].split('"').next().unwrap_or("");
+        let line = text[..at].matches('\n').count() + 1;
+        let numerals = inner.split(|c: char| !(c.is_ascii_digit() || c == '.')).map(|word| word.trim_matches('.'));
+        found.extend(numerals.filter(|word| !word.is_empty()).map(|word| (line, word)));
+    }
+    found
+}
+
+/// How the numbers are written that come from tables, not from a scene; of at least three digits, since two may agree
+/// with a stated one by chance.
+fn measured(numbers: &str) -> BTreeSet<String> {
+    let numbers: Value = serde_json::from_str(numbers).unwrap_or_default();
+    let entries = numbers["numbers"].as_object().into_iter().flatten().map(|(_, entry)| entry);
+    let from_tables = entries.filter(|entry| entry["from"].as_str().is_some_and(|from| !from.starts_with("figures/")));
+    let texts =
+        from_tables.filter_map(|entry| entry["mantissa"].as_str()).map(|text| text.split('(').next().unwrap_or(""));
+    texts.filter(|text| text.bytes().filter(u8::is_ascii_digit).count() > 2).map(str::to_owned).collect()
 }
 
 /// The texts of the list: `text | why`, a line each; lines that begin with # say something about the list.

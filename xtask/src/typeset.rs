@@ -51,8 +51,7 @@ pub fn find(paths: &Paths) -> Result<Typesetter, Failure> {
         let why = failure.text();
         Failure::Unsupported(format!(
             "no typesetter: no typst {VERSION} on PATH, and its wheel cannot be installed\n{why}\n\
-             install typst {VERSION}, or run this once with a network and Python ({})",
-            python::REMEDY
+             install typst {VERSION}, or run this once with Python 3.11 or later and a network"
         ))
     })
 }

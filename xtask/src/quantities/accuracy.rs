@@ -26,6 +26,7 @@ pub fn collect(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure>
         error_growth(source, all, scene)?;
     }
     advantage(all);
+    savings(all);
     growth_rates(source, all)?;
     rounding(source, all)?;
     verbatim(source, all)?;
@@ -88,6 +89,16 @@ fn advantage(all: &mut Quantities) {
     }
 }
 
+/// How much the cheapest method saves over DOP853 for the two finer errors, at most.
+fn savings(all: &mut Quantities) {
+    let ratios = SCENES.iter().flat_map(|scene| TARGETS[1..].iter().map(move |target| (scene, target)));
+    let ratios =
+        ratios.filter_map(|(scene, target)| all.by_name.get(&format!("precision.{scene}.{target:e}.ratio"))?.value);
+    let largest = ratios.fold(f64::NEG_INFINITY, |a, b| if b > a { b } else { a });
+    let from = format!("{ACCURACY}/precision_*.csv: right-hand sides of dop853 by those of the cheapest");
+    all.rounded("precision.largest-ratio", largest, 2, &from);
+}
+
 /// The most that an error has grown by in a scene, of the two directions tried.
 fn error_growth(source: &Source<'_>, all: &mut Quantities, name: &str) -> Result<(), Failure> {
     let sheet = table(source, "error_growth")?.only(&[("scene", name)])?;
@@ -120,6 +131,7 @@ fn rounding(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
     for state in ["positions", "gaps", "deviations"] {
         for sum in ["plain", "compensated"] {
             let rows = errors.only(&[("state", state), ("sum", sum), ("t", "1000")])?;
+            all.exact("rounding.t", rows.first("t")?, &rows.name);
             for dt in ["0.01", "0.001", "0.0001", "1e-5"] {
                 let row = rows.only(&[("dt", dt)])?;
                 let name = format!("rounding.{state}.{sum}.{dt}");
@@ -140,6 +152,7 @@ fn verbatim(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
     for t in ["500", "1000", "2000"] {
         let row = sheet.only(&[("t", t)])?;
         let (std, exact) = (row.first("std")?, row.first("exact")?);
+        all.exact(&format!("verbatim.{t}.t"), row.first("t")?, &sheet.name);
         all.rounded(&format!("verbatim.{t}.std"), std, 2, &sheet.name);
         all.rounded(&format!("verbatim.{t}.exact"), exact, 2, &sheet.name);
         all.rounded(&format!("verbatim.{t}.missing-percent"), 100.0 * (1.0 - std / exact), 2, &sheet.name);

@@ -116,6 +116,9 @@ fn jams(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
 fn plateau(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
     const LATE: f64 = 2000.0;
     const HIGH: f64 = 0.1;
+    let early = 300.0;
+    all.exact("fig13.early", early, "data/fig12/t300.csv: its time");
+    all.exact("fig12.late", LATE, "data/fig12/t2000.csv: its time");
     let mut reached = Vec::new();
     for (table, short) in [("std", "large"), ("std_small_shift", "small")] {
         let name = format!("data/fig13/{table}.csv");
@@ -126,7 +129,7 @@ fn plateau(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
         all.rounded(&format!("fig13.{short}.plateau"), mean, 2, &format!("{name}: mean of std at t >= {LATE}"));
         let first = times.iter().zip(&std).find(|(_, std)| **std > HIGH).map_or(f64::NAN, |(t, _)| *t);
         all.exact(&format!("fig13.{short}.reaches"), first, &format!("{name}: first t with std > {HIGH}"));
-        if let Some(at) = times.iter().position(|&t| t == 300.0) {
+        if let Some(at) = times.iter().position(|&t| t == early) {
             all.rounded(&format!("fig13.{short}.at-300"), std[at], 2, &name);
         }
         reached.push(first);

@@ -4,7 +4,7 @@ use crate::shop::{Shop, blessed};
 use std::fs;
 use std::path::{Path, PathBuf};
 use xtask::figure;
-use xtask::literals::{allowed, check, strays};
+use xtask::literals::{allowed, check, said, strays};
 use xtask::paths::{DOCUMENT, NUMBERS_JSON, NUMBERS_TEX, Paths};
 use xtask::quantities::Quantities;
 use xtask::quantities::form::Form;
@@ -75,6 +75,20 @@ fn a_numeral_needs_a_reason_and_the_list_may_not_rot() {
     check(&paths).expect("allowed");
     shop.write("paper/main.typ", "nothing\n");
     assert!(check(&paths).expect_err("an idle entry").text().contains("is not used"));
+}
+
+#[test]
+fn what_was_measured_is_not_said() {
+    assert_eq!(said("#said(\"2000 s\")\nand #said(\"0.45.\")"), [(1, "2000"), (2, "0.45")]);
+    let shop = Shop::new("paper-said");
+    let paths = Paths::find(Some(shop.root.clone())).expect("the shop");
+    let numbers = r#"{"numbers": {"a": {"from": "data/x.csv", "mantissa": "960.87(3)"}, "b": {"from": "figures/x", "mantissa": "2000"}}}"#;
+    shop.write("paper/numbers.json", numbers);
+    shop.write("paper/main.typ", "#said(\"2000\")\n");
+    check(&paths).expect("from a scene");
+    shop.write("paper/main.typ", "\n#said(\"T = 960.87\")\n");
+    let failure = check(&paths).expect_err("measured");
+    assert!(failure.text().contains("paper/main.typ:2: 960.87 was measured"), "{}", failure.text());
 }
 
 #[test]
