@@ -77,8 +77,6 @@ pub const DOCUMENT_PDF: &str = "paper/jamming-reproduction.pdf";
 pub const PICTURE_PDFS: &str = "paper/pictures";
 /// The file that sets one picture, by name.
 pub const PICTURE_SOURCE: &str = "paper/picture.typ";
-/// The sums of the document and of the pictures, by name.
-pub const DOCUMENT_SUMS: &str = "paper/SHA256SUMS";
 /// The numbers of the document, by name.
 pub const NUMBERS_JSON: &str = "paper/numbers.json";
 /// The same as LaTeX macros, by name.
@@ -435,7 +433,7 @@ impl Paths {
             LEDGER,
             NUMBERS_JSON,
             NUMBERS_TEX,
-            DOCUMENT_SUMS,
+            PAPER_SUMS,
         ];
         picture || data.iter().any(|start| name.starts_with(start))
     }

@@ -8,7 +8,7 @@ use crate::figure::{self, Figure};
 use crate::gate;
 use crate::hashing;
 use crate::literals;
-use crate::paths::{DOCUMENT, DOCUMENT_PDF, DOCUMENT_SUMS, NUMBERS_JSON, NUMBERS_TEX, PDF_CHECK, PDF_CHECK_PIN};
+use crate::paths::{DOCUMENT, DOCUMENT_PDF, NUMBERS_JSON, NUMBERS_TEX, PAPER_SUMS, PDF_CHECK, PDF_CHECK_PIN};
 use crate::paths::{PICTURE_PDFS, PICTURE_SOURCE, Paths};
 use crate::print;
 use crate::python;
@@ -131,16 +131,21 @@ fn compare(paths: &Paths, made: &[String], bless: bool) -> Result<(), Failure> {
     let files: Vec<PathBuf> = made.iter().map(|name| paths.root.join(name)).collect();
     let hashes = made.iter().cloned().zip(hashing::hash_all(&files)?);
     let sums = Sums { by_name: hashes.filter_map(|(name, hash)| Some((name, hash?))).collect() };
-    let list = paths.root.join(DOCUMENT_SUMS);
+    let list = paths.root.join(PAPER_SUMS);
+    // the page has its line in the same list
+    let mut committed = Sums::read(&list, PAPER_SUMS)?.unwrap_or_default();
+    let mine = |name: &String| name.ends_with(".pdf");
     if bless {
-        return disk::write_if_changed(&list, sums.to_text().as_bytes());
+        committed.by_name.retain(|name, _| !mine(name));
+        committed.by_name.extend(sums.by_name);
+        return disk::write_if_changed(&list, committed.to_text().as_bytes());
     }
-    let committed = Sums::read(&list, DOCUMENT_SUMS)?.unwrap_or_default();
+    committed.by_name.retain(|name, _| mine(name));
     let states = committed.judge(&sums.by_name).into_iter().filter(|(_, state)| *state != State::Same);
     let wrong: Vec<String> = states.map(|(name, state)| format!("{}: {name}", state.word())).collect();
     match wrong.is_empty() {
         true => Ok(()),
-        false => Err(Failure::Differs(format!("not as in {DOCUMENT_SUMS}:\n{}\n{REMEDY}", wrong.join("\n")))),
+        false => Err(Failure::Differs(format!("not as in {PAPER_SUMS}:\n{}\n{REMEDY}", wrong.join("\n")))),
     }
 }
 
