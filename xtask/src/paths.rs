@@ -117,6 +117,18 @@ pub const OTHER_MACHINES: &str = "checks/other-machines.sh";
 pub const COST_SOURCE: &str = "crates/jam/examples/cost.rs";
 /// Checks that need more than Rust: counts of instructions.
 pub const COST: &str = "checks/cost.sh";
+/// The top folder of the archive that `bundle` writes.
+pub const BUNDLE_TOP: &str = "jamming-transitions-reproduction";
+/// In the archive, the folder of the crates that the lock file names.
+pub const VENDOR: &str = "vendor";
+/// In the archive, what tells cargo of that folder; `.cargo/config.toml` includes it where it exists.
+pub const VENDORED_CONFIG: &str = ".cargo/vendored.toml";
+/// Documents that belong into the archive when they have been made.
+pub const DOCUMENTS: [&str; 2] = ["paper/paper.pdf", "paper/report.html"];
+/// The source that stands for the whole run in the description of the archive.
+pub const MAIN_WORKFLOW: &str = "xtask/src/verbs/figures.rs";
+/// The validators of the archive's descriptions.
+pub const BUNDLE_REQUIREMENTS: &str = "checks/bundle/requirements.txt";
 /// The list of sums inside a stored run.
 pub const STORE_SUMS: &str = "SHA256SUMS";
 /// The events of a stored run.
@@ -185,6 +197,11 @@ impl Paths {
     /// The scene file of a figure, by name.
     pub fn scene(slug: &str) -> String {
         format!("figures/{slug}/scene.toml")
+    }
+
+    /// The source of a figure's program, by name.
+    pub fn program(slug: &str) -> String {
+        format!("figures/{slug}/main.rs")
     }
 
     /// The folder of a figure's source and pictures, by name, with the final `/`.
@@ -331,6 +348,25 @@ impl Paths {
         self.store().join(format!("{key}.checkpoint"))
     }
 
+    /// The archive, unless it is asked for elsewhere.
+    pub fn archive(&self) -> PathBuf {
+        self.bundle().join(format!("{BUNDLE_TOP}.tar"))
+    }
+
+    /// Where the crates for the archive are unpacked.
+    pub fn vendored(&self) -> PathBuf {
+        self.bundle().join(VENDOR)
+    }
+
+    /// Where the archive is unpacked to be checked.
+    pub fn unpacked(&self) -> PathBuf {
+        self.bundle().join("unpacked")
+    }
+
+    fn bundle(&self) -> PathBuf {
+        self.target.join("bundle")
+    }
+
     /// Where programs to be measured are built and lie.
     pub fn bench(&self) -> PathBuf {
         self.target.join("bench")
@@ -413,12 +449,17 @@ impl Paths {
 
     /// What a figure's binary says of its tables.
     pub fn report(&self, id: &str) -> PathBuf {
-        let folder = if self.base == self.root { self.xtask() } else { self.base.clone() };
         let name = match self.scheme {
             Scheme::Adaptive => format!("{id}.json"),
             Scheme::Paper => format!("{id}-paper.json"),
         };
-        folder.join("report").join(name)
+        self.reports().join(name)
+    }
+
+    /// The folder of what figures' binaries say of their tables.
+    pub fn reports(&self) -> PathBuf {
+        let folder = if self.base == self.root { self.xtask() } else { self.base.clone() };
+        folder.join("report")
     }
 
     /// Whether a tracked file of this name is written by the runner, so that a change of it is no change of a source.

@@ -186,13 +186,14 @@ pub fn forget(paths: &Paths, nodes: &[Node]) -> Result<(), Failure> {
     })
 }
 
-/// Temporary files and folders in the store, among the data of both schemes, and beside the pictures.
+/// Temporary files and folders in the store, among the records and reports, among the data of both schemes, and beside
+/// the pictures.
 ///
 /// # Errors
 /// A folder cannot be read.
 pub fn leftovers(paths: &Paths, all: &[Figure]) -> Result<Vec<PathBuf>, Failure> {
     let paper = paths.with_scheme(Scheme::Paper).scheme_data();
-    let mut folders = vec![paths.store(), paths.xtask(), paths.data(), paper];
+    let mut folders = vec![paths.store(), paths.xtask(), paths.reports(), paths.data(), paper];
     folders.extend(all.iter().map(|figure| paths.output(&Paths::figure_folder(&figure.slug))));
     let mut found = Vec::new();
     for folder in folders {

@@ -44,6 +44,7 @@ fn leftovers_are_swept_by_the_next_run_and_by_clean() {
             "data/fig04.tmp-1/half.csv",
             "data/paper-scheme/fig04.tmp-1/half.csv",
             "target/store/0123.tmp-1/half.csv",
+            "target/xtask/report/fig05.json.tmp-1",
             "figures/fig05-exponential-map/fig05.png.tmp-1",
         ] {
             shop.write(name, "half");

@@ -28,6 +28,8 @@ const SUMS: &str = "data/SHA256SUMS";
 pub struct Checkout {
     pub root: PathBuf,
     pub target: PathBuf,
+    /// The runner, a link of its own: what is built meanwhile does not replace it.
+    runner: PathBuf,
     /// The sums of the real checkout: name and hash.
     sums: Vec<(String, String)>,
     /// Manifest and events after a run that nothing disturbed.
@@ -45,6 +47,15 @@ impl Checkout {
     /// Copies what the runner reads to `root`, with links to the built programs, and runs it once, undisturbed.
     pub fn new(root: &Path) -> Checkout {
         let real = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        Checkout::copied(&real, &built_programs(), Path::new(env!("CARGO_BIN_EXE_xtask")), root)
+    }
+
+    /// Another copy, of this one.
+    pub fn twin(&self, root: &Path) -> Checkout {
+        Checkout::copied(&self.root, &self.target.join("release"), &self.runner, root)
+    }
+
+    fn copied(real: &Path, built: &Path, runner: &Path, root: &Path) -> Checkout {
         fs::create_dir_all(root.join("data")).expect("a folder");
         for name in READ {
             copy(&real.join(name), &root.join(name));
@@ -54,8 +65,10 @@ impl Checkout {
         let sums = text.lines().filter_map(|line| line.split_once("  "));
         let sums: Vec<(String, String)> = sums.map(|(hash, name)| (name.to_owned(), hash.to_owned())).collect();
         assert!(sums.len() > 60, "{} sums in {SUMS}", sums.len());
-        let mut checkout = Checkout { root: root.to_owned(), target: root.join("target"), sums, settled: Vec::new() };
-        checkout.link_programs();
+        let (target, own) = (root.join("target"), root.join("runner"));
+        link(runner, &own);
+        let mut checkout = Checkout { root: root.to_owned(), target, runner: own, sums, settled: Vec::new() };
+        checkout.link_programs(built);
         let ended = checkout.run(&[]);
         assert_eq!(ended.code, Some(0), "the undisturbed run: {}", ended.words);
         checkout.settled = ["data/manifest.json", "data/events.csv"]
@@ -72,17 +85,13 @@ impl Checkout {
 
     /// Programs are linked, not copied: nothing here writes into one. `cargo` is a stand-in that builds nothing and
     /// notes that it was asked to.
-    fn link_programs(&self) {
-        let built = built_programs();
+    fn link_programs(&self, built: &Path) {
         let release = self.target.join("release");
         fs::create_dir_all(&release).expect("a folder");
         let names = fs::read_dir(self.root.join("figures")).expect("figures").flatten();
         let slugs = names.filter_map(|entry| entry.file_name().into_string().ok()).filter(|name| name.contains('-'));
         for name in slugs.chain(xtask::compile::TOOLS.map(str::to_owned)) {
-            let (from, to) = (built.join(&name), release.join(&name));
-            fs::hard_link(&from, &to)
-                .or_else(|_| fs::copy(&from, &to).map(drop))
-                .unwrap_or_else(|error| panic!("{}: {error}; cargo xtask figures builds it", from.display()));
+            link(&built.join(&name), &release.join(&name));
         }
         let cargo = self.root.join("cargo");
         fs::write(&cargo, "#!/bin/sh\necho asked >>\"$(dirname \"$0\")/cargo-calls\"\n").expect("a script");
@@ -96,11 +105,14 @@ impl Checkout {
 
     /// The runner with these arguments, started by another program (`faketime`, `sh -c '.. exec "$@"'`).
     pub fn under(&self, starter: &[&str], arguments: &[&str]) -> Command {
-        let runner = env!("CARGO_BIN_EXE_xtask");
-        let mut command = Command::new(starter.first().copied().unwrap_or(runner));
-        if let Some((_, rest)) = starter.split_first() {
-            command.args(rest).arg(runner);
-        }
+        let mut command = match starter.split_first() {
+            None => Command::new(&self.runner),
+            Some((program, rest)) => {
+                let mut command = Command::new(program);
+                command.args(rest).arg(&self.runner);
+                command
+            }
+        };
         command.arg("--root").arg(&self.root).args(arguments).current_dir(&self.root);
         command.env("CARGO_TARGET_DIR", &self.target).env("CARGO", self.root.join("cargo"));
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -225,6 +237,13 @@ impl Ended {
 fn built_programs() -> PathBuf {
     let profile = Path::new(env!("CARGO_BIN_EXE_xtask")).parent().expect("a folder");
     profile.with_file_name("release")
+}
+
+/// A second name for a program, or a copy where that is not possible.
+fn link(from: &Path, to: &Path) {
+    fs::hard_link(from, to)
+        .or_else(|_| fs::copy(from, to).map(drop))
+        .unwrap_or_else(|error| panic!("{}: {error}; cargo xtask figures builds it", from.display()));
 }
 
 pub fn entries(folder: &Path) -> Vec<PathBuf> {

@@ -96,11 +96,11 @@ fn index(figures: &[&str]) -> usize {
     FEW.iter().position(|few| *few == figures).unwrap_or(FEW.len())
 }
 
-/// Every tenth kill is of a run of all figures, every fifth of a larger choice.
+/// Every twentieth kill is of a run of all figures, every tenth of a larger choice.
 fn draw(killed: usize, count: usize, random: &mut Random) -> Plan {
-    let figures: &'static [&'static str] = match killed % 10 {
+    let figures: &'static [&'static str] = match killed % 20 {
         0 => &[],
-        5 | 6 => FEW[1],
+        5 | 15 => FEW[1],
         _ => FEW[0],
     };
     let start = [Start::Nothing, Start::Undrawn, Start::Forced, Start::Underway][random.below(4)];

@@ -213,9 +213,9 @@ fn orphan(checkout: &Checkout) {
 }
 
 /// Blanks, quotes and letters beyond ASCII.
-pub fn paths(place: &Path, tally: &mut Tally) {
+pub fn paths(checkout: &Checkout, place: &Path, tally: &mut Tally) {
     let root = place.join("a place/größer als 1 Å – «時間» 'x' \"y\" $HOME #1");
-    let checkout = Checkout::new(&root);
+    let checkout = checkout.twin(&root);
     checkout.must_recover(&[], "an odd path");
     checkout.forget(true);
     checkout.must_recover(&[], "an odd path, from nothing");

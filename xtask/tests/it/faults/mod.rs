@@ -74,7 +74,7 @@ fn after_every_fault_a_plain_run_gives_the_right_sums() {
             part(&mut random, &mut tally);
         }
     }
-    limits::paths(&place, &mut tally);
+    limits::paths(&copy, &place, &mut tally);
     copy.must_recover(&[], "everything");
     checkout::remove(&place);
     let (total, skipped, seconds) = (tally.total, tally.skipped, clock.elapsed().as_secs());
