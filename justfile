@@ -56,6 +56,10 @@ ci *args:
 paper *args:
     cargo xtask paper {{args}}
 
+# one deterministic archive: sources, crates, tables, pictures, descriptions
+bundle *args:
+    cargo xtask bundle {{args}}
+
 # the machine and the toolchain
 describe *args:
     cargo xtask describe {{args}}

@@ -40,6 +40,8 @@ pub enum Verb {
     Report(ReportArgs),
     /// Set the report as PDF, with its pictures and its numbers
     Paper(PaperArgs),
+    /// Write one deterministic archive: sources, crates, tables, pictures, descriptions
+    Bundle(BundleArgs),
     /// Run a scene: cargo xtask simulate SCENE.toml [options]; --help shows the options
     #[command(disable_help_flag = true)]
     Simulate(ForwardArgs),
@@ -215,6 +217,17 @@ pub struct BenchArgs {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
+}
+
+/// Options of `bundle`.
+#[derive(Debug, Args)]
+pub struct BundleArgs {
+    /// Where to; without it below the target folder
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Unpack it, validate its descriptions, and run the README's commands in it without a network
+    #[arg(long)]
+    pub check: bool,
 }
 
 /// `5%` or `5` as 0.05.

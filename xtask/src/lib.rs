@@ -5,6 +5,7 @@
 
 pub mod benchmarks;
 pub mod browser;
+pub mod bundle;
 pub mod child;
 pub mod cli;
 pub mod compile;

@@ -29,6 +29,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Verb::Bench(arguments) => verbs::bench::run(&paths, &arguments),
         Verb::Report(arguments) => verbs::report::run(&paths, &arguments),
         Verb::Paper(arguments) => verbs::paper::run(&paths, &arguments),
+        Verb::Bundle(arguments) => verbs::bundle::run(&paths, &arguments),
         Verb::Simulate(arguments) => verbs::forward::run(&paths, "simulate", &arguments),
         Verb::Map(arguments) => verbs::forward::run(&paths, "map", &arguments),
         Verb::Export(arguments) => verbs::export::run(&paths, &arguments),

@@ -3,6 +3,7 @@
 pub mod accuracy;
 pub mod bench;
 pub mod bless;
+pub mod bundle;
 pub mod ci;
 pub mod clean;
 pub mod describe;

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod bench;
+mod bundle;
 mod cli;
 mod data;
 mod distance;
@@ -19,5 +20,6 @@ mod progress;
 mod python;
 mod record;
 mod shop;
+mod supply;
 mod tables;
 mod troubles;

@@ -1,0 +1,120 @@
+//! What the project takes from elsewhere: dependencies with a purpose, build scripts that are known, no fonts of the
+//! machine, and no `unsafe` of its own but where ARCHITECTURE.md says. Licences and sources: `deny.toml`.
+
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+fn text(name: &str) -> String {
+    fs::read_to_string(root().join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+/// Names of all files with this ending, relative to the root, outside of what is built.
+fn files(ending: &str) -> Vec<String> {
+    let enter = |name: &str| !["target", "vendor"].contains(&name) && !name.starts_with('.');
+    let found = xtask::disk::walk(&root(), &enter).expect("folders");
+    let names = found.iter().filter_map(|path| path.strip_prefix(root()).ok());
+    names.map(|path| path.to_string_lossy().into_owned()).filter(|name| name.ends_with(ending)).collect()
+}
+
+/// Lines of a manifest that bring in a dependency from elsewhere and do not say what for, behind it or on the line above.
+fn without_purpose(manifest: &str) -> Vec<&str> {
+    let (mut found, mut is_inside, mut above) = (Vec::new(), false, "");
+    for line in manifest.lines() {
+        if line.starts_with('[') {
+            is_inside = line.trim_end_matches(']').ends_with("dependencies");
+        } else if is_inside && line.contains('=') && !line.starts_with('#') {
+            // `math.workspace = true`: the purpose stands where the workspace names it
+            let is_said = line.contains(".workspace") || line.contains(" # ") || above.starts_with("# ");
+            found.extend((!is_said).then_some(line));
+        }
+        above = line;
+    }
+    found
+}
+
+#[test]
+fn every_dependency_says_what_for() {
+    let manifests = files("Cargo.toml");
+    assert!(manifests.len() > 9, "{manifests:?}");
+    for name in manifests {
+        let text = text(&name);
+        assert!(without_purpose(&text).is_empty(), "{name}: {:?}", without_purpose(&text));
+    }
+    let bad = "[dependencies]\n# sums\nsha2 = \"1\"\ntoml = \"1\"\n[dev-dependencies]\npng = { version = \"1\" }\n";
+    assert_eq!(without_purpose(bad), ["toml = \"1\"", "png = { version = \"1\" }"]);
+}
+
+/// Name and source of the build script of every crate that the lock file names and that has one.
+fn build_scripts() -> BTreeMap<String, PathBuf> {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let mut command = Command::new(cargo);
+    command.args(["metadata", "--locked", "--format-version", "1"]).current_dir(root());
+    let output = command.output().expect("cargo");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let metadata: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let mut scripts = BTreeMap::new();
+    for package in metadata["packages"].as_array().expect("packages") {
+        for target in package["targets"].as_array().expect("targets") {
+            if target["kind"].as_array().is_some_and(|kinds| kinds.iter().any(|kind| kind == "custom-build")) {
+                let word = |value: &Value| value.as_str().expect("a text").to_owned();
+                scripts.insert(word(&package["name"]), word(&target["src_path"]).into());
+            }
+        }
+    }
+    scripts
+}
+
+#[test]
+fn build_scripts_are_known_and_reach_no_network() {
+    let known = text("checks/build-scripts.csv");
+    let known = known.lines().skip(1).map(|line| line.split_once(',').expect("crate,what it does"));
+    let known: BTreeSet<&str> = known.filter(|(_, what)| !what.is_empty()).map(|(name, _)| name).collect();
+    let found = build_scripts();
+    let names: BTreeSet<&str> = found.keys().map(String::as_str).collect();
+    assert_eq!(names, known, "read the new script, then say in checks/build-scripts.csv what it does");
+    for (name, file) in &found {
+        let text = fs::read_to_string(file).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
+        for word in ["std::net", "TcpStream", "UdpSocket", "ureq", "reqwest", "curl", "wget"] {
+            assert!(!text.contains(word), "the build script of {name} has {word}");
+        }
+    }
+}
+
+/// Lines of code with `unsafe` as a word; comments and texts that only speak of it are none.
+fn unsafe_lines(source: &str) -> usize {
+    let code = source.lines().map(|line| line.split("//").next().unwrap_or(""));
+    let has = |line: &&str| {
+        ["unsafe {", "unsafe fn", "unsafe impl", "unsafe extern", "unsafe("].iter().any(|w| line.contains(w))
+    };
+    code.filter(|line| !line.contains('"')).filter(has).count()
+}
+
+#[test]
+fn unsafe_stands_where_the_architecture_says() {
+    let architecture = text("ARCHITECTURE.md");
+    assert!(
+        architecture.contains("`unsafe` stands in two places: `math::simd`")
+            && architecture.contains("exports of `browser`")
+    );
+    let mut found: Vec<String> = files(".rs").into_iter().filter(|name| unsafe_lines(&text(name)) > 0).collect();
+    // programs around libraries in C, built only to be measured against
+    found.retain(|name| !name.starts_with("bench/"));
+    assert_eq!(found, ["crates/browser/src/exports.rs", "crates/math/src/simd.rs"]);
+    assert_eq!(unsafe_lines("unsafe { x() }\n// unsafe { }\nlet a = 1; // unsafe fn\nunsafe fn f() {}\n"), 2);
+}
+
+#[test]
+fn pictures_ask_the_machine_for_no_fonts() {
+    let lock = text("Cargo.lock");
+    assert!(lock.contains("name = \"plotters\""));
+    for name in ["font-kit", "fontconfig-parser", "yeslogic-fontconfig-sys", "freetype-sys"] {
+        assert!(!lock.contains(&format!("name = \"{name}\"")), "{name} is in the lock file");
+    }
+}
