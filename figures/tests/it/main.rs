@@ -1,5 +1,6 @@
 //! The binaries as a user meets them: sums, redrawing, exit codes, what is left behind.
 
+mod evidence;
 mod failures;
 mod hard;
 mod precision;
