@@ -35,7 +35,7 @@ fn tables(job: &mut Job) -> Result<(), Failure> {
     for step in STEPS {
         let made = Sampled::by_steps(Method::Euler, step)?;
         schemes.push(scheme("euler", Some(step), &made, &published));
-        euler = if step == STEP { made } else { euler };
+        euler = if (step - STEP).abs() < 1e-12 { made } else { euler };
     }
     for method in [Method::Ballistic, Method::Heun] {
         schemes.push(scheme(method.name(), Some(STEP), &Sampled::by_steps(method, STEP)?, &published));
