@@ -18,7 +18,8 @@ const tables = new Tables(resolve(root));
 for (const part of chosen.length ? chosen : PARTS) {
   const { default: run } = await import(`./${part}.mjs`);
   const before = harness.passed;
+  const started = performance.now();
   await run(harness, tables).catch((error) => harness.check(part, false, error.stack));
-  console.log(`${part}: ${harness.passed - before} passed`);
+  console.log(`${part}: ${harness.passed - before} passed, ${Math.round((performance.now() - started) / 1000)} s`);
 }
 process.exit(await harness.end());
