@@ -1,6 +1,6 @@
 //! Claims, errata and parameters as HTML.
 
-use super::html::{code, escape, latex, measured, number, prose, table};
+use super::html::{code, escape, latex_html, measured, number, prose, table};
 use super::ledger::{Claim, Erratum, Ledger, Parameter, Test, VERDICTS};
 
 /// The verdicts at a glance: a bar and a list of counts.
@@ -139,7 +139,7 @@ pub fn parameters(ledger: &Ledger) -> String {
 fn parameter(parameter: &Parameter) -> Vec<String> {
     let scenes: Vec<String> = parameter.scenes.iter().map(|key| code(key)).collect();
     vec![
-        escape(&latex(&parameter.symbol)),
+        latex_html(&parameter.symbol),
         format!("{}<br>{}", prose(&parameter.name), scenes.join("<br>")),
         links(&parameter.figures),
         prose(&parameter.source),

@@ -87,13 +87,14 @@ pub fn symbol(name: &str) -> &str {
 
 /// The few symbols of the paper that LaTeX writes by commands, as text.
 pub fn latex(symbol: &str) -> String {
-    const WORDS: [(&str, &str); 24] = [
+    const WORDS: [(&str, &str); 25] = [
         ("\\varepsilon", "ε"),
         ("\\epsilon", "ε"),
         ("\\Delta", "Δ"),
         ("\\delta", "δ"),
         ("\\mu", "μ"),
         ("\\tau", "τ"),
+        ("\\theta", "θ"),
         ("\\sigma", "σ"),
         ("\\tilde\\Phi", "Φ̃"),
         ("\\hat\\Phi", "Φ̂"),
@@ -114,6 +115,18 @@ pub fn latex(symbol: &str) -> String {
         ("\\", ""),
     ];
     WORDS.iter().fold(symbol.to_owned(), |text, (from, to)| text.replace(from, to))
+}
+
+/// The same as HTML, with subscripts.
+pub fn latex_html(symbol: &str) -> String {
+    let mut parts = symbol.split('_');
+    let mut html = escape(&latex(parts.next().unwrap_or("")));
+    for part in parts {
+        let braced = part.strip_prefix('{').and_then(|part| part.split_once('}'));
+        let (below, rest) = braced.unwrap_or_else(|| part.split_at(part.chars().next().map_or(0, char::len_utf8)));
+        html.push_str(&format!("<sub>{}</sub>{}", escape(&latex(below)), escape(&latex(rest))));
+    }
+    html
 }
 
 /// A row of a table; the first cell is its header.
@@ -181,6 +194,8 @@ mod tests {
     #[test]
     fn symbols_of_the_paper_read_without_latex() {
         let symbols = ["\\tilde a_v", "\\varepsilon_1", "v_0'", "$\\mu$", "\\Delta t"];
+        assert_eq!(latex_html("c_{max}, \\Delta t_s"), "c<sub>max</sub>, Δ t<sub>s</sub>");
+        assert_eq!(latex_html("v_n(0)"), "v<sub>n</sub>(0)");
         assert_eq!(symbols.map(latex), ["ã\u{1d65}", "ε₁", "v₀′", "μ", "Δ t"]);
     }
 
