@@ -17,6 +17,18 @@ pub fn read_text(path: &Path) -> Result<Option<String>, Failure> {
     }
 }
 
+/// The bytes of a file; `None` when there is no such file.
+///
+/// # Errors
+/// Any other error of the operating system.
+pub fn read_bytes(path: &Path) -> Result<Option<Vec<u8>>, Failure> {
+    match fs::read(path) {
+        Ok(bytes) => Ok(Some(bytes)),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(Failure::at(path)(error)),
+    }
+}
+
 /// Writes a file whole or not at all, with the folders above it.
 ///
 /// # Errors

@@ -65,10 +65,13 @@ pub struct Moved {
     pub absolute: Option<f64>,
     /// The number of doubles from one to the other, if there are both. 0 when only the text is another one.
     pub ulp: Option<u64>,
+    /// Whether there are both, no further apart than the tolerance.
+    pub within: bool,
 }
 
-/// The events of a scene that are not as committed. The k-th of a kind at a pedestrian is compared with the k-th.
-pub fn compare(scene: &str, committed: &[Event], found: &[Event]) -> Vec<Moved> {
+/// The events of a scene that are not as committed; `tolerance` is how far times may be apart. The k-th of a kind at a
+/// pedestrian is compared with the k-th.
+pub fn compare(scene: &str, committed: &[Event], found: &[Event], tolerance: f64) -> Vec<Moved> {
     let moved = |one: &Event, committed: Option<&Event>, found: Option<&Event>| Moved {
         scene: scene.to_owned(),
         event: one.event.clone(),
@@ -77,6 +80,7 @@ pub fn compare(scene: &str, committed: &[Event], found: &[Event]) -> Vec<Moved> 
         found: found.map(|event| event.t_text.clone()),
         absolute: committed.zip(found).map(|(a, b)| (a.t - b.t).abs()),
         ulp: committed.zip(found).map(|(a, b)| numbers::ulps(a.t, b.t)),
+        within: committed.zip(found).is_some_and(|(a, b)| (a.t - b.t).abs() <= tolerance),
     };
     let expected = committed.iter().enumerate().filter_map(|(index, event)| {
         let partner = partner(committed, index, found);

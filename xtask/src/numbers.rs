@@ -1,5 +1,6 @@
 //! How far two tables are from each other.
 
+use crate::estimate::{self, KEYS};
 use files::table::Table;
 use serde::Serialize;
 
@@ -12,9 +13,24 @@ pub struct Worst {
     pub row: usize,
     /// The column.
     pub column: String,
+    /// The cells that name the row, `t = 5, n = 3`; empty for a table without them.
+    pub at: String,
 }
 
-/// How far two tables of the same shape are apart.
+/// How the differences of one column go along t.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Course {
+    /// The column: that of the largest absolute difference.
+    pub column: String,
+    /// The first t at which it differs.
+    pub since: f64,
+    /// Largest absolute difference in each quarter of the rows.
+    pub quarters: [f64; 4],
+    /// What the quarters say: see [`Course::word`].
+    pub course: &'static str,
+}
+
+/// How far two tables are apart, over the rows that both have.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Distance {
     /// Cells that are not equal.
@@ -25,42 +41,141 @@ pub struct Distance {
     pub relative: Worst,
     /// Largest number of doubles that lie between.
     pub ulp: Worst,
+    /// Cells further apart than the tolerance of their column.
+    pub beyond: usize,
+    /// The cell that is furthest beyond the tolerance, with |a - b|; none when all are within.
+    pub furthest: Option<Worst>,
+    /// Rows that only one of the two has.
+    pub unmatched: usize,
+    /// How the differences go along t; none for a table without t, or without differences.
+    pub course: Option<Course>,
 }
 
-/// Compares a committed sample with a fresh one; both hold every `step`-th row of a table.
+/// How far two values of a column may be apart; all three are added.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Tolerance {
+    /// In units of the column.
+    pub absolute: f64,
+    /// Times the larger of the two values.
+    pub relative: f64,
+    /// Times the largest absolute value of the committed column.
+    pub of_scale: f64,
+}
+
+/// By how much quarters must differ to be called growing or shrinking.
+const CLEARLY: f64 = 4.0;
+
+/// Compares a committed table (or every `step`-th row of one) with a fresh one. `tolerance` gives that of a column.
 ///
 /// # Errors
-/// The tables have other columns or another number of rows; both are named.
-pub fn compare(golden: &Table, fresh: &Table, step: usize) -> Result<Distance, String> {
-    if golden.columns != fresh.columns {
-        return Err(format!("columns {} in place of {}", fresh.columns.join(","), golden.columns.join(",")));
+/// The tables have other columns; both are named.
+pub fn compare(
+    committed: &Table,
+    fresh: &Table,
+    step: usize,
+    tolerance: &dyn Fn(&str) -> Tolerance,
+) -> Result<Distance, String> {
+    if committed.columns != fresh.columns {
+        return Err(format!("columns {} in place of {}", fresh.columns.join(","), committed.columns.join(",")));
     }
-    if golden.len() != fresh.len() {
-        return Err(format!("{} sampled rows in place of {}", fresh.len(), golden.len()));
-    }
-    let mut distance = Distance::default();
-    for (index, (expected, found)) in golden.rows().zip(fresh.rows()).enumerate() {
-        for (column, (&a, &b)) in expected.iter().zip(found).enumerate() {
-            if a.to_bits() != b.to_bits() {
-                let raise = |worst: &mut Worst, value: f64| {
-                    if value > worst.value {
-                        *worst = Worst { value, row: index * step, column: golden.columns[column].clone() };
-                    }
-                };
-                distance.cells += 1;
-                raise(&mut distance.absolute, (a - b).abs());
-                raise(&mut distance.relative, relative(a, b));
-                raise(&mut distance.ulp, ulps(a, b) as f64);
+    let (pairs, unmatched) = estimate::matched(committed, fresh);
+    let mut distance = Distance { unmatched, ..Distance::default() };
+    let mut excess = 0.0;
+    let allowed: Vec<(f64, f64)> = committed.columns.iter().map(|name| constant(committed, name, tolerance)).collect();
+    for (index, (expected, found)) in pairs.iter().enumerate() {
+        for (column, (&a, &b)) in expected.iter().zip(*found).enumerate() {
+            if a.to_bits() == b.to_bits() {
+                continue;
+            }
+            let worst = |value: f64| Worst {
+                value,
+                row: index * step,
+                column: committed.columns[column].clone(),
+                at: place(committed, expected),
+            };
+            let raise = |old: &mut Worst, value: f64| {
+                if value > old.value {
+                    *old = worst(value);
+                }
+            };
+            let apart = apart(a, b);
+            distance.cells += 1;
+            raise(&mut distance.absolute, apart);
+            raise(&mut distance.relative, relative(a, b));
+            raise(&mut distance.ulp, ulps(a, b) as f64);
+            let (constant, times) = allowed[column];
+            let limit = constant + times * larger(a, b);
+            // a word has no limit that means anything
+            let within = apart <= limit;
+            if !within {
+                let over = if limit.is_finite() { apart - limit } else { apart };
+                distance.beyond += 1;
+                if over > excess {
+                    excess = over;
+                    distance.furthest = Some(worst(apart));
+                }
             }
         }
     }
+    distance.course = course(committed, &pairs, &distance.absolute.column);
     Ok(distance)
+}
+
+/// The part of a column's tolerance that is the same for all rows, and the part relative to a value.
+fn constant(committed: &Table, column: &str, tolerance: &dyn Fn(&str) -> Tolerance) -> (f64, f64) {
+    let Tolerance { absolute, relative, of_scale } = tolerance(column);
+    let values = committed.column(column).unwrap_or_default();
+    let scale = values.iter().map(|value| value.abs()).max_by(f64::total_cmp).unwrap_or(0.0);
+    (absolute + of_scale * scale, relative)
+}
+
+/// The cells that name a row.
+fn place(table: &Table, row: &[f64]) -> String {
+    let named = table.columns.iter().zip(row).filter(|(name, _)| KEYS.contains(&name.as_str()));
+    named.map(|(name, value)| format!("{name} = {value}")).collect::<Vec<_>>().join(", ")
+}
+
+fn course(committed: &Table, pairs: &[(&[f64], &[f64])], column: &str) -> Option<Course> {
+    let index = |name: &str| committed.columns.iter().position(|other| other == name);
+    let (t, value) = (index("t")?, index(column)?);
+    let apart = |(a, b): &(&[f64], &[f64])| apart(a[value], b[value]);
+    let since = pairs.iter().find(|(a, b)| a[value].to_bits() != b[value].to_bits())?.0[t];
+    let quarter = pairs.len().div_ceil(4).max(1);
+    let mut quarters = [0.0; 4];
+    for (largest, rows) in quarters.iter_mut().zip(pairs.chunks(quarter)) {
+        *largest = rows.iter().map(apart).max_by(f64::total_cmp).unwrap_or(0.0);
+    }
+    let differing = pairs.iter().filter(|(a, b)| a[value].to_bits() != b[value].to_bits()).count();
+    let course = if differing == 1 { "in one row" } else { Course::word(&quarters) };
+    Some(Course { column: column.to_owned(), since, quarters, course })
+}
+
+impl Course {
+    /// `growing` when the last quarter has [`CLEARLY`] larger differences than the first, `shrinking` the other way
+    /// round, else `constant`.
+    pub fn word(quarters: &[f64; 4]) -> &'static str {
+        let [first, .., last] = *quarters;
+        match () {
+            () if last > CLEARLY * first => "growing",
+            () if first > CLEARLY * last => "shrinking",
+            () => "constant",
+        }
+    }
 }
 
 /// |a - b| / max(|a|, |b|); 0 when both are zero.
 pub fn relative(a: f64, b: f64) -> f64 {
-    let scale = if a.abs() > b.abs() { a.abs() } else { b.abs() };
-    if scale > 0.0 { (a - b).abs() / scale } else { 0.0 }
+    let scale = larger(a, b);
+    if scale > 0.0 { apart(a, b) / scale } else { 0.0 }
+}
+
+/// |a - b|; infinite when one of the two is no number (NaN stands for a word: see `judging::tables`).
+fn apart(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::INFINITY } else { (a - b).abs() }
+}
+
+fn larger(a: f64, b: f64) -> f64 {
+    if a.abs() > b.abs() { a.abs() } else { b.abs() }
 }
 
 /// The number of steps from one double to the next that lead from `a` to `b`; -0 and 0 are one step apart.
