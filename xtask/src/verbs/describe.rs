@@ -64,7 +64,8 @@ pub fn crate_versions(lock: &str) -> BTreeMap<String, String> {
     versions
 }
 
-fn processor() -> String {
+/// The model of the processor.
+pub fn processor() -> String {
     field("/proc/cpuinfo", "model name")
         .or_else(|| child::first_line("sysctl", &["-n", "machdep.cpu.brand_string"]))
         .unwrap_or_else(|| "unknown".to_owned())
@@ -74,11 +75,23 @@ fn memory() -> Option<u64> {
     field("/proc/meminfo", "MemTotal")?.split_whitespace().next()?.parse().ok()
 }
 
-fn system() -> String {
+/// The operating system and its version, without the kernel's.
+pub fn system_name() -> String {
     let text = disk::read_text(Path::new("/etc/os-release")).ok().flatten().unwrap_or_default();
     let name = text.lines().find_map(|line| line.strip_prefix("PRETTY_NAME=")).map(|name| name.trim_matches('"'));
+    name.unwrap_or(consts::OS).to_owned()
+}
+
+fn system() -> String {
     let kernel = child::first_line("uname", &["-sr"]).unwrap_or_default();
-    format!("{} {kernel}", name.unwrap_or(consts::OS)).trim_end().to_owned()
+    format!("{} {kernel}", system_name()).trim_end().to_owned()
+}
+
+/// The compiler's first line and its target.
+pub fn rustc_brief() -> String {
+    let all = rustc();
+    let target = all.split("; ").find_map(|part| part.strip_prefix("host: ")).unwrap_or("unknown target");
+    format!("{}, {target}", all.split("; ").next().unwrap_or("unknown"))
 }
 
 fn rustc() -> String {
@@ -87,14 +100,16 @@ fn rustc() -> String {
     text.lines().map(str::trim).collect::<Vec<_>>().join("; ")
 }
 
+/// Instructions on which a choice at run time depends, and whether the processor has them.
 #[cfg(target_arch = "x86_64")]
-fn features() -> BTreeMap<&'static str, bool> {
+pub fn features() -> BTreeMap<&'static str, bool> {
     let (avx2, fma) = (std::is_x86_feature_detected!("avx2"), std::is_x86_feature_detected!("fma"));
     [("avx2", avx2), ("fma", fma), ("avx512f", std::is_x86_feature_detected!("avx512f"))].into()
 }
 
+/// No choice depends on the processor here.
 #[cfg(not(target_arch = "x86_64"))]
-fn features() -> BTreeMap<&'static str, bool> {
+pub fn features() -> BTreeMap<&'static str, bool> {
     BTreeMap::new()
 }
 
