@@ -3,16 +3,21 @@
 use crate::disk;
 use crate::failure::Failure;
 use crate::lock;
+use crate::usage::Usage;
 use std::fs::File;
 use std::io::{BufRead, BufReader, ErrorKind, Read, Write};
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
-/// How often a waiting thread looks whether its program has ended.
+/// How long a waiting thread sleeps before it looks again whether its program has ended, at most.
 const PATIENCE: Duration = Duration::from_millis(3);
+/// And at least. Between the two, the part [`PART`] of the time so far, so that what the program used is known as well.
+const IMPATIENCE: Duration = Duration::from_micros(100);
+/// See [`IMPATIENCE`].
+const PART: u32 = 50;
 
 /// What a program says on stderr of the part of its work that is done, 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,11 +48,24 @@ impl Word {
 /// The program is missing (5), cannot be started (4), or ends badly: its own code when that is 2 or 5, else 4, with
 /// what it printed.
 pub fn run_logged(
-    mut command: Command,
+    command: Command,
     log: &Path,
     stop: &AtomicBool,
     heard: &(dyn Fn(Word) + Sync),
 ) -> Result<(), Failure> {
+    run_measured(command, log, stop, heard).map(|_| ())
+}
+
+/// As [`run_logged`]; tells what the program used.
+///
+/// # Errors
+/// As [`run_logged`].
+pub fn run_measured(
+    mut command: Command,
+    log: &Path,
+    stop: &AtomicBool,
+    heard: &(dyn Fn(Word) + Sync),
+) -> Result<Usage, Failure> {
     let name = command.get_program().to_string_lossy().into_owned();
     if let Some(folder) = log.parent() {
         disk::own_folder(folder)?;
@@ -58,12 +76,13 @@ pub fn run_logged(
     let child = command.stdin(lock::stdin()).stdout(file).stderr(Stdio::piped()).spawn();
     let mut child = child.map_err(|error| not_started(&name, &error))?;
     let words = child.stderr.take();
+    let mut usage = Usage::default();
     let status = thread::scope(|scope| {
         scope.spawn(|| words.map(|words| listen(words, twin, heard)));
-        wait(&mut child, stop).map_err(|error| Failure::Failed(format!("{name}: {error}")))
+        wait(&mut child, stop, &mut usage).map_err(|error| Failure::Failed(format!("{name}: {error}")))
     })?;
     if status.success() {
-        return Ok(());
+        return Ok(usage);
     }
     let bytes = std::fs::read(log).map_err(Failure::at(log))?;
     Err(ended_badly(&name, status, String::from_utf8_lossy(&bytes).trim_end()))
@@ -95,6 +114,18 @@ pub fn first_line(program: &str, arguments: &[&str]) -> Option<String> {
     output.status.success().then_some(text)
 }
 
+/// As [`first_line`], in another folder.
+pub fn first_line_in(folder: &Path, program: &str, arguments: &[&str]) -> Option<String> {
+    let bytes = output(Command::new(program).args(arguments).current_dir(folder))?;
+    String::from_utf8_lossy(&bytes).lines().next().map(|line| line.trim().to_owned())
+}
+
+/// What a program prints, or `None` when it cannot be run or ends badly.
+pub fn output(command: &mut Command) -> Option<Vec<u8>> {
+    let output = command.stdin(Stdio::null()).stderr(Stdio::null()).output().ok()?;
+    output.status.success().then_some(output.stdout)
+}
+
 /// Passes lines on to the log until the program closes its stderr.
 fn listen(words: impl Read, mut log: File, heard: &(dyn Fn(Word) + Sync)) {
     for line in BufReader::new(words).split(b'\n').map_while(Result::ok) {
@@ -108,15 +139,17 @@ fn listen(words: impl Read, mut log: File, heard: &(dyn Fn(Word) + Sync)) {
     }
 }
 
-fn wait(child: &mut Child, stop: &AtomicBool) -> std::io::Result<ExitStatus> {
+fn wait(child: &mut Child, stop: &AtomicBool, usage: &mut Usage) -> std::io::Result<ExitStatus> {
+    let start = Instant::now();
     loop {
+        usage.look(child.id());
         if let Some(status) = child.try_wait()? {
             return Ok(status);
         }
         if stop.load(Ordering::Relaxed) {
             child.kill()?;
         }
-        thread::sleep(PATIENCE);
+        thread::sleep((start.elapsed() / PART).clamp(IMPATIENCE, PATIENCE));
     }
 }
 

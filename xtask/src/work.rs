@@ -11,6 +11,7 @@ use crate::pool::{self, Job, Outcome};
 use crate::progress::Board;
 use crate::record::Survey;
 use crate::store;
+use crate::usage::Usage;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -27,6 +28,10 @@ pub struct Made {
     pub resumed: bool,
     /// For a figure, the hashes of its outputs.
     pub outputs: Hashes,
+    /// What its program used.
+    pub usage: Usage,
+    /// Bytes that it left on the disk.
+    pub bytes: u64,
 }
 
 /// Carries out the nodes on at most `threads` at a time; `made` is called for each that ends well, as it ends. Failures
@@ -49,9 +54,9 @@ pub fn carry_out(
         let start = Instant::now();
         let node = &nodes[index];
         board.start(&node.name);
-        let outputs = perform(paths, surveys, node, stop, &|word| board.hear(&node.name, word));
+        let made = perform(paths, surveys, node, stop, &|word| board.hear(&node.name, word));
         let resumed = board.end(&node.name);
-        Ok(Made { seconds: start.elapsed().as_secs_f64(), resumed, outputs: outputs? })
+        Ok(Made { seconds: start.elapsed().as_secs_f64(), resumed, ..made? })
     };
     let (mut count, mut trouble) = (0, Ok(()));
     let mut ended = |index: usize, outcome: &Outcome<Made>| {
@@ -82,7 +87,7 @@ fn perform(
     node: &Node,
     stop: &AtomicBool,
     heard: &(dyn Fn(Word) + Sync),
-) -> Result<Hashes, Failure> {
+) -> Result<Made, Failure> {
     let log = paths.log(&node.name);
     match &node.step {
         Step::Simulate { scene, panel, key, check } => {
@@ -92,9 +97,10 @@ fn perform(
             command.arg("--out").arg(&fresh);
             disk::remove(&fresh)?;
             let stored = disk::create_folder(&fresh)
-                .and_then(|()| child::run_logged(command, &log, stop, heard))
-                .and_then(|()| store::adopt(&fresh, &store::folder(paths, key)));
-            stored.map(|()| Hashes::new()).inspect_err(|_| discard(&fresh))
+                .and_then(|()| child::run_measured(command, &log, stop, heard))
+                .and_then(|usage| store::adopt(&fresh, &store::folder(paths, key)).map(|()| usage));
+            let usage = stored.inspect_err(|_| discard(&fresh))?;
+            Ok(Made { usage, bytes: bytes(&disk::walk(&store::folder(paths, key), &|_| true)?), ..Made::default() })
         }
         Step::Draw { figure } => {
             let fresh = paths.output(&paths.fresh_tables(&surveys[*figure].figure.id));
@@ -124,7 +130,7 @@ fn simulate(paths: &Paths, scene: &str, panel: &str, check: bool) -> Command {
 
 /// The tables are written into a folder of their own that then takes the place of the old one: no table of an earlier
 /// run stays behind.
-fn draw(paths: &Paths, survey: &Survey<'_>, fresh: &Path, log: &Path, stop: &AtomicBool) -> Result<Hashes, Failure> {
+fn draw(paths: &Paths, survey: &Survey<'_>, fresh: &Path, log: &Path, stop: &AtomicBool) -> Result<Made, Failure> {
     let figure = survey.figure;
     let report = paths.report(&figure.id);
     let pictures = match paths.scheme {
@@ -147,8 +153,15 @@ fn draw(paths: &Paths, survey: &Survey<'_>, fresh: &Path, log: &Path, stop: &Ato
         run.push(store::folder(paths, key));
         command.arg("--run").arg(run);
     }
-    child::run_logged(command, log, stop, &|_| {})?;
-    put_in_place(paths, survey, fresh)
+    let usage = child::run_measured(command, log, stop, &|_| {})?;
+    let outputs = put_in_place(paths, survey, fresh)?;
+    let files: Vec<PathBuf> = outputs.keys().map(|name| paths.output(name)).collect();
+    Ok(Made { usage, bytes: bytes(&files), outputs, ..Made::default() })
+}
+
+/// Bytes of files; one that is gone counts nothing.
+fn bytes(files: &[PathBuf]) -> u64 {
+    files.iter().filter_map(|file| file.metadata().ok()).map(|data| data.len()).sum()
 }
 
 fn put_in_place(paths: &Paths, survey: &Survey<'_>, fresh: &Path) -> Result<Hashes, Failure> {

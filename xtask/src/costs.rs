@@ -1,0 +1,133 @@
+//! What each program of a verification costs: `data/costs.csv`, measured by `verify --costs`, one program at a time.
+
+use crate::disk;
+use crate::failure::Failure;
+use crate::figure::Figure;
+use crate::paths::{COSTS, Paths};
+use crate::plan::{self, Node, Wish};
+use crate::record::Survey;
+use crate::verbs::figures::{Times, forecast};
+use crate::work::Made;
+use std::collections::BTreeMap;
+
+/// The header.
+const HEADER: &str = "node,cpu_seconds,peak_mib,kib_written";
+
+/// What one program costs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Cost {
+    /// Seconds on a processor.
+    pub cpu: f64,
+    /// Largest resident memory in MiB.
+    pub memory: f64,
+    /// What it leaves on the disk, in KiB.
+    pub disk: f64,
+}
+
+/// Costs by the name of the node.
+pub type Costs = BTreeMap<String, Cost>;
+
+impl Cost {
+    /// Of a program that has ended; nothing where the machine does not tell.
+    pub fn of(made: &Made) -> Option<Cost> {
+        let memory = made.usage.memory? as f64 / 1_048_576.0;
+        Some(Cost { cpu: made.usage.cpu?, memory, disk: made.bytes as f64 / 1024.0 })
+    }
+}
+
+/// The committed costs; none when there is no file.
+///
+/// # Errors
+/// Usage: it is malformed, with the line.
+pub fn read(paths: &Paths) -> Result<Costs, Failure> {
+    let text = disk::read_text(&paths.root.join(COSTS))?.unwrap_or_default();
+    let mut costs = Costs::new();
+    for (index, line) in text.lines().enumerate() {
+        let fail = || Failure::Usage(format!("{COSTS}:{}: expected {HEADER}, found {line:?}", index + 1));
+        if index == 0 {
+            if line == HEADER { continue } else { return Err(fail()) }
+        }
+        let cells: Vec<&str> = line.split(',').collect();
+        let [node, cpu, memory, disk] = cells[..] else { return Err(fail()) };
+        let number = |cell: &str| cell.parse::<f64>().map_err(|_| fail());
+        let cost = Cost { cpu: number(cpu)?, memory: number(memory)?, disk: number(disk)? };
+        costs.insert(node.to_owned(), cost);
+    }
+    Ok(costs)
+}
+
+/// Writes the costs in place of those of the same nodes.
+///
+/// # Errors
+/// The file cannot be read or written.
+pub fn write(paths: &Paths, measured: &Costs) -> Result<(), Failure> {
+    let mut costs = read(paths)?;
+    costs.extend(measured.iter().map(|(node, cost)| (node.clone(), *cost)));
+    let line =
+        |(node, Cost { cpu, memory, disk }): (&String, &Cost)| format!("{node},{cpu:.3},{memory:.1},{disk:.0}\n");
+    let text = format!("{HEADER}\n{}", costs.iter().map(line).collect::<String>());
+    disk::write_if_changed(&paths.root.join(COSTS), text.as_bytes())
+}
+
+/// Figures that fit into a time, and those that do not, each with the seconds that it takes alone.
+#[derive(Clone, Debug, Default)]
+pub struct Choice<'a> {
+    /// In the order of the figures.
+    pub fits: Vec<&'a Figure>,
+    /// In the order of the figures.
+    pub left_out: Vec<(&'a Figure, f64)>,
+    /// Seconds that all that fit take together.
+    pub seconds: f64,
+}
+
+/// The figures that fit into `budget` seconds on so many threads, the cheapest first: by the seconds of the last runs
+/// here, where there are none by the committed ones. A program of which neither is known does not fit.
+///
+/// # Errors
+/// A stored run cannot be read.
+pub fn choose<'a>(
+    scratch: &Paths,
+    surveys: &[Survey<'a>],
+    (times, costs): (&Times, &Costs),
+    threads: usize,
+    budget: f64,
+) -> Result<Choice<'a>, Failure> {
+    let last = |node: &Node| times.get(&node.name).copied().or_else(|| costs.get(&node.name).map(|cost| cost.cpu));
+    let seconds = |chosen: &[bool]| {
+        let wishes: Vec<Wish> = chosen.iter().map(|&draw| Wish { draw, measure: false }).collect();
+        let nodes = plan::make(scratch, surveys, &wishes, true)?;
+        let forecast = forecast(&nodes, threads, &last);
+        Ok(if forecast.unknown > 0 { f64::INFINITY } else { forecast.seconds })
+    };
+    let only = |index: usize| (0..surveys.len()).map(|other| other == index).collect::<Vec<bool>>();
+    let alone = (0..surveys.len()).map(|index| seconds(&only(index))).collect::<Result<Vec<f64>, Failure>>()?;
+    let mut order: Vec<usize> = (0..surveys.len()).collect();
+    order.sort_by(|&one, &other| alone[one].total_cmp(&alone[other]));
+    let (mut chosen, mut taken) = (vec![false; surveys.len()], 0.0);
+    for index in order {
+        let mut more = chosen.clone();
+        more[index] = true;
+        let needed = seconds(&more)?;
+        if needed <= budget {
+            (chosen, taken) = (more, needed);
+        }
+    }
+    let figures = || surveys.iter().map(|survey| survey.figure).zip(&chosen);
+    Ok(Choice {
+        fits: figures().filter(|(_, chosen)| **chosen).map(|(figure, _)| figure).collect(),
+        left_out: figures().zip(alone).filter(|((_, fits), _)| !**fits).map(|((figure, _), s)| (figure, s)).collect(),
+        seconds: taken,
+    })
+}
+
+/// The costs of each figure: its programs one after the other. A run that several figures share is counted at the first.
+pub fn of_figures<'a>(all: &'a [Figure], costs: &Costs) -> Vec<(&'a Figure, Cost)> {
+    let mine = |figure: &Figure, node: &str| node == figure.slug || node.starts_with(&format!("{} ", figure.id));
+    let sum = |figure: &'a Figure| {
+        let nodes: Vec<&Cost> = costs.iter().filter(|(node, _)| mine(figure, node)).map(|(_, cost)| cost).collect();
+        let memory = nodes.iter().map(|cost| cost.memory).max_by(f64::total_cmp)?;
+        let (cpu, disk) = (nodes.iter().map(|cost| cost.cpu).sum(), nodes.iter().map(|cost| cost.disk).sum());
+        Some((figure, Cost { cpu, memory, disk }))
+    };
+    all.iter().filter_map(sum).collect()
+}
