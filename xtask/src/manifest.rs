@@ -7,8 +7,10 @@ use crate::failure::Failure;
 use crate::figure::Figure;
 use crate::hashing;
 use crate::outputs;
-use crate::paths::{LOCK_FILE, Paths};
+use crate::paths::Paths;
+use crate::pins::{CRATE, RUSTC};
 use crate::record::Survey;
+use crate::sources::KEY;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -33,7 +35,7 @@ pub struct Entry {
     pub binary: String,
     /// Hash of the sources of that program.
     pub sources: String,
-    /// Hash of the lock file of the dependencies.
+    /// Hash of what the lock file says of the crates that the program is built from.
     pub lock: String,
     /// Hash of the scene file.
     pub scene: String,
@@ -146,11 +148,14 @@ fn common(survey: &Survey<'_>) -> Entry {
     let scene = Paths::scene(&survey.figure.slug);
     let hash = |name: &str| survey.inputs.get(name).cloned().unwrap_or_default();
     let mut sources = survey.inputs.clone();
-    sources.retain(|name, _| name != LOCK_FILE && *name != scene && !name.starts_with("run "));
+    let mut crates = sources.clone();
+    let apart = ["run ", KEY, CRATE];
+    sources.retain(|name, _| name != RUSTC && *name != scene && !apart.iter().any(|start| name.starts_with(start)));
+    crates.retain(|name, _| name.starts_with(CRATE));
     Entry {
         binary: survey.figure.slug.clone(),
         sources: hashing::digest(&sources),
-        lock: hash(LOCK_FILE),
+        lock: hashing::digest(&crates),
         scene: hash(&scene),
         ..Entry::default()
     }

@@ -6,8 +6,9 @@ use crate::figure::Figure;
 use crate::hashing;
 use crate::manifest::Measured;
 use crate::outputs::{self, Hashes};
-use crate::paths::{LOCK_FILE, Paths, Scheme};
-use crate::sources::{Inputs, Sources};
+use crate::paths::{Paths, Scheme};
+use crate::pins::{CRATE, RUSTC};
+use crate::sources::{Inputs, KEY, Sources};
 use crate::store;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -156,17 +157,35 @@ pub fn reasons(record: Option<&Record>, inputs: &Inputs, outputs: &Hashes) -> Ve
     };
     let made_from = changes(&record.inputs, inputs, ["changed", "is gone", "is new"]);
     let made = changes(&record.outputs, outputs, ["was edited", "is missing", "was not made by the figure"]);
+    let told = |(name, what): (&str, &str)| {
+        let name_told = name.strip_prefix(KEY).or_else(|| name.strip_prefix(CRATE)).unwrap_or(name);
+        format!("{} {name_told} {what}{}", kind(name), values(name, &record.inputs, inputs))
+    };
     made_from
         .into_iter()
-        .map(|(name, what)| format!("{} {name} {what}", kind(name)))
+        .map(told)
         .chain(made.into_iter().map(|(name, what)| format!("output {name} {what}")))
         .collect()
+}
+
+/// Old and new value of an input that stands for itself; nothing for one that stands as a hash.
+fn values(name: &str, old: &Inputs, new: &Inputs) -> String {
+    if name != RUSTC && !name.starts_with(CRATE) && !name.starts_with(KEY) {
+        return String::new();
+    }
+    match (old.get(name), new.get(name)) {
+        (Some(old), Some(new)) => format!(": {old} -> {new}"),
+        (Some(value), None) | (None, Some(value)) => format!(": {value}"),
+        (None, None) => String::new(),
+    }
 }
 
 /// What kind of input a name stands for.
 pub fn kind(name: &str) -> &'static str {
     match name {
-        LOCK_FILE => "lock file",
+        RUSTC => "toolchain",
+        _ if name.starts_with(CRATE) => "crate",
+        _ if name.starts_with(KEY) => "scene key",
         _ if name.starts_with("run ") => "key of",
         _ if name.ends_with("scene.toml") => "scene",
         _ if name.starts_with("data/") => "reference",

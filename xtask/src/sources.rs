@@ -7,16 +7,25 @@ use crate::hashing;
 use crate::paths::{
     LOCK_FILE, NO_SOURCES, NUMERIC_SOURCES, Paths, SHARED_SOURCES, SINGLE_SOURCES, SOURCE_FOLDERS, SUPPLEMENT_SOURCES,
 };
+use crate::pins;
 use std::collections::BTreeMap;
 
-/// Named hashes: a file's name relative to the root, or `run PANEL` with the key of a run.
+/// Named hashes: of a file by its name relative to the root, or `run PANEL` with the key of a run. Where a change is to
+/// be told with both values, these stand in place of a hash: `rustc`, `crate NAME`, `key PANEL.TABLE.KEY` of the scene.
 pub type Inputs = BTreeMap<String, String>;
 
-/// The hash of every source of the checkout.
+/// How the names of a scene's keys begin among inputs.
+pub const KEY: &str = "key ";
+
+/// The hash of every source of the checkout, and what a build takes from outside.
 #[derive(Clone, Debug, Default)]
 pub struct Sources {
     /// By name relative to the root, with `/`.
     pub files: Inputs,
+    /// The compiler and the crates that figures are built from ([`pins`]).
+    pub pins: Inputs,
+    /// The keys of each figure's scene with their values, by the figure's slug.
+    pub keys: BTreeMap<String, Inputs>,
 }
 
 impl Sources {
@@ -38,7 +47,8 @@ impl Sources {
         found.retain(|path| is_source(&name(path)));
         let hashes = hashing::hash_all(&found)?;
         let named = found.iter().zip(hashes).filter_map(|(path, hash)| Some((name(path), hash?)));
-        Ok(Sources { files: named.collect() })
+        let files: Inputs = named.collect();
+        Ok(Sources { keys: keys(paths, &files)?, files, pins: pins::read(paths)? })
     }
 
     /// What the binaries are built from.
@@ -48,7 +58,9 @@ impl Sources {
 
     /// What determines the numbers of a run besides its scene.
     pub fn numeric(&self) -> String {
-        hashing::digest(&self.below(&[&NUMERIC_SOURCES[..], &SINGLE_SOURCES].concat()))
+        let mut inputs = self.below(&[&NUMERIC_SOURCES[..], &SINGLE_SOURCES].concat());
+        inputs.extend(self.pins.clone());
+        hashing::digest(&inputs)
     }
 
     /// What a figure is made from: shared sources, its own folder, and its runs by panel and key.
@@ -57,18 +69,44 @@ impl Sources {
         let supplement = if figure.is_supplement() { &SUPPLEMENT_SOURCES[..] } else { &[] };
         let starts = [&SHARED_SOURCES[..], &SINGLE_SOURCES, supplement, &[folder.as_str()]].concat();
         let mut inputs = self.below(&starts);
+        inputs.extend(self.pins.clone());
+        inputs.extend(self.keys.get(&figure.slug).cloned().unwrap_or_default());
         inputs.extend(runs.iter().map(|(panel, key)| (format!("run {panel}"), key.clone())));
         inputs
     }
 
-    /// The hash of the lock file; empty when there is none.
-    pub fn lock(&self) -> &str {
-        self.files.get(LOCK_FILE).map_or("", String::as_str)
-    }
-
     fn below(&self, starts: &[&str]) -> Inputs {
-        let belongs = |name: &str| starts.iter().any(|start| name.starts_with(start));
+        // the lock file is read by crates
+        let belongs = |name: &str| name != LOCK_FILE && starts.iter().any(|start| name.starts_with(start));
         self.files.iter().filter(|(name, _)| belongs(name)).map(|(name, hash)| (name.clone(), hash.clone())).collect()
+    }
+}
+
+/// The keys of every scene among the files. One that cannot be parsed has none: its figure says what is wrong with it.
+fn keys(paths: &Paths, files: &Inputs) -> Result<BTreeMap<String, Inputs>, Failure> {
+    let mut keys = BTreeMap::new();
+    for name in files.keys() {
+        let Some(slug) = name.strip_prefix("figures/").and_then(|rest| rest.strip_suffix("/scene.toml")) else {
+            continue;
+        };
+        let text = disk::read_text(&paths.root.join(name))?.unwrap_or_default();
+        let mut flat = Inputs::new();
+        flatten(&mut flat, "", &text.parse().unwrap_or_default());
+        keys.insert(slug.to_owned(), flat);
+    }
+    Ok(keys)
+}
+
+/// Each value of a table under the names that lead to it.
+fn flatten(flat: &mut Inputs, path: &str, table: &toml::Table) {
+    for (name, value) in table {
+        let path = if path.is_empty() { name.clone() } else { format!("{path}.{name}") };
+        match value {
+            toml::Value::Table(inner) => flatten(flat, &path, inner),
+            other => {
+                flat.insert(format!("{KEY}{path}"), other.to_string());
+            }
+        }
     }
 }
 
