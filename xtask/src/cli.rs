@@ -22,7 +22,7 @@ pub struct Cli {
 pub enum Verb {
     /// Write tables and pictures, hash them, compare with the committed sums
     Figures(FiguresArgs),
-    /// Recompute into a scratch folder and judge against the committed reference: bytes and numbers
+    /// Recompute into a scratch folder and judge against the committed reference: bytes, numbers, pixels, claims
     Verify(VerifyArgs),
     /// Say what is stale and why, without running anything
     Status(StatusArgs),
@@ -123,6 +123,21 @@ pub struct VerifyArgs {
     /// How work is spread.
     #[command(flatten)]
     pub effort: Effort,
+    /// End with code 0 when all that differs is within the tolerances of data/tolerances.toml
+    #[arg(long)]
+    pub tolerant: bool,
+    /// Only what fits into this time by the seconds of earlier runs, compilation not counted: 60s, 2m
+    #[arg(long, value_name = "TIME", value_parser = seconds)]
+    pub budget: Option<f64>,
+    /// Write a page that shows what differs
+    #[arg(long, value_name = "FILE.html")]
+    pub report: Option<PathBuf>,
+    /// Append machine, toolchain and sums to data/attestations.jsonl, if they are not there yet
+    #[arg(long, conflicts_with_all = ["ids", "budget"])]
+    pub attest: bool,
+    /// Measure seconds, memory and disk of each program, one at a time, and write data/costs.csv
+    #[arg(long, conflicts_with_all = ["jobs", "budget"])]
+    pub costs: bool,
     /// Print JSON
     #[arg(long)]
     pub json: bool,
@@ -158,6 +173,9 @@ pub struct ListArgs {
     /// Which figures.
     #[command(flatten)]
     pub selection: Selection,
+    /// Seconds, memory and disk of each figure as measured by verify --costs, as a table in Markdown
+    #[arg(long)]
+    pub costs: bool,
     /// The claims with their verdicts in place of the figures
     #[arg(long, conflicts_with_all = ["ids", "all"])]
     pub claims: bool,
@@ -228,6 +246,15 @@ pub struct BundleArgs {
     /// Unpack it, validate its descriptions, and run the README's commands in it without a network
     #[arg(long)]
     pub check: bool,
+}
+
+/// `90`, `90s`, `2m` or `1h` as seconds.
+fn seconds(text: &str) -> Result<f64, String> {
+    let unit = |end: char, seconds: f64| Some((text.strip_suffix(end)?, seconds));
+    let (number, unit) =
+        unit('s', 1.0).or_else(|| unit('m', 60.0)).or_else(|| unit('h', 3600.0)).unwrap_or((text, 1.0));
+    let number: Option<f64> = number.parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0);
+    number.map(|number| number * unit).ok_or_else(|| format!("{text}: must be a time such as 60s or 2m"))
 }
 
 /// `5%` or `5` as 0.05.

@@ -3,12 +3,14 @@
 //! It links no physics. `verbs` holds one file for each verb of the command line; the modules beside it are what the
 //! verbs share. Data flows `figure -> sources -> freshness -> plan -> pool -> outputs -> sums, manifest`.
 
+pub mod attest;
 pub mod benchmarks;
 pub mod browser;
 pub mod bundle;
 pub mod child;
 pub mod cli;
 pub mod compile;
+pub mod costs;
 pub mod disk;
 pub mod distance;
 pub mod estimate;
@@ -18,6 +20,7 @@ pub mod figure;
 pub mod gate;
 pub mod golden;
 pub mod hashing;
+pub mod judging;
 pub mod ledger;
 pub mod literals;
 pub mod lock;
@@ -28,6 +31,7 @@ pub mod page;
 pub mod pairs;
 pub mod paths;
 pub mod pedpy;
+pub mod pins;
 pub mod plan;
 pub mod pool;
 pub mod precision;
@@ -41,5 +45,6 @@ pub mod sources;
 pub mod store;
 pub mod sums;
 pub mod typeset;
+pub mod usage;
 pub mod verbs;
 pub mod work;

@@ -52,8 +52,8 @@ pub const SUPPLEMENT_SOURCES: [&str; 2] = ["data/accuracy/", "data/timing/"];
 pub const SOURCE_FOLDERS: [&str; 5] = ["crates", "figures", "data/accuracy", "data/reference", "data/timing"];
 /// Below the folders searched, what reaches no figure: the page for browsers, files for other programs, solutions to
 /// compare with, archived benchmarks.
-pub const NO_SOURCES: [&str; 5] =
-    ["crates/browser/", "crates/interchange/", "crates/reference/", "data/reference/solutions/", "data/timing/bench/"];
+pub const NO_SOURCES: [&str; 4] =
+    ["crates/browser/", "crates/interchange/", "data/reference/solutions/", "data/timing/bench/"];
 /// How to get the fonts back.
 pub const FONTS_REMEDY: &str = "part of the checkout: git restore crates/plot/fonts";
 /// The fonts that the pictures embed, each with its SHA-256: a damaged one would be compiled in, and every picture would fail or differ.
@@ -93,6 +93,12 @@ pub const PDF_CHECK: &str = "checks/pdf.py";
 pub const PDF_CHECK_PIN: &str = "checks/requirements-pdf.txt";
 /// The events of all runs, by name.
 pub const EVENTS: &str = "data/events.csv";
+/// How far numbers may be from the committed ones on a machine whose bits differ, by name.
+pub const TOLERANCES: &str = "data/tolerances.toml";
+/// What each program costs, by name.
+pub const COSTS: &str = "data/costs.csv";
+/// Who got which bits, by name.
+pub const ATTESTATIONS: &str = "data/attestations.jsonl";
 /// What the ledger is written by hand from: claims, errata, parameters.
 pub const LEDGER_SOURCES: [&str; 3] = ["paper/claims.toml", "paper/errata.toml", "paper/parameters.toml"];
 /// What is found of each entry of the ledger, by name.
@@ -171,6 +177,11 @@ impl Paths {
     /// The same checkout with every output, the store and the reports in a folder of their own below target.
     pub fn scratch(&self) -> Paths {
         Paths { base: self.target.join(format!("{SCRATCH}{}", std::process::id())), ..self.clone() }
+    }
+
+    /// Where pictures of differences go.
+    pub fn differences(&self) -> PathBuf {
+        self.xtask().join("differences")
     }
 
     /// Whether a name in the target folder is that of a scratch folder.
@@ -296,6 +307,17 @@ impl Paths {
     /// The committed samples of a figure's tables, by name.
     pub fn golden(id: &str) -> String {
         format!("data/golden/{id}")
+    }
+
+    /// The hashes of the state of a run, by name.
+    pub fn states(scene: &str) -> String {
+        format!("data/states/{scene}.csv")
+    }
+
+    /// Where a run is made once more with its trajectories.
+    pub fn states_scratch(&self) -> PathBuf {
+        let folder = if self.base == self.root { self.xtask() } else { self.base.clone() };
+        folder.join("states")
     }
 
     /// What is known of each output.
@@ -468,9 +490,12 @@ impl Paths {
         let data = [
             "data/SHA256SUMS",
             "data/golden/",
+            "data/states/",
             "data/paper-scheme/",
             "data/manifest.json",
             EVENTS,
+            COSTS,
+            ATTESTATIONS,
             LEDGER,
             NUMBERS_JSON,
             NUMBERS_TEX,

@@ -1,12 +1,13 @@
 //! `bless`: accepts new sums and samples after showing what changes, and which claims get another verdict.
 
 use super::summary::Committed;
-use super::verify::describe;
 use crate::cli::BlessArgs;
 use crate::disk;
 use crate::failure::Failure;
 use crate::figure;
 use crate::golden;
+use crate::judging::reference::Reference;
+use crate::judging::{self, states, words};
 use crate::ledger;
 use crate::lock::Lock;
 use crate::outputs;
@@ -38,12 +39,13 @@ pub fn run(paths: &Paths, arguments: &BlessArgs) -> Result<(), Failure> {
     selected.retain(|figure| paths.scheme == Scheme::Adaptive || figure.runs().next().is_some());
     let _lock = Lock::take(paths)?;
     refuse_modified(paths)?;
-    let surveys = record::survey(paths, &selected, &Sources::read(paths)?, &Records::read(paths)?)?;
+    let sources = Sources::read(paths)?;
+    let surveys = record::survey(paths, &selected, &sources, &Records::read(paths)?)?;
     refuse_stale(&surveys)?;
-    let committed = Committed::read(paths)?;
+    let reference = Reference::of_last_commit(paths, &all, &sources)?;
     let mut moved = Vec::new();
     for survey in &surveys {
-        let change = change(paths, survey, &committed)?;
+        let change = change(paths, survey, &reference)?;
         print::out(&change.lines.concat())?;
         if change.numbers_moved {
             moved.push(survey.figure.id.as_str());
@@ -63,13 +65,13 @@ pub fn run(paths: &Paths, arguments: &BlessArgs) -> Result<(), Failure> {
     // a list without figures that no longer exist, when all of them were asked for
     let whole = arguments.selection.ids.is_empty();
     for supplement in [false, true] {
-        write_sums(paths, &surveys, &committed, supplement, whole)?;
+        write_sums(paths, &surveys, &reference.sums, supplement, whole)?;
     }
     print::out(&format!("{} figures accepted\n", surveys.len()))?;
     if paths.scheme == Scheme::Paper {
         return Ok(());
     }
-    surveys.iter().try_for_each(|survey| write_samples(paths, survey))?;
+    surveys.iter().try_for_each(|survey| write_samples(paths, survey, &reference))?;
     if ledger::is_complete(paths)? {
         ledger::write(paths)?;
     }
@@ -119,24 +121,22 @@ fn note_no_repository() -> Result<(), Failure> {
     Ok(())
 }
 
-fn change(paths: &Paths, survey: &Survey<'_>, committed: &Committed) -> Result<Change, Failure> {
-    let mut lines = Vec::new();
-    let mut numbers_moved = false;
-    for (name, state) in committed.judge(paths, survey).into_iter().filter(|(_, state)| *state != State::Same) {
-        lines.push(format!("{}: {name}\n", state.word()));
-        numbers_moved |= name.ends_with(".csv") && state != State::New;
+fn change(paths: &Paths, survey: &Survey<'_>, reference: &Reference) -> Result<Change, Failure> {
+    if paths.scheme == Scheme::Paper {
+        let states = reference.sums.judge(paths, survey);
+        let changed: Vec<_> = states.into_iter().filter(|(_, state)| *state != State::Same).collect();
+        let lines = changed.iter().map(|(name, state)| format!("{}: {name}\n", state.word())).collect();
+        let moved = |(name, state): &(String, State)| name.ends_with(".csv") && *state != State::New;
+        return Ok(Change { lines, numbers_moved: changed.iter().any(moved) });
     }
-    if paths.scheme == Scheme::Adaptive {
-        for (table, distance) in golden::judge(paths, paths, survey.figure)? {
-            let Ok(distance) = distance.as_ref().map_err(|problem| lines.push(format!("  {table}: {problem}\n")))
-            else {
-                continue;
-            };
-            if distance.cells > 0 {
-                lines.push(format!("  {table}: {}\n", describe(distance)));
-                numbers_moved = true;
-            }
-        }
+    let judgement = judging::judge(paths, paths, survey, reference, Some(&paths.differences()))?;
+    let moved = |(name, state): (&String, &State)| name.ends_with(".csv") && !matches!(state, State::Same | State::New);
+    let numbers_moved = judgement.files.iter().any(moved)
+        || judgement.tables.values().flatten().any(|one| !one.is_same())
+        || !judgement.events.is_empty();
+    let mut lines: Vec<String> = words::details(&judgement).into_iter().map(|line| format!("{line}\n")).collect();
+    if !lines.is_empty() {
+        lines.insert(0, format!("{}: {}\n", judgement.id, judgement.verdict().meaning()));
     }
     Ok(Change { lines, numbers_moved })
 }
@@ -162,7 +162,8 @@ fn write_sums(
     disk::write_if_changed(&path, Sums { by_name }.to_text().as_bytes())
 }
 
-fn write_samples(paths: &Paths, survey: &Survey<'_>) -> Result<(), Failure> {
+/// Samples of the tables, and hashes of the states of the runs.
+fn write_samples(paths: &Paths, survey: &Survey<'_>, reference: &Reference) -> Result<(), Failure> {
     let folder = paths.root.join(Paths::golden(&survey.figure.id));
     let samples = golden::samples(paths, survey.figure)?;
     for name in disk::names(&folder)?.iter().filter(|name| !samples.contains_key(*name)) {
@@ -170,6 +171,10 @@ fn write_samples(paths: &Paths, survey: &Survey<'_>) -> Result<(), Failure> {
     }
     for (name, text) in &samples {
         disk::write_if_changed(&folder.join(name), text.as_bytes())?;
+    }
+    for (scene, panel, key) in states::own_runs(survey, &reference.scenes) {
+        let text = states::to_csv(&states::of_run(paths, survey, panel, key)?);
+        disk::write_if_changed(&paths.root.join(Paths::states(scene)), text.as_bytes())?;
     }
     Ok(())
 }
