@@ -3,7 +3,8 @@
 //!
 //! A scene whose title begins with `exit N` makes its figure end with that code. In the current folder, `full` names
 //! programs that end with code 4 after half their work (`killed`: a run that leaves its checkpoint), `report.json` is
-//! what figures without runs report.
+//! what figures without runs report, `spoil` holds lines `PROGRAM WHAT ROW` of what a program gets wrong (see [`spoilt`]),
+//! `slow` makes every program last long enough to be measured.
 
 use std::env;
 use std::fs;
@@ -15,6 +16,9 @@ fn main() -> io::Result<()> {
     let arguments: Vec<String> = env::args().collect();
     let name = Path::new(&arguments[0]).file_stem().unwrap_or_default().to_string_lossy().into_owned();
     note(&name, &arguments)?;
+    if Path::new("slow").exists() {
+        std::thread::sleep(std::time::Duration::from_millis(40));
+    }
     match name.as_str() {
         "cargo" if arguments.get(1).is_some_and(|verb| verb == "vendor") => vendor(&arguments),
         "cargo" => cargo(),
@@ -116,10 +120,23 @@ fn simulate(arguments: &[String]) -> io::Result<()> {
         fill_disk("killed", &checkpoint)?;
     }
     fs::write(out.join("std.csv"), format!("t,std\n{}", rows.concat()))?;
-    fs::write(out.join("events.csv"), format!("event,t,n\noverlap,{:?},7\n", 12.5 + shift))?;
+    fs::write(out.join("trajectories.csv"), trajectories(shift))?;
+    let t: f64 = 12.5 + shift;
+    let t = if spoilt("simulate", "event").is_some() { t.next_up() } else { t };
+    fs::write(out.join("events.csv"), format!("event,t,n\noverlap,{t:?},7\n"))?;
     let tolerance = if shift > 0.0 { 1e-13 } else { 1e-11 };
     let summary = format!("\"method\": \"dop853\", \"control\": {{\"tolerance\": {tolerance:?}}}, \"steps\": 10");
     fs::write(out.join("summary.json"), format!("{{{summary}, \"length\": 200.0, \"seconds\": 0.1}}"))
+}
+
+/// Three pedestrians at 120 samples; `spoil` may ask that the second is wrong from a time on, and the third ten later.
+fn trajectories(shift: f64) -> String {
+    let from = spoilt("simulate", "state").unwrap_or(usize::MAX);
+    let moved = |t: usize, n: usize| n > 0 && t >= from.saturating_add(10 * (n - 1));
+    let value = |t: usize, n: usize| (t + n) as f64 + shift + if moved(t, n) { 1e-12 } else { 0.0 };
+    let row = |t: usize, n: usize| format!("{t},{n},{:?},1\n", value(t, n));
+    let rows = (0..120).flat_map(|t| (0..3).map(move |n| (t, n))).map(|(t, n)| row(t, n));
+    format!("t,n,x,v\n{}", rows.collect::<String>())
 }
 
 /// Copies the curve of each run (or makes a table from the scene's title) and writes two pictures.
@@ -145,6 +162,60 @@ fn figure(name: &str, arguments: &[String]) -> io::Result<()> {
         fs::write(value(arguments, "--report").unwrap_or_default(), report)?;
     }
     let id = name.split('-').next().unwrap_or("");
-    fs::write(pictures.join(format!("{id}.png")), format!("picture {count}"))?;
-    fs::write(pictures.join(format!("{id}.svg")), format!("<svg>{count}</svg>"))
+    spoil_tables(id, &tables)?;
+    fs::write(pictures.join(format!("{id}.png")), picture(count as u8, spoilt(id, "colours").is_some()))?;
+    let text = if spoilt(id, "svg").is_some() { "other" } else { "curve" };
+    fs::write(pictures.join(format!("{id}.svg")), format!("<svg>{text} {count}</svg>"))
+}
+
+/// The row for which the file `spoil` asks a program to get something wrong.
+fn spoilt(program: &str, what: &str) -> Option<usize> {
+    let text = fs::read_to_string("spoil").unwrap_or_default();
+    let mut lines = text.lines().map(|line| line.split_whitespace().collect::<Vec<_>>());
+    let row = lines.find(|words| words[..2] == [program, what])?.get(2).and_then(|row| row.parse().ok());
+    Some(row.unwrap_or(0))
+}
+
+/// Moves one cell of each table by an `ulp`, flips its `sign`, `cut`s the table off behind the row, loses it (`gone`), or puts a
+/// wrong word into it (`words`).
+fn spoil_tables(id: &str, tables: &Path) -> io::Result<()> {
+    for file in fs::read_dir(tables)?.map(|entry| entry.map(|entry| entry.path())).collect::<io::Result<Vec<_>>>()? {
+        let text = fs::read_to_string(&file)?;
+        let change = |row: usize, change: &dyn Fn(f64) -> f64| {
+            let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+            if let Some((start, value)) = lines[row + 1].clone().rsplit_once(',') {
+                lines[row + 1] = format!("{start},{:?}", change(value.parse().unwrap_or(0.0)));
+            }
+            fs::write(&file, lines.join("\n") + "\n")
+        };
+        if let Some(row) = spoilt(id, "ulp") {
+            change(row, &f64::next_up)?;
+        } else if let Some(row) = spoilt(id, "sign") {
+            change(row, &|value| -value)?;
+        } else if let Some(row) = spoilt(id, "cut") {
+            fs::write(&file, text.lines().take(row + 1).map(|line| format!("{line}\n")).collect::<String>())?;
+        } else if spoilt(id, "words").is_some() {
+            fs::write(&file, "start,phi\none,1\nrondam,2\n")?;
+        } else if spoilt(id, "gone").is_some() {
+            fs::remove_file(&file)?;
+        }
+    }
+    Ok(())
+}
+
+/// A PNG of 16 x 8 pixels: a bright band on a dark ground, or with red and blue `swapped`.
+fn picture(count: u8, swapped: bool) -> Vec<u8> {
+    let pixel = |index: u8| match (index / 16 == 3, swapped) {
+        (false, _) => [40, 40, 40],
+        (true, false) => [200, 100 + count, 20],
+        (true, true) => [20, 100 + count, 200],
+    };
+    let pixels: Vec<u8> = (0..16 * 8).flat_map(pixel).collect();
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, 16, 8);
+    encoder.set_color(png::ColorType::Rgb);
+    if let Ok(mut writer) = encoder.write_header() {
+        writer.write_image_data(&pixels).expect("as many pixels as the header says");
+    }
+    bytes
 }

@@ -21,7 +21,10 @@ fn an_unchanged_figure_is_fresh() {
 #[test]
 fn every_change_is_named() {
     let inputs = named(&[
-        ("Cargo.lock", "1"),
+        ("crate gone", "1.0.0"),
+        ("crate png", "0.18.0"),
+        ("key panel.stable.law.mu", "0.45"),
+        ("rustc", "rustc 1.95.0"),
         ("crates/a.rs", "1"),
         ("data/reference/x.csv", "1"),
         ("figures/fig04-a/scene.toml", "1"),
@@ -29,7 +32,9 @@ fn every_change_is_named() {
     ]);
     let outputs = named(&[("data/fig04/a.csv", "1"), ("data/fig04/b.csv", "1")]);
     let now = named(&[
-        ("Cargo.lock", "2"),
+        ("crate png", "0.18.1"),
+        ("key panel.stable.law.mu", "0.46"),
+        ("rustc", "rustc 1.96.0"),
         ("crates/b.rs", "1"),
         ("data/reference/x.csv", "2"),
         ("figures/fig04-a/scene.toml", "2"),
@@ -40,12 +45,15 @@ fn every_change_is_named() {
     assert_eq!(
         found,
         [
-            "lock file Cargo.lock changed",
+            "crate gone is gone: 1.0.0",
+            "crate png changed: 0.18.0 -> 0.18.1",
             "source crates/a.rs is gone",
             "source crates/b.rs is new",
             "reference data/reference/x.csv changed",
             "scene figures/fig04-a/scene.toml changed",
+            "scene key panel.stable.law.mu changed: 0.45 -> 0.46",
             "key of run main changed",
+            "toolchain rustc changed: rustc 1.95.0 -> rustc 1.96.0",
             "output data/fig04/a.csv is missing",
             "output data/fig04/b.csv was edited",
             "output data/fig04/c.csv was not made by the figure",
