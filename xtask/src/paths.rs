@@ -135,6 +135,8 @@ pub const DOCUMENTS: [&str; 2] = ["paper/paper.pdf", "paper/report.html"];
 pub const MAIN_WORKFLOW: &str = "xtask/src/verbs/figures.rs";
 /// The validators of the archive's descriptions.
 pub const BUNDLE_REQUIREMENTS: &str = "checks/bundle/requirements.txt";
+/// The one that needs help to do without a network.
+pub const RUN_CRATE_CHECK: &str = "checks/bundle/run_crate.py";
 /// The list of sums inside a stored run.
 pub const STORE_SUMS: &str = "SHA256SUMS";
 /// The events of a stored run.
@@ -368,6 +370,11 @@ impl Paths {
     /// From where a run that was killed goes on.
     pub fn checkpoint(&self, key: &str) -> PathBuf {
         self.store().join(format!("{key}.checkpoint"))
+    }
+
+    /// Where programs for checks are installed.
+    pub fn tools(&self) -> PathBuf {
+        self.target.join("tools")
     }
 
     /// The archive, unless it is asked for elsewhere.

@@ -6,7 +6,7 @@ use crate::child;
 use crate::disk;
 use crate::failure::Failure;
 use crate::hashing;
-use crate::paths::{BUNDLE_REQUIREMENTS, Paths};
+use crate::paths::{BUNDLE_REQUIREMENTS, Paths, RUN_CRATE_CHECK};
 use crate::print;
 use crate::python::{self, Python};
 use crate::sums::Sums;
@@ -64,8 +64,8 @@ fn descriptions(python: &Python, root: &Path) -> Result<(), Failure> {
         command.args(["-c", call]).current_dir(root);
         command
     };
-    let mut crates = program("from rocrate_validator.cli import cli; cli()");
-    crates.args(["-y", "--disable-color", "validate", "--profile-identifier", "workflow-run-crate", "."]);
+    let mut crates = python.command();
+    crates.arg(RUN_CRATE_CHECK).current_dir(root);
     let mut citation = program("from cffconvert.cli.cli import cli; cli()");
     citation.arg("--validate");
     let mut package = python.command();

@@ -24,6 +24,7 @@ const FOLDERS: [(&str, &str); 3] = [
     (VENDOR, "Sources of all crates that the lock file names"),
 ];
 const MAKERS: &str = "#makers";
+const README: &str = "README.md";
 const RUST: &str = "#rust";
 
 /// The file. `members` are those of the archive, of which only existing ones are described.
@@ -33,9 +34,10 @@ const RUST: &str = "#rust";
 pub fn text(paths: &Paths, figures: &[Figure], commit: &Commit, members: &Members) -> Result<String, Failure> {
     let paper: Vec<&Figure> = figures.iter().filter(|figure| !figure.is_supplement()).collect();
     let mut graph = frame(commit);
-    let (mut parts, mut scenes, mut results) = (vec![MAIN_WORKFLOW.to_owned()], Vec::new(), Vec::new());
+    let (mut parts, mut scenes, mut results) =
+        (vec![MAIN_WORKFLOW.to_owned(), README.to_owned()], Vec::new(), Vec::new());
     for figure in &paper {
-        let described = describe(paths, figure, members)?;
+        let described = describe(paths, figure, commit, members)?;
         scenes.push(Paths::scene(&figure.slug));
         results.extend(described.results.clone());
         parts.extend(described.files);
@@ -48,7 +50,7 @@ pub fn text(paths: &Paths, figures: &[Figure], commit: &Commit, members: &Member
     let actions: Vec<String> = paper.iter().map(|figure| action(figure)).collect();
     graph.push(root(commit, &parts, &actions));
     graph.push(whole_run(commit, &scenes, &results));
-    let value = json!({ "@context": [format!("{CRATE}/context"), "https://w3id.org/ro/terms/workflow-run/context"], "@graph": graph });
+    let value = json!({ "@context": format!("{CRATE}/context"), "@graph": graph });
     let text = serde_json::to_string_pretty(&value).map_err(Failure::failed)?;
     Ok(format!("{text}\n"))
 }
@@ -79,8 +81,12 @@ fn frame(commit: &Commit) -> Vec<Value> {
             "name": "cargo xtask figures", "description": "Plans the runs, starts the figures' programs, judges what they wrote",
             "programmingLanguage": { "@id": RUST }, "version": paper::VERSION, "creator": { "@id": MAKERS },
             "license": { "@id": "https://spdx.org/licenses/MIT" }, "encodingFormat": "text/x-rust",
-            "dateModified": commit.date, "input": [{ "@id": "#scenes" }], "output": [{ "@id": "#outputs" }],
+            "dateModified": commit.date, "input": { "@id": "#scenes" }, "output": { "@id": "#outputs" },
             "conformsTo": { "@id": "https://bioschemas.org/profiles/ComputationalWorkflow/1.0-RELEASE" },
+        }),
+        json!({
+            "@id": README, "@type": "File", "name": "How to make everything again", "about": { "@id": "./" },
+            "encodingFormat": "text/markdown",
         }),
         parameter("#scenes", "scenes", "Scene files: every parameter and where it comes from"),
         parameter("#outputs", "outputs", "Tables and pictures"),
@@ -112,7 +118,7 @@ fn root(commit: &Commit, parts: &[String], actions: &[String]) -> Value {
     json!({
         "@id": "./", "@type": "Dataset", "name": paper::SOFTWARE, "description": paper::DESCRIPTION,
         "identifier": commit.hash, "version": paper::VERSION, "datePublished": commit.date,
-        "license": { "@id": "https://spdx.org/licenses/MIT" }, "author": { "@id": MAKERS }, "keywords": paper::KEYWORDS.join(", "),
+        "license": { "@id": "https://spdx.org/licenses/MIT" }, "author": { "@id": MAKERS }, "publisher": { "@id": MAKERS }, "keywords": paper::KEYWORDS.join(", "),
         "citation": { "@id": paper::address() }, "mainEntity": { "@id": MAIN_WORKFLOW },
         "conformsTo": PROFILES.map(|(id, ..)| json!({ "@id": id })), "hasPart": ids(parts), "mentions": mentions,
     })
@@ -121,8 +127,8 @@ fn root(commit: &Commit, parts: &[String], actions: &[String]) -> Value {
 fn whole_run(commit: &Commit, scenes: &[String], results: &[String]) -> Value {
     json!({
         "@id": "#figures", "@type": "CreateAction", "name": "All figures of the paper",
-        "description": "cargo xtask figures", "instrument": { "@id": MAIN_WORKFLOW }, "agent": { "@id": MAKERS },
-        "endTime": commit.date, "actionStatus": "http://schema.org/CompletedActionStatus",
+        "description": "cargo xtask figures; the date is that of the commit", "instrument": { "@id": MAIN_WORKFLOW }, "agent": { "@id": MAKERS },
+        "endTime": commit.time, "actionStatus": "http://schema.org/CompletedActionStatus",
         "object": ids(scenes), "result": ids(results),
     })
 }
@@ -138,7 +144,7 @@ fn action(figure: &Figure) -> String {
     format!("#{}", figure.id)
 }
 
-fn describe(paths: &Paths, figure: &Figure, members: &Members) -> Result<Described, Failure> {
+fn describe(paths: &Paths, figure: &Figure, commit: &Commit, members: &Members) -> Result<Described, Failure> {
     let (scene, program) = (Paths::scene(&figure.slug), Paths::program(&figure.slug));
     let mut results = outputs::tables(paths, figure)?;
     results.extend(outputs::pictures(paths, figure));
@@ -155,8 +161,8 @@ fn describe(paths: &Paths, figure: &Figure, members: &Members) -> Result<Describ
         json!({
             "@id": action(figure), "@type": "CreateAction", "name": figure.title(),
             "description": format!("cargo xtask figures {}", figure.id), "instrument": { "@id": program },
-            "agent": { "@id": MAKERS }, "object": [{ "@id": scene }], "result": ids(&results),
-            "actionStatus": "http://schema.org/CompletedActionStatus",
+            "agent": { "@id": MAKERS }, "object": { "@id": scene }, "result": ids(&results),
+            "endTime": commit.time, "actionStatus": "http://schema.org/CompletedActionStatus",
         }),
     ];
     for name in &results {

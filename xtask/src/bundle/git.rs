@@ -14,6 +14,8 @@ pub struct Commit {
     pub seconds: u64,
     /// The same as a date of the calendar, in UTC.
     pub date: String,
+    /// The same with the time of day.
+    pub time: String,
 }
 
 /// The commit that is checked out.
@@ -22,13 +24,20 @@ pub struct Commit {
 /// Unsupported: no git, or no repository.
 pub fn commit(paths: &Paths) -> Result<Commit, Failure> {
     let mut git = command(paths);
-    git.env("TZ", "UTC0").args(["show", "--no-patch", "--date=format-local:%Y-%m-%d", "--format=%H %ct %cd", "HEAD"]);
+    git.env("TZ", "UTC0").args([
+        "show",
+        "--no-patch",
+        "--date=format-local:%Y-%m-%dT%H:%M:%SZ",
+        "--format=%H %ct %cd",
+        "HEAD",
+    ]);
     let text = output(git)?;
     let mut words = text.split_whitespace();
     let mut word = || words.next().unwrap_or_default().to_owned();
-    let (hash, seconds, date) = (word(), word(), word());
+    let (hash, seconds, time) = (word(), word(), word());
+    let date = time.split('T').next().unwrap_or_default().to_owned();
     let seconds = seconds.parse().map_err(|_| Failure::Failed(format!("git show: {text:?}")))?;
-    Ok(Commit { hash, seconds, date })
+    Ok(Commit { hash, seconds, date, time })
 }
 
 /// Tracked files that are not as committed.

@@ -2,8 +2,8 @@
 
 mod accuracy;
 mod bench;
-mod bundle;
 mod bless;
+mod bundle;
 mod cli;
 mod data;
 mod distance;
@@ -23,8 +23,8 @@ mod python;
 mod real;
 mod record;
 mod shop;
-mod supply;
 mod stale;
+mod supply;
 mod tables;
 mod tolerances;
 mod troubles;
