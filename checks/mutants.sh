@@ -4,18 +4,18 @@
 #   checks/mutants.sh 3/20 ode        of one crate
 #   checks/mutants.sh --missed [ode]  what the ledger says was missed, against all tests of the four crates
 # Outcomes are added to checks/mutants.csv; python3 checks/mutants.py sums them up. A shard of twenty takes at most an
-# hour on two cores; what it compiled is kept in target/mutants, so that the next one starts at once.
+# hour on two cores; what it compiled is kept in target/mutation, so that the next one starts at once.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 version=27.1.0
-copy=$PWD/target/mutants/checkout
+copy=$PWD/target/mutation/checkout
 PATH=$PWD/target/tools/bin:$PATH
 if [ "$(cargo mutants --version 2>/dev/null)" != "cargo-mutants $version" ]; then
     cargo install cargo-mutants --version "$version" --locked --root target/tools
 fi
 python3 checks/mutants.py copy "$copy"
 one() { # CRATE NAME ARGUMENTS: exit codes 2 and 3 of cargo-mutants say that some were missed or took too long
-    local crate=$1 out=target/mutants/$2 code=0
+    local crate=$1 out=target/mutation/$2 code=0
     shift 2
     rm -rf "$out"
     mkdir -p "$out"
