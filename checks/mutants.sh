@@ -19,7 +19,7 @@ one() { # CRATE NAME ARGUMENTS: exit codes 2 and 3 of cargo-mutants say that som
     shift 2
     rm -rf "$out"
     mkdir -p "$out"
-    cargo mutants --dir "$copy" --in-place --jobs 1 --package "$crate" --output "$out" "$@" || code=$?
+    cargo mutants --dir "$copy" --in-place --package "$crate" --output "$out" "$@" || code=$?
     case $code in 0 | 2 | 3) ;; *) exit "$code" ;; esac
     python3 checks/mutants.py add "$out/mutants.out/outcomes.json"
 }
