@@ -12,6 +12,13 @@ pub enum Failure {
         /// The step that was asked for.
         step: f64,
     },
+    /// The steps are so short that more of them than are allowed do not reach the end.
+    TooManySteps {
+        /// The time reached.
+        time: f64,
+        /// Steps tried.
+        steps: u64,
+    },
     /// A component is no longer a finite number after a step of fixed length.
     NotFinite {
         /// The time at the start of that step.
@@ -35,6 +42,9 @@ impl std::fmt::Display for Failure {
                     f,
                     "at t = {time:?} the tolerance asks for a step of {step:e}, too small to go on; raise the tolerance"
                 )
+            }
+            Failure::TooManySteps { time, steps } => {
+                write!(f, "{steps} steps, as many as are allowed, reach t = {time:?} only; raise the tolerance")
             }
             Failure::NotFinite { time, step } => {
                 write!(

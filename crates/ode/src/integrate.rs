@@ -193,7 +193,11 @@ impl<'a> Run<'a> {
         let (mut time, mut time_carry) = ([problem.begin], [0.0]);
         let mut h = self.first_step(problem, &mut norm);
         h = self.propose(&norm).unwrap_or(h);
+        let most_steps = observer.most_steps();
         while time[0] < problem.end {
+            if self.statistics.steps + self.statistics.rejected >= most_steps {
+                return Err(Failure::TooManySteps { time: time[0], steps: most_steps });
+            }
             let left = (problem.end - time[0]) - time_carry[0];
             let is_last = h >= left;
             let length = if is_last { left } else { h };

@@ -23,5 +23,5 @@ pub use dense::Step;
 pub use failure::Failure;
 pub use integrate::{Problem, Statistics, integrate, resume};
 pub use methods::Method;
-pub use observe::{Mark, Observer, Place, Sampler, first_crossing};
+pub use observe::{MOST_STEPS, Mark, Observer, Place, Sampler, first_crossing};
 pub use system::{Burst, Group, Measure, System};

@@ -15,12 +15,22 @@ pub trait Observer {
         0.0
     }
 
+    /// As many adaptive steps as may be tried, rejected ones included; one more is
+    /// [`Failure::TooManySteps`](crate::Failure::TooManySteps). By default [`MOST_STEPS`].
+    fn most_steps(&self) -> u64 {
+        MOST_STEPS
+    }
+
     /// Sees the last state that was reached when no step leads on from it, before the failure is returned.
     fn stuck(&mut self, _state: &[f64]) {}
 
     /// Looks at a place between two steps of fixed length, every few thousand of them, from which the run can be resumed.
     fn between(&mut self, _mark: &Mark<'_>) {}
 }
+
+/// A thousand times the longest run by adaptive steps that anybody has had a use for here: more are a sign that the
+/// equations are too stiff for the method, and would look like a hang.
+pub const MOST_STEPS: u64 = 1_000_000_000;
 
 /// Where an integration by steps of fixed length is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -25,6 +25,8 @@ pub struct Scene {
     pub method: Method,
     /// The rule for the steps.
     pub control: Control,
+    /// As many steps as it may take.
+    pub most_steps: u64,
     /// The form of the state.
     pub form: FormKind,
     /// Whether positions and speeds of all pedestrians are kept at every sample.
@@ -35,8 +37,9 @@ pub struct Scene {
 
 /// As many rows as the table of a run may have, so that a slip in `sample` does not fill the memory (32 bytes a row).
 const MOST_ROWS: f64 = 2e7;
-/// As many steps of fixed length as a run may take: two orders more than the longest of the paper.
-const MOST_STEPS: f64 = 1e11;
+/// As many steps of fixed length as a run may take, unless it says otherwise: two orders more than the longest of the
+/// paper.
+const MOST_FIXED_STEPS: u64 = 100_000_000_000;
 
 /// Reads a scene from the tables of a panel.
 ///
@@ -79,15 +82,9 @@ pub fn read(file: &str, tables: &Section) -> Result<Scene, RecipeError> {
             format!("gives a table of {rows:e} rows, more than {MOST_ROWS:e}; sample less often, or record = \"std\"");
         return Err(run.complaint("sample", &problem));
     }
-    match control {
-        Control::Fixed { step } if t_end / step > MOST_STEPS => {
-            let problem = format!("gives {:e} steps; at most {MOST_STEPS:e}", t_end / step);
-            return Err(run.complaint("dt", &problem));
-        }
-        _ => {}
-    }
+    let most_steps = most_steps(&mut run, control, t_end)?;
     run.finish()?;
-    Ok(Scene { model, ring, start, t_end, sample, method, control, form, keeps_trajectories, steady_speed })
+    Ok(Scene { model, ring, start, t_end, sample, method, control, most_steps, form, keeps_trajectories, steady_speed })
 }
 
 fn ring(file: &str, ring: &Section, start: &Section, model: &Model) -> Result<(Ring, Start), RecipeError> {
@@ -113,6 +110,22 @@ fn ring(file: &str, ring: &Section, start: &Section, model: &Model) -> Result<(R
     }
     reader.finish()?;
     Ok((ring, Start { shift }))
+}
+
+/// `most_steps`, or what is usual. Of fixed steps the number is known before the first.
+fn most_steps(run: &mut Reader<'_>, control: Control, t_end: f64) -> Result<u64, RecipeError> {
+    let named = run.optional_number("most_steps", 1.0..=MOST_FIXED_STEPS as f64)?.map(|most| most as u64);
+    match control {
+        Control::Adaptive { .. } => Ok(named.unwrap_or(ode::MOST_STEPS)),
+        Control::Fixed { step } => {
+            let most = named.unwrap_or(MOST_FIXED_STEPS);
+            if t_end / step > most as f64 {
+                let problem = format!("gives {:e} steps; at most {:e}", t_end / step, most as f64);
+                return Err(run.complaint("dt", &problem));
+            }
+            Ok(most)
+        }
+    }
 }
 
 fn method(run: &mut Reader<'_>) -> Result<Method, RecipeError> {

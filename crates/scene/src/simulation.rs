@@ -228,6 +228,10 @@ impl Observer for Recorder<'_> {
         self.sampler.next()
     }
 
+    fn most_steps(&self) -> u64 {
+        self.scene.most_steps
+    }
+
     fn stuck(&mut self, state: &[f64]) {
         let Record { form, gaps, speeds, .. } = &mut self.record;
         form.read(state, gaps, speeds);

@@ -137,6 +137,7 @@ impl Case {
         let (name, time, step) = match failure {
             ode::Failure::NotFinite { time, step } => ("not_finite", *time, *step),
             ode::Failure::StepTooSmall { time, step } => ("step_too_small", *time, *step),
+            ode::Failure::TooManySteps { time, .. } => ("too_many_steps", *time, 0.0),
             ode::Failure::NoErrorEstimate(_) => ("no_error_estimate", 0.0, 0.0),
             ode::Failure::NoSeries => ("no_series", 0.0, 0.0),
             ode::Failure::NotResumable => ("not_resumable", 0.0, 0.0),

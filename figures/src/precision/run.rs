@@ -68,6 +68,7 @@ pub fn measure(scene: &Scene, method: Method, control: Control, solution: &[Inst
     let failed = result.as_ref().err().map(|failure| match failure {
         ode::Failure::NotFinite { .. } => "not_finite",
         ode::Failure::StepTooSmall { .. } => "step_too_small",
+        ode::Failure::TooManySteps { .. } => "too_many_steps",
         ode::Failure::NoSeries => "no_series",
         ode::Failure::NoErrorEstimate(_) => "no_error_estimate",
         ode::Failure::NotResumable => "not_resumable",

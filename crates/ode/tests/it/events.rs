@@ -49,6 +49,16 @@ fn a_dip_within_a_part_is_found() {
 }
 
 #[test]
+fn a_dip_is_found_where_only_one_neighbour_is_high() {
+    // a third part behind the middle, so that the sample after the lowest is less than twice as high
+    for lowest in [0.5 + 0.11, 0.5 - 0.11] {
+        let value = |y: f64| (y - lowest) * (y - lowest) - 1e-3;
+        let found = crossing(4, value).expect("it dips");
+        assert!((found - (lowest - math::exp(0.5 * math::ln(1e-3)))).abs() < 1e-12, "{found} for {lowest}");
+    }
+}
+
+#[test]
 fn the_quarter_turn_of_the_oscillator() {
     let mut time = None;
     let control = Control::Adaptive { tolerance: 1e-13 };

@@ -107,6 +107,50 @@ fn a_start_at_the_end_is_no_failure() {
 }
 
 #[test]
+fn more_steps_than_are_allowed_are_a_failure() {
+    use ode::{MOST_STEPS, Observer, Problem, Step, integrate};
+    struct Patience(u64, u64);
+    impl Observer for Patience {
+        fn after(&mut self, _: &mut Step<'_>) -> std::ops::ControlFlow<()> {
+            self.1 += 1;
+            std::ops::ControlFlow::Continue(())
+        }
+
+        fn most_steps(&self) -> u64 {
+            self.0
+        }
+    }
+    let (system, control) = (oscillator(), Control::Adaptive { tolerance: 1e-10 });
+    let problem =
+        Problem { system: &system, start: &[1.0, 0.0], begin: 0.0, end: 20.0, method: Method::Dopri54, control };
+    let mut observer = Patience(MOST_STEPS, 0);
+    let whole = integrate(&problem, &mut observer).expect("nothing stands in the way");
+    let tried = whole.steps + whole.rejected;
+    assert_eq!(integrate(&problem, &mut Patience(tried, 0)), Ok(whole), "just enough");
+    let mut observer = Patience(tried - 1, 0);
+    let failure = integrate(&problem, &mut observer);
+    let Err(Failure::TooManySteps { time, steps }) = failure else { panic!("{failure:?}") };
+    assert!(steps == tried - 1 && time > 0.0 && time < 20.0 && observer.1 > 0, "{time} {steps}");
+}
+
+#[test]
+fn a_time_before_zero_is_a_time_like_others() {
+    use ode::{Problem, Step, integrate};
+    let system = oscillator();
+    for control in [Control::Fixed { step: 0.125 }, Control::Adaptive { tolerance: 1e-9 }] {
+        let run = |begin: f64, end: f64| {
+            let problem = Problem { system: &system, start: &[1.0, 0.0], begin, end, method: Method::Dop853, control };
+            let mut observer = |_: &mut Step<'_>| std::ops::ControlFlow::Continue(());
+            integrate(&problem, &mut observer).expect("nothing stands in the way")
+        };
+        let (shifted, plain) = (run(-5.0, 5.0), run(0.0, 10.0));
+        // the last step differs by the rounding of the time
+        assert!((shifted.state[0] - plain.state[0]).abs() < 1e-13, "{shifted:?} {plain:?}");
+        assert_eq!((shifted.steps, shifted.time), (plain.steps, 5.0));
+    }
+}
+
+#[test]
 fn a_state_at_rest_stays() {
     // no size and no rate to choose the first step from
     for method in general_methods().filter(|method| method.is_adaptive()) {

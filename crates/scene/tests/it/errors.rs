@@ -258,6 +258,12 @@ fn complaints_about_the_run() {
             ),
             ("tolerance = 1e-11", "tolerance = 0.1", ":14: run.tolerance = 0.1: must be a number >= 1e-15 and <= 0.01"),
             ("tolerance = 1e-11", "dt = 0.0", ":14: run.dt = 0: must be a number > 0.0"),
+            ("tolerance = 1e-11", "dt = 1.0\nmost_steps = 2999", ":14: run.dt = 1: gives 3e3 steps; at most 2.999e3"),
+            (
+                "tolerance = 1e-11",
+                "tolerance = 1e-11\nmost_steps = 0",
+                ":15: run.most_steps = 0: must be a number >= 1.0 and <= 100000000000.0",
+            ),
             ("tolerance = 1e-11", "dt = 1e-300", ":14: run.dt = 1e-300: gives 3e303 steps; at most 1e11"),
             (
                 "tolerance = 1e-11",
@@ -287,7 +293,7 @@ fn complaints_about_the_run() {
             (
                 "tolerance = 1e-11",
                 "tolerance = 1e-11\nthreads = 2",
-                ":15: run.threads: unknown key; known here: dt, method, record, sample, state, t_end, tolerance",
+                ":15: run.threads: unknown key; known here: dt, method, most_steps, record, sample, state, t_end, tolerance",
             ),
         ],
     );
