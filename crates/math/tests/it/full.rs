@@ -47,6 +47,17 @@ fn logarithms_undo_exponentials_of_twofold_arguments() {
     assert!((tiny - Twofold::sum(1e-12, 3e-29)).hi.abs() < 1e-12 * 1e-29, "{tiny:?}");
 }
 
+#[test]
+fn a_tail_keeps_its_relative_precision() {
+    // ln(1 + y) = y - y^2/2 up to y^3 for y = e^x
+    for x in [-40.0, -60.5, -300.25, -699.0] {
+        let y = full::exp(Twofold::from(x));
+        let truth = y - y * y * 0.5;
+        let error = ((full::softplus(Twofold::from(x)) - truth).hi / truth.hi).abs();
+        assert!(error < f64::from_bits((1023 - 96) << 52), "relative error {error:e} at {x}");
+    }
+}
+
 /// One function of twofold numbers over a slice.
 struct Map<'a, F> {
     f: F,
@@ -94,6 +105,8 @@ fn exact_values_are_rounded_once_to_decimals() {
     assert_eq!(text(0.125, 1e-300, 2), "1.3e-1", "a little more than a tie");
     assert_eq!(text(0.125, -1e-300, 2), "1.2e-1");
     assert_eq!(text(0.0, 0.0, 20), "0");
+    assert_eq!(text(0.265625, 0.0, 2), "2.7e-1", "more than a tie, without a zero behind the five");
+    assert_eq!((text(0.0, 0.25, 2), text(0.0, -0.25, 2)), ("2.5e-1".to_owned(), "-2.5e-1".to_owned()));
     assert_eq!(text(5e-324, 0.0, 3), "4.94e-324");
     assert_eq!(text(9007199254740993.0, 1.0, 16), "9.007199254740993e15");
     assert_eq!(text(7.0, 0.0, 1), "7");

@@ -5,6 +5,7 @@
 use crate::sample::{Map, Random};
 use math::lane::{self, SoftplusBase};
 use math::simd::dispatch;
+use math::twofold::{Twofold, full};
 
 /// The hash FNV-1a of the bits of the results, lowest byte first.
 fn hash(results: impl Iterator<Item = f64>) -> u64 {
@@ -61,6 +62,29 @@ fn lanes_have_the_pinned_bits() {
     assert_pinned(&hashes, &LANES);
 }
 
+#[test]
+fn twofold_functions_have_the_pinned_bits() {
+    let arguments = |low: f64, high: f64| -> Vec<Twofold> {
+        let mut random = Random(91);
+        (0..20_000).map(|_| Twofold::sum(random.uniform(low, high), random.uniform(-1e-18, 1e-18))).collect()
+    };
+    let of = |x: &[Twofold], f: fn(Twofold) -> Twofold| hash(x.iter().map(|x| f(*x)).flat_map(|y| [y.hi, y.lo]));
+    let (positive, signed) = (arguments(0.01, 10.0), arguments(-20.0, 20.0));
+    let hashes = [
+        ("exp", of(&signed, full::exp)),
+        ("exp_m1", of(&signed, full::exp_m1)),
+        ("ln", of(&positive, full::ln)),
+        ("ln_1p", of(&positive, full::ln_1p)),
+        ("softplus", of(&signed, full::softplus)),
+        ("exp to 80 bits", of(&signed, Twofold::exp)),
+        ("exp_m1 to 80 bits", of(&signed, Twofold::exp_m1)),
+        ("ln to 80 bits", of(&positive, Twofold::ln)),
+        ("ln_1p to 80 bits", of(&positive, Twofold::ln_1p)),
+        ("sqrt", of(&positive, Twofold::sqrt)),
+    ];
+    assert_pinned(&hashes, &TWOFOLDS);
+}
+
 #[track_caller]
 fn assert_pinned(hashes: &[(&str, u64)], pinned: &[(&str, u64)]) {
     let table = |rows: &[(&str, u64)]| -> String {
@@ -79,6 +103,19 @@ const SCALARS: [(&str, u64); 9] = [
     ("log10", 0x85ca453cc8bf9e79),
     ("pow", 0xe75b343ce2349ae6),
     ("complex_sqrt", 0x23f089d1338adca7),
+];
+
+const TWOFOLDS: [(&str, u64); 10] = [
+    ("exp", 0),
+    ("exp_m1", 0),
+    ("ln", 0),
+    ("ln_1p", 0),
+    ("softplus", 0),
+    ("exp to 80 bits", 0),
+    ("exp_m1 to 80 bits", 0),
+    ("ln to 80 bits", 0),
+    ("ln_1p to 80 bits", 0),
+    ("sqrt", 0),
 ];
 
 const LANES: [(&str, u64); 9] = [
