@@ -252,11 +252,30 @@ pub fn read(paths: &Paths) -> Result<BTreeMap<String, Entry>, Failure> {
     let Some(text) = disk::read_text(&path).map_err(|failure| bad(failure.text()))? else {
         return Ok(BTreeMap::new());
     };
-    let manifest: Manifest = serde_json::from_str(&text).map_err(|error| bad(&error.to_string()))?;
+    parse(&text).map_err(|problem| bad(&problem))
+}
+
+/// The entries of a manifest's text.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn parse(text: &str) -> Result<BTreeMap<String, Entry>, String> {
+    let manifest: Manifest = serde_json::from_str(text).map_err(|error| error.to_string())?;
     match manifest.schema_version {
         SCHEMA_VERSION => Ok(manifest.outputs),
-        other => Err(bad(&format!("schema_version {other} in place of {SCHEMA_VERSION}"))),
+        other => Err(format!("schema_version {other} in place of {SCHEMA_VERSION}")),
     }
+}
+
+/// The text of a manifest with these entries.
+///
+/// # Errors
+/// Failed: a number that JSON cannot hold.
+pub fn to_text(outputs: BTreeMap<String, Entry>) -> Result<String, Failure> {
+    let manifest = Manifest { schema_version: SCHEMA_VERSION, outputs };
+    let mut text = serde_json::to_string_pretty(&manifest).map_err(Failure::failed)?;
+    text.push('\n');
+    Ok(text)
 }
 
 /// Writes the manifest and the table of events: the figures measured in place of their old entries; entries of figures
@@ -271,10 +290,7 @@ pub fn write(paths: &Paths, all: &[Figure], measured: &[(&Figure, &Measured)]) -
     let stays = |name: &str| all.iter().any(|figure| !is_measured(figure) && mine(figure, name));
     let mut entries: BTreeMap<String, Entry> = read(paths)?.into_iter().filter(|(name, _)| stays(name)).collect();
     entries.extend(measured.iter().flat_map(|(_, measured)| measured.entries.clone()));
-    let manifest = Manifest { schema_version: SCHEMA_VERSION, outputs: entries };
-    let mut text = serde_json::to_string_pretty(&manifest).map_err(Failure::failed)?;
-    text.push('\n');
-    disk::write_if_changed(&paths.manifest(), text.as_bytes())?;
+    disk::write_if_changed(&paths.manifest(), to_text(entries)?.as_bytes())?;
     write_events(paths, all, measured)
 }
 

@@ -137,6 +137,10 @@ pub const MAIN_WORKFLOW: &str = "xtask/src/verbs/figures.rs";
 pub const BUNDLE_REQUIREMENTS: &str = "checks/bundle/requirements.txt";
 /// The one that needs help to do without a network.
 pub const RUN_CRATE_CHECK: &str = "checks/bundle/run_crate.py";
+/// Checks that need more than Rust: inputs by the million for every reader.
+pub const FUZZ: &str = "checks/fuzz.sh";
+/// So many inputs for each reader where there is little time: about a minute.
+pub const FUZZ_INPUTS: &str = "20000";
 /// The list of sums inside a stored run.
 pub const STORE_SUMS: &str = "SHA256SUMS";
 /// The events of a stored run.

@@ -7,7 +7,7 @@ use crate::bundle::git;
 use crate::child;
 use crate::cli::{BundleArgs, CiArgs, FiguresArgs, Selection, VerifyArgs};
 use crate::failure::Failure;
-use crate::paths::{COST, OTHER_MACHINES, Paths};
+use crate::paths::{COST, FUZZ, FUZZ_INPUTS, OTHER_MACHINES, Paths};
 use crate::pedpy;
 use crate::print;
 use std::path::PathBuf;
@@ -45,6 +45,10 @@ pub fn run(paths: &Paths, arguments: &CiArgs) -> Result<(), Failure> {
         step(COST, cost.arg(COST).current_dir(&paths.root).env("CARGO_TARGET_DIR", &paths.target))?;
         deny(paths)?;
         archive(paths)?;
+        for inputs in ["--regress", FUZZ_INPUTS] {
+            eprintln!("ci: {FUZZ} {inputs}");
+            step(FUZZ, Command::new("bash").args([FUZZ, inputs]).current_dir(&paths.root))?;
+        }
     }
     Ok(())
 }

@@ -4,7 +4,7 @@ use super::doctor;
 use crate::browser;
 use crate::child;
 use crate::failure::Failure;
-use crate::paths::{COST, OTHER_MACHINES, Paths, SPOT_CHECK};
+use crate::paths::{COST, FUZZ, OTHER_MACHINES, Paths, SPOT_CHECK};
 use crate::pedpy;
 use crate::print;
 use crate::sums::Sums;
@@ -26,7 +26,8 @@ pub fn run(paths: &Paths) -> Result<(), Failure> {
         print::out("skipped: setting the report: no typst; cargo xtask paper installs it\n")?;
     }
     print::out(&format!("skipped: other machines ({OTHER_MACHINES}): cargo xtask ci --full\n"))?;
-    print::out(&format!("skipped: instruction counts ({COST}): cargo xtask ci --full\n"))
+    print::out(&format!("skipped: instruction counts ({COST}): cargo xtask ci --full\n"))?;
+    print::out(&format!("skipped: fuzzing beyond the kept inputs ({FUZZ}): cargo xtask ci --full\n"))
 }
 
 /// Runs one step of a list; its words go to our stdout and stderr.

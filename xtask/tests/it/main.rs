@@ -5,6 +5,7 @@ mod bench;
 mod bless;
 mod bundle;
 mod cli;
+mod corpus;
 mod data;
 mod distance;
 mod export;

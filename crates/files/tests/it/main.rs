@@ -1,5 +1,6 @@
 //! Tests of tables, of writing, and of reading scene files.
 
+mod corpus;
 mod reader;
 mod recipe;
 mod table;

@@ -3,12 +3,14 @@
 
 mod checkpoint;
 mod contours;
+mod corpus;
 mod errors;
 mod figures;
 mod hard;
 mod maps;
 mod overrides;
 mod project;
+mod properties;
 mod published;
 mod reference;
 mod runs;

@@ -1,0 +1,22 @@
+//! Tables of error against work, with archived seconds behind an empty line.
+
+use xtask::precision::{COSTS, Scene};
+
+/// Tries one pair of tables.
+pub fn read(bytes: &[u8]) {
+    let text = String::from_utf8_lossy(bytes);
+    let (table, seconds) = text.split_once("\n\n").unwrap_or((&text, ""));
+    match Scene::parse("any", table, seconds) {
+        Ok(scene) => {
+            let json = scene.to_json();
+            assert_eq!(json["scene"], "any");
+            for (_, cost) in COSTS {
+                let cheapest = scene.cheapest(1e-6, cost, &[]);
+                assert!(cheapest.is_none_or(|row| row.error.is_some_and(|error| error <= 1e-6)));
+            }
+        }
+        Err(column) => {
+            assert!(["method", "control", "right_hand_sides", "error_gap", "error_speed"].contains(&&*column))
+        }
+    }
+}
