@@ -41,7 +41,7 @@ pub fn parse_all(file: &str, text: &str) -> Result<ByScene, Failure> {
     for (index, line) in lines.enumerate() {
         let cells: Vec<&str> = line.split(',').collect();
         let [scene, event, t_text, n, _] = cells[..] else { return Err(fail(index + 2, line)) };
-        let t = t_text.parse().map_err(|_| fail(index + 2, line))?;
+        let t = time(t_text).ok_or_else(|| fail(index + 2, line))?;
         let event = Event { event: event.to_owned(), t_text: t_text.to_owned(), t, n: n.to_owned() };
         scenes.entry(scene.to_owned()).or_default().push(event);
     }
@@ -113,10 +113,15 @@ pub fn parse(file: &str, text: &str) -> Result<Vec<Event>, Failure> {
     let event = |(index, line): (usize, &str)| {
         let cells: Vec<&str> = line.split(',').collect();
         let [event, t_text, n] = cells[..] else { return Err(fail(index + 2, line)) };
-        let t = t_text.parse().map_err(|_| fail(index + 2, line))?;
+        let t = time(t_text).ok_or_else(|| fail(index + 2, line))?;
         Ok(Event { event: event.to_owned(), t_text: t_text.to_owned(), t, n: n.to_owned() })
     };
     lines.enumerate().map(event).collect()
+}
+
+/// A time as written; none that is no finite number.
+fn time(text: &str) -> Option<f64> {
+    text.parse().ok().filter(|t: &f64| t.is_finite())
 }
 
 /// The lines of a run for the table of all events, sorted by time. The k-th event of a kind at a pedestrian is compared

@@ -110,11 +110,13 @@ impl Table {
     /// Reads CSV as [`Table::to_csv`] writes it.
     ///
     /// # Errors
-    /// [`TableError::Malformed`] with the line, for a cell that is not a finite number or a row of another length.
+    /// [`TableError::Malformed`] with the line, for a name of a column that is not in small letters, digits and `_` or
+    /// stands twice, a cell that is not a finite number, or a row of another length.
     pub fn parse(bytes: &[u8]) -> Result<Table, TableError> {
         let mut reader = csv::Reader::from_reader(bytes);
         let header = reader.byte_headers().map_err(malformed)?;
-        let columns: Vec<String> = header.iter().map(|name| String::from_utf8_lossy(name).into_owned()).collect();
+        let line = header.position().map_or(1, csv::Position::line);
+        let columns = names(header).map_err(|problem| TableError::Malformed { line, problem })?;
         let mut cells = Vec::new();
         let mut record = csv::ByteRecord::new();
         while reader.read_byte_record(&mut record).map_err(malformed)? {
@@ -147,6 +149,26 @@ pub fn push_number(text: &mut String, number: f64) {
         let _ = write!(text, "{}", number as i64);
     } else {
         let _ = write!(text, "{number:?}");
+    }
+}
+
+/// The names of the columns: what [`Table::to_csv`] writes without quotes and a name finds again.
+fn names(header: &csv::ByteRecord) -> Result<Vec<String>, String> {
+    let mut names: Vec<String> = Vec::new();
+    for bytes in header {
+        let name = String::from_utf8_lossy(bytes).into_owned();
+        let is_good = |byte: u8| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_';
+        if name.is_empty() || !name.bytes().all(is_good) {
+            return Err(format!("{name:?} is no name of a column; small letters, digits and _ make one"));
+        }
+        if names.contains(&name) {
+            return Err(format!("the column {name} stands twice"));
+        }
+        names.push(name);
+    }
+    match names.is_empty() {
+        true => Err("there is no header".to_owned()),
+        false => Ok(names),
     }
 }
 

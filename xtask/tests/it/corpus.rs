@@ -1,5 +1,7 @@
 //! Kept inputs of the fuzzers of the runner's readers.
 
+#[path = "../../../fuzz/targets/claims.rs"]
+mod claims;
 #[path = "../../../fuzz/targets/events.rs"]
 mod events;
 #[path = "../../../fuzz/targets/manifest.rs"]
@@ -8,6 +10,8 @@ mod manifest;
 mod precision;
 #[path = "../../../fuzz/targets/replay.rs"]
 mod replay;
+#[path = "../../../fuzz/targets/sheet.rs"]
+mod sheet;
 #[path = "../../../fuzz/targets/sums.rs"]
 mod sums;
 
@@ -31,4 +35,14 @@ fn the_manifest_is_read_or_refused() {
 #[test]
 fn tables_of_precision_are_read_or_refused() {
     replay::replay("precision", precision::read);
+}
+
+#[test]
+fn the_ledgers_files_are_read_or_refused() {
+    replay::replay("claims", claims::read);
+}
+
+#[test]
+fn the_ledgers_tables_are_read_or_refused() {
+    replay::replay("sheet", sheet::read);
 }

@@ -115,6 +115,19 @@ fn malformed_lines_are_named() {
         assert_eq!(*found, line, "{error}");
         assert!(error.to_string().contains(words), "{error}");
     }
+    let headers: [(&[u8], &str); 6] = [
+        (b"", "there is no header"),
+        (b"t,\"v\n1\"\n", "\"v\\n1\" is no name of a column; small letters, digits and _ make one"),
+        (b"t,\xff\n", "\"\u{fffd}\" is no name"),
+        (b"t,,v\n", "\"\" is no name"),
+        (b"t,V\n", "\"V\" is no name"),
+        (b"t,v,t\n1,2,3\n", "the column t stands twice"),
+    ];
+    for (text, words) in headers {
+        let error = Table::parse(text).expect_err("malformed");
+        assert!(matches!(error, TableError::Malformed { line: 1, .. }), "{error}");
+        assert!(error.to_string().contains(words), "{error}");
+    }
     assert!(matches!(Table::parse(b"t,v\n1,2\n3\n"), Err(TableError::Malformed { line: 3, .. })));
 }
 

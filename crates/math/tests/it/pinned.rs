@@ -106,16 +106,16 @@ const SCALARS: [(&str, u64); 9] = [
 ];
 
 const TWOFOLDS: [(&str, u64); 10] = [
-    ("exp", 0),
-    ("exp_m1", 0),
-    ("ln", 0),
-    ("ln_1p", 0),
-    ("softplus", 0),
-    ("exp to 80 bits", 0),
-    ("exp_m1 to 80 bits", 0),
-    ("ln to 80 bits", 0),
-    ("ln_1p to 80 bits", 0),
-    ("sqrt", 0),
+    ("exp", 0xe56bb08a2858e4ed),
+    ("exp_m1", 0xf786fb7bf26a791d),
+    ("ln", 0x0221a9275a5e4ce5),
+    ("ln_1p", 0xebb90bee9772cf85),
+    ("softplus", 0x5429c5a7f1645ee3),
+    ("exp to 80 bits", 0x1bd22ccdb517d040),
+    ("exp_m1 to 80 bits", 0xb6f2124f7719fb58),
+    ("ln to 80 bits", 0xa8abd71507c392fc),
+    ("ln_1p to 80 bits", 0xefc4239a59561178),
+    ("sqrt", 0xded8369eda032efc),
 ];
 
 const LANES: [(&str, u64); 9] = [

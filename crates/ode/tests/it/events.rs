@@ -59,6 +59,20 @@ fn a_dip_is_found_where_only_one_neighbour_is_high() {
 }
 
 #[test]
+fn a_value_without_a_minimum_is_not_searched() {
+    // each look costs an evaluation of the interpolant; a search for a minimum takes 48
+    for value in [|y: f64| 1.0 + y, |y: f64| 3.0 - y] {
+        let looks = std::cell::Cell::new(0);
+        let counted = |y: f64| {
+            looks.set(looks.get() + 1);
+            value(y)
+        };
+        assert_eq!(crossing(16, counted), None);
+        assert!(looks.get() <= 20, "{} looks", looks.get());
+    }
+}
+
+#[test]
 fn the_quarter_turn_of_the_oscillator() {
     let mut time = None;
     let control = Control::Adaptive { tolerance: 1e-13 };

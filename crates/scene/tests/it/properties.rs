@@ -163,7 +163,8 @@ fn fate(text: &str) -> String {
 #[test]
 fn any_accepted_scene_ends_and_any_other_is_refused_in_words() {
     let (sender, receiver) = mpsc::channel::<String>();
-    let worker = std::thread::spawn(move || {
+    // strategies within strategies take more of the stack than a thread has by default, without optimisation
+    let worker = std::thread::Builder::new().stack_size(1 << 28).spawn(move || {
         let config = Config {
             cases: std::env::var("PROPTEST_CASES").ok().and_then(|cases| cases.parse().ok()).unwrap_or(CASES),
             // a scene that failed once is tried first from then on
@@ -180,6 +181,7 @@ fn any_accepted_scene_ends_and_any_other_is_refused_in_words() {
         });
         (result.map_err(|error| error.to_string()), fates.into_inner())
     });
+    let worker = worker.expect("a thread");
     let mut last = String::new();
     loop {
         match receiver.recv_timeout(PATIENCE) {

@@ -1,0 +1,40 @@
+//! The ledger's tables and the expressions over them: two lines with a condition and an expression, then a table.
+
+use xtask::ledger::expression::{Binding, Condition, Expression};
+use xtask::ledger::requirement::Requirement;
+use xtask::ledger::sheet::{Sheet, Stated};
+
+/// Tries one.
+pub fn read(bytes: &[u8]) {
+    let text = String::from_utf8_lossy(bytes);
+    let mut lines = text.splitn(3, '\n');
+    let (condition, expression) = (lines.next().unwrap_or(""), lines.next().unwrap_or(""));
+    let requirement = Requirement::parse(expression);
+    let table = lines.next().unwrap_or("").as_bytes();
+    let Ok(sheet) = Sheet::parse(table, &|name| name.starts_with('e').then_some(Stated::OfRange(1e-9))) else { return };
+    assert!(sheet.columns.iter().all(|column| column.cells.len() == sheet.rows()));
+    let binding = Binding { sheet: &sheet, errors: None };
+    let condition = Condition::parse(condition).and_then(|condition| condition.bind(&binding));
+    let expression = Expression::parse(expression).and_then(|expression| expression.bind(&binding));
+    for row in 0..sheet.rows() {
+        if let Ok(condition) = &condition {
+            let _ = condition.holds(&sheet, row);
+        }
+        if let Ok(Ok(Some(value))) = expression.as_ref().map(|expression| expression.value(&sheet, row)) {
+            // not below itself, however uncertain
+            assert!(value.error.is_nan() || value.error >= 0.0, "{value:?}");
+            if let Ok(requirement) = requirement {
+                let _ = requirement.judge(value);
+            }
+        }
+    }
+    let names: Vec<String> = sheet.names().iter().take(1).map(|&name| name.to_owned()).collect();
+    if let Ok(both) = sheet.beside(&sheet, &names) {
+        assert!(both.rows() <= sheet.rows() && both.columns.len() + names.len() == 2 * sheet.columns.len());
+    }
+    if let Some(name) = sheet.names().last()
+        && let Ok(next) = sheet.next(name, &names)
+    {
+        assert!(next.rows() < sheet.rows() || sheet.rows() == 0);
+    }
+}
