@@ -130,7 +130,7 @@ pub const VENDOR: &str = "vendor";
 /// In the archive, what tells cargo of that folder; `.cargo/config.toml` includes it where it exists.
 pub const VENDORED_CONFIG: &str = ".cargo/vendored.toml";
 /// Documents that belong into the archive when they have been made.
-pub const DOCUMENTS: [&str; 2] = ["paper/paper.pdf", "paper/report.html"];
+pub const DOCUMENTS: [&str; 2] = [DOCUMENT_PDF, PAGE];
 /// The source that stands for the whole run in the description of the archive.
 pub const MAIN_WORKFLOW: &str = "xtask/src/verbs/figures.rs";
 /// The validators of the archive's descriptions.
