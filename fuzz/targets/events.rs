@@ -8,7 +8,7 @@ pub fn read(bytes: &[u8]) {
     match events::parse(RUN_HEADER, &text) {
         Ok(run) => {
             assert!(run.iter().all(|event| event.t.is_finite()));
-            assert!(events::compare("a", &run, &run).is_empty(), "{run:?}");
+            assert!(events::compare("a", &run, &run, 0.0).is_empty(), "{run:?}");
             let table = events::merge(HEADER, &events::lines("a", &run, &run), &|_| false);
             let all =
                 events::parse_all("events.csv", &table).unwrap_or_else(|failure| panic!("{failure:?}: {table:?}"));
