@@ -300,11 +300,6 @@ impl Paths {
         self.root.join("data/datapackage.json")
     }
 
-    /// The machines that got the same bits, or others; a line each.
-    pub fn attestation_log(&self) -> PathBuf {
-        self.root.join("data/attestations.jsonl")
-    }
-
     /// What each picture shows, in words.
     pub fn alternatives(&self) -> PathBuf {
         self.root.join("paper/alternatives.toml")

@@ -1,12 +1,13 @@
 //! The numbers that the page carries: maps, curves, trajectories, published values. As base64 of small binary numbers,
 //! lowest byte first; what they are stands in an index in JSON.
 
-use super::base64;
 use super::html::symbol;
 use super::scenes;
 use super::source::Source;
 use crate::failure::Failure;
 use crate::figure::Figure;
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
 use files::recipe::{Kind, Panel, Recipe};
 use files::table::Table;
 use serde_json::{Value, json};
@@ -101,7 +102,7 @@ pub fn collect(source: &Source<'_>) -> Result<Data, Failure> {
 }
 
 fn element(id: &str, bytes: &[u8]) -> String {
-    format!("<script type=\"text/plain\" id=\"{id}\">{}</script>\n", base64::encode(bytes))
+    format!("<script type=\"text/plain\" id=\"{id}\">{}</script>\n", BASE64_STANDARD.encode(bytes))
 }
 
 /// Numbers as four bytes each: seven digits.

@@ -1,6 +1,8 @@
 //! Pieces of HTML: escaped text, numbers, symbols, tables.
 
 use crate::failure::Failure;
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
 use std::collections::BTreeMap;
 
 /// Text that may stand between tags and in quoted attributes.
@@ -152,7 +154,7 @@ pub fn table(name: &str, head: &[&str], rows: &[Vec<String>]) -> String {
 
 /// A picture or a file as an address that holds it.
 pub fn data_uri(kind: &str, bytes: &[u8]) -> String {
-    format!("data:{kind};base64,{}", super::base64::encode(bytes))
+    format!("data:{kind};base64,{}", BASE64_STANDARD.encode(bytes))
 }
 
 /// Puts what the slots `{{name}}` of a template name in their place.

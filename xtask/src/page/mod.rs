@@ -5,7 +5,6 @@
 //! table, the manifest or the ledger.
 
 pub mod accuracy;
-pub mod base64;
 pub mod claims;
 pub mod data;
 pub mod figures;
