@@ -173,7 +173,7 @@ pub struct ListArgs {
     /// Which figures.
     #[command(flatten)]
     pub selection: Selection,
-    /// Seconds, memory and disk of each figure as measured by verify --costs, as a table in Markdown
+    /// What each figure and each claim costs, as measured by verify --costs; put into REPRODUCING.md as well
     #[arg(long)]
     pub costs: bool,
     /// The claims with their verdicts in place of the figures

@@ -97,6 +97,8 @@ pub const EVENTS: &str = "data/events.csv";
 pub const TOLERANCES: &str = "data/tolerances.toml";
 /// What each program costs, by name.
 pub const COSTS: &str = "data/costs.csv";
+/// The document that shows the costs, by name.
+pub const REPRODUCING: &str = "REPRODUCING.md";
 /// Who got which bits, by name.
 pub const ATTESTATIONS: &str = "data/attestations.jsonl";
 /// What the ledger is written by hand from: claims, errata, parameters.

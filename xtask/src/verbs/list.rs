@@ -2,7 +2,7 @@
 
 use super::figures::{Times, read_times};
 use crate::cli::ListArgs;
-use crate::costs::{self, Cost, Costs};
+use crate::costs;
 use crate::failure::Failure;
 use crate::figure::{self, Figure};
 use crate::ledger;
@@ -24,7 +24,9 @@ pub fn run(paths: &Paths, arguments: &ListArgs) -> Result<(), Failure> {
     let ids = &arguments.selection.ids;
     let selected = if ids.is_empty() { all.iter().collect() } else { figure::select(&all, ids, false)? };
     if arguments.costs {
-        return print::out(&cost_table(&all, &costs::read(paths)?));
+        let text = costs::markdown(paths, &all)?;
+        costs::put_in_document(paths, &text)?;
+        return print::out(&text);
     }
     let times = read_times(paths)?;
     if arguments.json {
@@ -43,17 +45,6 @@ pub fn run(paths: &Paths, arguments: &ListArgs) -> Result<(), Failure> {
         text.push_str(&format!("{}\n  {}\n{}", figure.id, Paths::scene(&figure.slug), lines.concat()));
     }
     print::out(&text)
-}
-
-/// The costs of each figure in Markdown, as REPRODUCING.md has them.
-pub fn cost_table(all: &[Figure], costs: &Costs) -> String {
-    let row = |(figure, cost): (&Figure, Cost)| {
-        let Cost { cpu, memory, disk } = cost;
-        let id = &figure.id;
-        format!("| {id} | `cargo xtask figures {id}` | {cpu:.2} | {memory:.0} | {:.1} |\n", disk / 1024.0)
-    };
-    let rows: String = costs::of_figures(all, costs).into_iter().map(row).collect();
-    format!("| figure | command | seconds of a processor | memory, MiB | disk, MiB |\n|---|---|---|---|---|\n{rows}")
 }
 
 /// The tables that are there, and the pictures.

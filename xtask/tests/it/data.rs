@@ -54,3 +54,18 @@ fn every_run_has_hashes_of_its_states() {
         assert!(xtask::judging::states::parse(&name, &text).expect("hashes").len() > 10, "{name}");
     }
 }
+
+#[test]
+fn the_costs_in_the_document_are_those_measured() {
+    let paths = xtask::paths::Paths::find(Some(data().join(".."))).expect("the checkout");
+    let all = xtask::figure::discover(&paths).expect("figures");
+    let text = std::fs::read_to_string(paths.root.join(xtask::paths::REPRODUCING)).expect("the document");
+    let (_, between, _) = xtask::costs::parts(&text).expect("marks around the tables");
+    let measured = xtask::costs::markdown(&paths, &all).expect("costs");
+    assert!(between == measured, "the tables are others: cargo xtask list --costs mends them");
+    let costs = xtask::costs::read(&paths).expect("costs");
+    let known = xtask::costs::of_figures(&all, &costs);
+    let missing: Vec<&str> =
+        all.iter().map(|one| &*one.id).filter(|id| known.iter().all(|(one, _)| one.id != *id)).collect();
+    assert!(missing.is_empty(), "not measured: {missing:?}; cargo xtask verify --all --costs");
+}

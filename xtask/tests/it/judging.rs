@@ -89,3 +89,38 @@ fn tables_of_another_shape_are_not_compared() {
     let rows = numbers::compare(&table("t\n0\n1\n"), &table("t\n0\n"), 1, &exact).expect("the rows of both");
     assert_eq!((rows.cells, rows.unmatched), (0, 1));
 }
+
+#[test]
+fn differences_along_t_grow_shrink_or_stay() {
+    let table = |error: &dyn Fn(i32) -> f64| {
+        let rows: String = (0..40).map(|t| format!("{t},{:?}\n", 1.0 + error(t))).collect();
+        Table::parse(format!("t,std\n{rows}").as_bytes()).expect("a table")
+    };
+    let small = |t: i32| f64::from(t) * 1e-6;
+    for (error, course, since) in [
+        (&small as &dyn Fn(i32) -> f64, "growing", 1.0),
+        (&|t| small(40 - t) * f64::from(40 - t), "shrinking", 0.0),
+        (&|_| 1e-6, "constant", 0.0),
+        (&|t| if t < 35 { 0.0 } else { 1e-6 }, "growing", 35.0),
+        (&|t| if t == 7 { 1e-6 } else { 0.0 }, "in one row", 7.0),
+    ] {
+        let tolerance = |_: &str| Tolerance { absolute: 20.5e-6, ..Tolerance::default() };
+        let distance = numbers::compare(&table(&|_| 0.0), &table(error), 1, &tolerance).expect("one shape");
+        let found = distance.course.expect("a course");
+        assert_eq!((found.course, found.since), (course, since), "{:?}", found.quarters);
+        let beyond = (0..40).filter(|&t| error(t) > 20.5e-6).count();
+        assert_eq!(distance.beyond, beyond);
+        assert_eq!(distance.furthest.is_some(), beyond > 0);
+    }
+}
+
+#[test]
+fn tolerances_add_up() {
+    let table = |value: f64| Table::parse(format!("n,v\n0,{value:?}\n1,-8\n").as_bytes()).expect("a table");
+    let tolerance = |_: &str| Tolerance { absolute: 0.25, relative: 0.5, of_scale: 0.125 };
+    // 0.25 + 0.125 * 8 + 0.5 * the larger of the two
+    for (value, beyond) in [(3.25, 0), (4.5, 0), (4.75, 1)] {
+        let distance = numbers::compare(&table(1.0), &table(value), 1, &tolerance).expect("one shape");
+        assert_eq!(distance.beyond, beyond, "{value}");
+    }
+}
