@@ -151,3 +151,50 @@ fn a_thread_that_panics_is_a_failure_and_no_missing_file() {
     let failure = xtask::hashing::hash_by(&paths, &hash).expect_err("a failure");
     assert_eq!(failure.code(), 4);
 }
+
+#[test]
+fn records_that_are_not_as_written_count_as_none() {
+    let shop = blessed("troubles-records");
+    let events = shop.read("data/events.csv");
+    // a digit of an event, which would go into the table of events
+    shop.edit("target/xtask/state.json", "fig04-stable,overlap,12.5,7", "fig04-stable,overlap,12.6,7");
+    shop.xtask(&["figures"]).expect(0);
+    assert_eq!(shop.read("data/events.csv"), events);
+    assert!(shop.calls().contains(&"fig04-growth".to_owned()));
+    // no text at all
+    std::fs::write(shop.root.join("target/xtask/state.json"), [0xff, 0xfe]).expect("a file");
+    std::fs::write(shop.root.join("target/xtask/times.json"), [0xff, 0xfe]).expect("a file");
+    shop.xtask(&["figures"]).expect(0);
+}
+
+#[test]
+fn whatever_has_the_name_of_an_output_gives_way() {
+    let shop = blessed("troubles-names");
+    for name in ["figures/fig05-exponential-map/fig05.png", "data/fig06/left.csv", "target/xtask/report/fig06.json"] {
+        std::fs::remove_file(shop.root.join(name)).expect("a file");
+        std::fs::create_dir_all(shop.root.join(name).join("inside")).expect("a folder");
+    }
+    let tables = shop.root.join("data/fig12");
+    std::fs::remove_dir_all(&tables).expect("a folder");
+    shop.write("data/fig12", "a file");
+    let ended = shop.xtask(&["status"]).expect(0);
+    assert_eq!(ended.out.matches("stale").count(), 3, "{}", ended.out);
+    shop.xtask(&["figures"]).expect(0);
+    shop.xtask(&["status", "--exit-code"]).expect(0);
+}
+
+#[test]
+fn a_stored_run_whose_list_has_lost_a_line_is_made_again() {
+    let shop = blessed("troubles-list");
+    for entry in std::fs::read_dir(shop.root.join("target/store")).expect("a store") {
+        let list = entry.expect("a run").path().join("SHA256SUMS");
+        let text = std::fs::read_to_string(&list).expect("sums");
+        let kept: String =
+            text.lines().filter(|line| !line.ends_with("std.csv")).map(|line| format!("{line}\n")).collect();
+        std::fs::write(&list, kept).expect("sums");
+        std::fs::write(list.with_file_name("std.csv"), "t,std\n0,1\n").expect("a table");
+    }
+    shop.edit("crates/plot/src/lib.rs", "Pictures", "Better pictures");
+    shop.xtask(&["figures", "12"]).expect(0);
+    assert_eq!(shop.calls(), ["cargo", "fig12-speeds", "simulate main", "simulate main check"]);
+}
