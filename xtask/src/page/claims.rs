@@ -1,6 +1,7 @@
 //! Claims, errata and parameters as HTML.
 
-use super::html::{code, escape, latex_html, measured, number, prose, table};
+use super::formula::prose;
+use super::html::{code, escape, latex_html, measured, number, table};
 use super::ledger::{Claim, Erratum, Ledger, Parameter, Test, VERDICTS};
 
 /// The verdicts at a glance: a bar and a list of counts.
@@ -58,13 +59,14 @@ fn claim(claim: &Claim) -> String {
     let notes =
         noted("The tables now say", &changed) + &noted("Condition", &claim.condition) + &noted("Why", &claim.why);
     format!(
-        "<article class=\"claim\" id=\"claim-{id}\" data-verdict=\"{verdict}\" data-label=\"{label}\">\n\
+        "<article class=\"claim\" id=\"claim-{id}\" data-verdict=\"{verdict}\" data-label=\"{label}\" data-words=\"{words}\">\n\
          <h3>{says}</h3>\n<p class=\"meta\"><span class=\"verdict {class}\">{verdict}</span> {label_code}</p>\n\
          <p>{finding}</p>\n{notes}{tests}</article>\n",
         verdict = escape(&claim.verdict),
         class = class(&claim.verdict),
         label = escape(&claim.label),
         label_code = code(&claim.label),
+        words = escape(&format!("{} {}", claim.says, claim.finding)),
         says = prose(&claim.says),
         finding = prose(&claim.finding),
         tests = tests(&claim.id, &claim.tests),
@@ -98,7 +100,7 @@ fn test(test: &Test) -> Vec<String> {
     };
     let is = test.is.as_deref().unwrap_or("");
     let under = if test.under { "under the condition: " } else { "" };
-    vec![format!("{under}{}", prose(&test.words)), value, error, escape(is), escape(test.outcome())]
+    vec![format!("{under}{}", escape(&test.words)), value, error, escape(is), escape(test.outcome())]
 }
 
 /// All errata.
@@ -116,7 +118,7 @@ fn erratum(erratum: &Erratum) -> String {
     };
     format!(
         "<article class=\"erratum\" id=\"erratum-{id}\">\n<h3>{label}</h3>\n<dl><dt>The paper</dt><dd>{says}</dd>\n\
-         <dt>Should read</dt><dd>{should}</dd>\n<dt>Why</dt><dd>{why}</dd></dl>\n<p class=\"meta\">{touches}</p>\n\
+         <dt>Should read</dt><dd>{should}</dd>\n<dt>Why</dt><dd>{why}</dd></dl>\n<p class=\"note\">{touches}</p>\n\
          {tests}</article>\n",
         id = escape(&erratum.id),
         label = escape(&erratum.label),

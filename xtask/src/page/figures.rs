@@ -1,7 +1,8 @@
 //! The figures: picture, caption, and what is known of each.
 
 use super::data;
-use super::html::{self, code, escape, number, prose, table};
+use super::formula::prose;
+use super::html::{self, code, escape, number, table};
 use super::scenes;
 use super::source::Source;
 use crate::failure::Failure;

@@ -10,16 +10,6 @@ pub fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// Text in which words between backquotes become code.
-pub fn prose(text: &str) -> String {
-    let parts = escape(text);
-    let mut html = String::new();
-    for (index, part) in parts.split('`').enumerate() {
-        html.push_str(&if index % 2 == 1 { format!("<code>{part}</code>") } else { part.to_owned() });
-    }
-    html
-}
-
 /// A piece of code: a path, a command.
 pub fn code(text: &str) -> String {
     format!("<code>{}</code>", escape(text))
@@ -204,7 +194,6 @@ mod tests {
     #[test]
     fn nothing_gets_out_of_a_text() {
         assert_eq!(escape("<a b=\"c\">&"), "&lt;a b=&quot;c&quot;&gt;&amp;");
-        assert_eq!(prose("see `a<b`"), "see <code>a&lt;b</code>");
     }
 
     #[test]

@@ -8,6 +8,7 @@ pub mod accuracy;
 pub mod claims;
 pub mod data;
 pub mod figures;
+pub mod formula;
 pub mod html;
 pub mod ledger;
 pub mod machines;

@@ -5,7 +5,8 @@ class Filter {
     this.form = form;
     this.shown = document.getElementById('shown');
     this.claims = [...document.querySelectorAll('.claim')].map((element) => ({
-      element, verdict: element.dataset.verdict, label: element.dataset.label, text: element.textContent.toLowerCase(),
+      element, verdict: element.dataset.verdict, label: element.dataset.label, // as it is set, and as it is typed: a search for mu finds the letter
+      text: `${element.textContent} ${element.dataset.words}`.toLowerCase(),
     }));
     form.addEventListener('input', () => this.apply());
     form.addEventListener('submit', (event) => event.preventDefault());
