@@ -18,7 +18,7 @@ coverage+=" -Cllvm-args=-sanitizer-coverage-inline-8bit-counters -Cllvm-args=-sa
 coverage+=" -Cllvm-args=-sanitizer-coverage-trace-compares -Ccodegen-units=1"
 host=x86_64-unknown-linux-gnu
 # with a target named, the flags do not reach build scripts, which link no libFuzzer
-RUSTFLAGS=$coverage CARGO_TARGET_DIR=$PWD/target/fuzz cargo build --quiet --release \
+RUSTFLAGS=$coverage CARGO_TARGET_DIR=$PWD/target/fuzz cargo build --quiet --release --locked \
     --manifest-path fuzz/Cargo.toml --target "$host"
 mkdir -p target/fuzz/found
 for name in "$@"; do

@@ -133,7 +133,9 @@ impl<'a> Run<'a> {
     ) -> Result<(), Failure> {
         let count = (problem.end - problem.begin) / h;
         let is_multiple = (count - count.round()).abs() < SAME * count;
-        let whole = if is_multiple { count.round() } else { count.ceil() } as u64;
+        // of a step much longer than the whole time the number may vanish
+        let least = u64::from(problem.begin < problem.end);
+        let whole = (if is_multiple { count.round() } else { count.ceil() } as u64).max(least);
         let Place { step: mut k, mut slow_until } = from;
         let mut next_mark = k + LONGEST_BURST;
         while k < whole {

@@ -10,7 +10,7 @@ use jam::ramp::{ramp, smooth_ramp};
 /// force on a pedestrian in a uniform flow at rest, in units of `v_0 / tau` (fig:log_f).
 ///
 /// # Errors
-/// What is missing, unknown or out of range, with file and line.
+/// What is missing, unknown or out of range, with file and line; a point where the function has no finite value.
 pub fn table(file: &str, tables: &Section) -> Result<Table, RecipeError> {
     let mut top = Reader::new(file, "scene", tables);
     let mut curve = Reader::new(file, "curve", top.section("curve")?);
@@ -33,6 +33,10 @@ pub fn table(file: &str, tables: &Section) -> Result<Table, RecipeError> {
         arguments.for_each(|gap| table.push(&[gap, force(&model, gap)]));
         table
     };
+    if let Some(row) = table.rows().find(|row| !row.iter().all(|number| number.is_finite())) {
+        let problem = format!("there is no finite {value} at {:?}; leave it out, between from and to", row[0]);
+        return Err(curve.complaint("value", &problem));
+    }
     curve.finish()?;
     top.finish()?;
     Ok(table)

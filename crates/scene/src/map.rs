@@ -197,7 +197,7 @@ impl Map {
     /// Computes the map, column of cells by column of cells.
     ///
     /// # Errors
-    /// A cell without a uniform flow: its parameters.
+    /// A cell without a uniform flow or a finite value: its parameters.
     pub fn compute(&self) -> Result<Computed, String> {
         let mut table = Table::new(&self.columns());
         let mut error: f64 = 0.0;
@@ -206,6 +206,7 @@ impl Map {
                 let (x, y) = (self.x.centre(i), self.y.centre(j));
                 let (value, other) = self
                     .cell(x, y)
+                    .and_then(finite)
                     .map_err(|why| format!("at {} = {x:?}, {} = {y:?}: {why}", self.x.parameter, self.y.parameter))?;
                 // relative where the value is large: there it lies far beyond the colours
                 let size = if value.abs() > 1.0 { value.abs() } else { 1.0 };
@@ -236,6 +237,14 @@ impl Map {
                 (linear.growth_rate(k), linear.refined_growth_rate(k))
             }
         })
+    }
+}
+
+/// The same pair, if the first is a number that a table can hold.
+fn finite(values: (f64, f64)) -> Result<(f64, f64), String> {
+    match values.0.is_finite() {
+        true => Ok(values),
+        false => Err(format!("the value is {:?}: a number is too large or too small here", values.0)),
     }
 }
 

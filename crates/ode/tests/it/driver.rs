@@ -35,6 +35,8 @@ fn the_last_fixed_step_is_shorter_where_the_end_is_no_multiple() {
     assert_eq!(steps[10], (1.0, 1.05, 1.05 - 1.0));
     let one = self::steps(0.25, Control::Fixed { step: 1.0 }, Method::Rk4);
     assert_eq!(one, [(0.0, 0.25, 0.25)]);
+    // 5e-324 / 2 is 0
+    assert_eq!(self::steps(5e-324, Control::Fixed { step: 2.0 }, Method::Rk4), [(0.0, 5e-324, 5e-324)]);
 }
 
 #[test]

@@ -438,6 +438,13 @@ fn complaints_about_curves() {
             ),
         ],
     );
+    let force = CURVE.replace("ramp", "force").replace("epsilon = 0.1\n", "");
+    let law = format!("[law]\n{}\n", ALGEBRAIC.replace("q = 2.0", "q = 2.5"));
+    assert_eq!(
+        complaint(&format!("{force}{law}")).expect("no force behind the wall"),
+        "my.toml:2: curve.value = \"force\": there is no finite force at -1.0; leave it out, between from and to"
+    );
+    assert_eq!(complaint(&format!("{}{law}", force.replace("-1.0", "2.5").replace("to = 1.0", "to = 9.0"))), None);
 }
 
 #[test]

@@ -57,6 +57,17 @@ fn maps_over_the_headway_solve_for_the_steady_speed() {
 }
 
 #[test]
+fn a_cell_without_a_finite_value_is_named() {
+    let axes = "x = { parameter = \"mu\", from = 0.0, to = 2e200, cells = 1 }\n\
+                y = { parameter = \"d_gap\", from = 1.0, to = 2.0, cells = 2 }\n";
+    let recipe = recipe(&format!("{LAW}[map]\nvalue = \"criterion\"\n{axes}"));
+    let map = scene::map::read("my.toml", &recipe.panels[0].tables).expect("a map");
+    let problem = map.compute().expect_err("mu^2 is above all numbers");
+    assert!(problem.starts_with("at mu = 1e200, d_gap = 1.25: the value is "), "{problem}");
+    assert!(problem.ends_with("a number is too large or too small here"), "{problem}");
+}
+
+#[test]
 fn a_cell_without_uniform_flow_is_named() {
     let axes = "x = { parameter = \"headway\", from = 1.0, to = 3.0, cells = 2 }\n\
                 y = { parameter = \"mu\", from = 0.0, to = 1.0, cells = 2 }\n";

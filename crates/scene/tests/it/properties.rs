@@ -22,9 +22,18 @@ fn number(low: f64, high: f64) -> impl Strategy<Value = String> {
     let (low, high) = (math::ln(low), math::ln(high));
     let absurd = ["0.0", "-1.0", "5e-324", "1e-300", "1e-17", "1e17", "1e300", "1.7e308", "nan", "inf", "true"];
     prop_oneof![
-        24 => (low..high).prop_map(|x| format!("{:?}", math::exp(x))),
+        60 => (low..high).prop_map(|x| format!("{:?}", math::exp(x))),
         1 => proptest::sample::select(absurd.to_vec()).prop_map(str::to_owned),
     ]
+}
+
+/// The same with the other sign, where it has one.
+fn negative(low: f64, high: f64) -> impl Strategy<Value = String> {
+    number(low, high).prop_map(|x| match x.strip_prefix('-') {
+        Some(positive) => positive.to_owned(),
+        None if x == "true" => x,
+        None => format!("-{x}"),
+    })
 }
 
 /// `key = number`, or nothing.
@@ -65,61 +74,81 @@ fn law() -> impl Strategy<Value = String> {
 }
 
 fn ring() -> impl Strategy<Value = String> {
-    let headway = prop_oneof![8 => 0.5_f64..6.0, 1 => 0.001_f64..1000.0];
-    let shift = prop_oneof![6 => number(1e-12, 0.5), 1 => number(1e-12, 1e3).prop_map(|x| format!("-{x}"))];
+    let headway = prop_oneof![8 => 2.1_f64..6.0, 1 => 0.001_f64..1000.0];
+    let shift = prop_oneof![3 => number(1e-12, 0.5), 3 => number(0.1, 2.0), 1 => negative(1e-12, 1e3)];
     (1_usize..=9, headway, shift).prop_map(|(n, headway, shift)| {
         format!("[ring]\npedestrians = {n}\nlength = {:?}\n[start]\nshift = {shift}\n", n as f64 * headway)
     })
 }
 
-fn control() -> impl Strategy<Value = String> {
-    prop_oneof![
-        3 => (2_i32..=16).prop_map(|digits| format!("tolerance = 1e-{digits}\n")),
-        3 => number(0.01, 3.0).prop_map(|dt| format!("dt = {dt}\n")),
-        1 => Just(String::new()),
-    ]
+/// Method and control: mostly those that go together.
+fn method() -> impl Strategy<Value = String> {
+    let method = proptest::sample::select(Method::ALL.to_vec());
+    (method, 2_i32..=16, number(0.01, 3.0), 0_u32..24).prop_map(|(method, digits, dt, choice)| {
+        let (tolerance, dt) = (format!("tolerance = 1e-{digits}\n"), format!("dt = {dt}\n"));
+        let control = match choice {
+            0 => String::new(),
+            1 => [tolerance, dt].concat(),
+            2 => tolerance,
+            3..14 if method.is_adaptive() => tolerance,
+            _ => dt,
+        };
+        format!("method = \"{}\"\n{control}", method.name())
+    })
 }
 
 fn times() -> impl Strategy<Value = String> {
     let record =
-        proptest::sample::select(vec!["", "record = \"std\"\n", "record = \"trajectories\"\n", "record = 1\n"]);
+        proptest::sample::select(vec!["", "", "record = \"std\"\n", "record = \"trajectories\"\n", "record = 1\n"]);
     let state =
         proptest::sample::select(vec!["", "state = \"deviations\"\n", "state = \"gaps\"\n", "state = \"positions\"\n"]);
-    let method = proptest::sample::select(Method::ALL.map(Method::name).to_vec());
-    (number(0.01, 30.0), number(0.3, 30.0), method, control(), state, record).prop_map(
-        |(end, sample, method, control, state, record)| {
-            format!("[run]\nt_end = {end}\nsample = {sample}\nmethod = \"{method}\"\n{control}{state}{record}")
-        },
-    )
-}
-
-fn axis() -> impl Strategy<Value = String> {
-    let names = ["mu", "delta", "q", "a", "b", "c", "a_v", "v0", "d_gap", "headway", "k", "n"];
-    (proptest::sample::select(names.to_vec()), number(1e-3, 2.0), number(1e-2, 30.0), 1_usize..=6).prop_map(
-        |(name, from, to, cells)| format!("{{ parameter = \"{name}\", from = {from}, to = {to}, cells = {cells} }}"),
-    )
-}
-
-/// A law without one of its lines: an axis may name what the law does not.
-fn lacking_law() -> impl Strategy<Value = String> {
-    (law(), 0_usize..12).prop_map(|(law, out)| {
-        // the first two lines are the header and the kind
-        let lines = law.lines().enumerate().filter(|&(index, _)| index < 2 || index != out);
-        lines.map(|(_, line)| format!("{line}\n")).collect()
+    (number(1.0, 80.0), number(0.5, 80.0), method(), state, record).prop_map(|(end, sample, method, state, record)| {
+        format!("[run]\nt_end = {end}\nsample = {sample}\n{method}{state}{record}")
     })
 }
 
+/// A law's parameters that can be an axis, with those of the flow.
+fn axes(law: &str) -> Vec<&'static str> {
+    let own: &[&str] = match law {
+        law if law.contains("algebraic") => &["mu", "delta", "q", "a_v", "v0"],
+        law if law.contains("exponential") => &["a", "b", "c", "a_v", "v0"],
+        _ => &["a_v", "v0"],
+    };
+    [own, &["headway", "d_gap", "k"]].concat()
+}
+
+/// Mostly what goes together: axes that the law has and does not name, one way to say which flow, a wave number for
+/// growth rates. Out of order by `slip`: the law names an axis, or the flow is said twice or not at all.
 fn map() -> impl Strategy<Value = String> {
-    let value = proptest::sample::select(vec!["criterion", "growth_rate"]);
-    let uniform = (optional("headway", 0.3, 30.0), optional("d_gap", 0.01, 30.0), optional("k", 1e-3, 4.0));
-    (lacking_law(), value, axis(), axis(), uniform).prop_map(|(law, value, x, y, (headway, gap, k))| {
-        format!("{law}[uniform]\n{headway}{gap}{k}[map]\nvalue = \"{value}\"\nx = {x}\ny = {y}\n")
+    let law = prop_oneof![algebraic(), exponential(), logarithmic()];
+    let places = (0_usize..8, 0_usize..8, 0_usize..20);
+    let ranges = (number(1e-3, 2.0), number(3.0, 30.0), number(1e-3, 2.0), number(3.0, 30.0), 1_usize..=6);
+    let flow = (number(2.0, 30.0), number(0.1, 3.0), any::<bool>());
+    (law, places, ranges, flow).prop_map(|(law, (i, j, slip), (low, high, from, to, cells), (gap, k, grows))| {
+        let names = axes(&law);
+        let (x, y) = (names[i % names.len()], names[j % names.len()]);
+        let is_axis = |key: &str| key == x || key == y;
+        let named = |line: &&str| slip == 0 || !is_axis(line.split(' ').next().unwrap_or(""));
+        let law: String = law.lines().filter(named).map(|line| format!("{line}\n")).collect();
+        let mut flow = String::new();
+        if !is_axis("headway") && !is_axis("d_gap") && slip != 1 || slip == 2 {
+            let key = if law.contains("logarithmic") || slip % 2 == 0 { "headway" } else { "d_gap" };
+            flow.push_str(&format!("{key} = {gap}\n"));
+        }
+        let grows = grows || is_axis("k");
+        if grows && !is_axis("k") && slip != 3 {
+            flow.push_str(&format!("k = {k}\n"));
+        }
+        let value = if grows && slip != 4 { "growth_rate" } else { "criterion" };
+        let x = format!("x = {{ parameter = \"{x}\", from = {low}, to = {high}, cells = {cells} }}\n");
+        let y = format!("y = {{ parameter = \"{y}\", from = {from}, to = {to}, cells = 3 }}\n");
+        format!("[law]\n{law}[uniform]\n{flow}[map]\nvalue = \"{value}\"\n{x}{y}")
     })
 }
 
 fn curve() -> impl Strategy<Value = String> {
     let value = proptest::sample::select(vec!["ramp", "force"]);
-    let from = prop_oneof![number(1e-3, 10.0), number(1e-3, 10.0).prop_map(|x| format!("-{x}"))];
+    let from = prop_oneof![number(1e-3, 10.0), negative(1e-3, 10.0)];
     (law(), value, from, number(1e-2, 30.0), 1_usize..=40, optional("epsilon", 1e-4, 3.0)).prop_map(
         |(law, value, from, to, points, epsilon)| {
             let law = if value == "ramp" { String::new() } else { law };
