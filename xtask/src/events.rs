@@ -39,7 +39,7 @@ pub fn parse_all(file: &str, text: &str) -> Result<ByScene, Failure> {
     }
     let mut scenes = ByScene::new();
     for (index, line) in lines.enumerate() {
-        let cells: Vec<&str> = line.split(',').collect();
+        let cells = cells(line);
         let [scene, event, t_text, n, _] = cells[..] else { return Err(fail(index + 2, line)) };
         let t = time(t_text).ok_or_else(|| fail(index + 2, line))?;
         let event = Event { event: event.to_owned(), t_text: t_text.to_owned(), t, n: n.to_owned() };
@@ -111,12 +111,17 @@ pub fn parse(file: &str, text: &str) -> Result<Vec<Event>, Failure> {
         other => return Err(fail(1, other.unwrap_or(""))),
     }
     let event = |(index, line): (usize, &str)| {
-        let cells: Vec<&str> = line.split(',').collect();
+        let cells = cells(line);
         let [event, t_text, n] = cells[..] else { return Err(fail(index + 2, line)) };
         let t = time(t_text).ok_or_else(|| fail(index + 2, line))?;
         Ok(Event { event: event.to_owned(), t_text: t_text.to_owned(), t, n: n.to_owned() })
     };
     lines.enumerate().map(event).collect()
+}
+
+/// The cells of a line; none of one with control characters, as a carriage return at the end of all.
+fn cells(line: &str) -> Vec<&str> {
+    if line.contains(char::is_control) { Vec::new() } else { line.split(',').collect() }
 }
 
 /// A time as written; none that is no finite number.

@@ -51,7 +51,7 @@ impl Sums {
     /// Parses a list; `file` is only for messages.
     ///
     /// # Errors
-    /// Usage: a line of another form, a name that leaves the root, or one that stands twice; with its number.
+    /// Usage: a line of another form, a name that leaves the root or has control characters, or one that stands twice; with its number.
     pub fn parse(file: &str, text: &str) -> Result<Sums, Failure> {
         let mut by_name = BTreeMap::new();
         for (index, line) in text.lines().enumerate() {
@@ -59,6 +59,10 @@ impl Sums {
             let (hash, name) = line.split_once("  ").ok_or_else(|| fail("not `hash  name`"))?;
             if hash.len() != 64 || !hash.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'a'..=b'f')) {
                 return Err(fail("not 64 lower-case hexadecimal digits"));
+            }
+            // a last line without an end keeps its carriage return
+            if name.contains(char::is_control) {
+                return Err(fail("a control character in the name"));
             }
             if name.is_empty() || name.starts_with('/') || name.split('/').any(|part| part == "..") {
                 return Err(fail("not a name relative to the root"));

@@ -26,6 +26,7 @@ fn malformed_lines_are_named() {
         (format!("{ONE}  a\n{TWO} b\n"), "list:2: not `hash  name`"),
         (format!("{}  a\n", ONE.replace('1', "A")), "list:1: not 64"),
         (format!("{ONE}  ../a\n"), "list:1: not a name relative"),
+        (format!("{ONE}  a\r"), "list:1: a control character in the name"),
         (format!("{ONE}  /a\n"), "list:1: not a name relative"),
         (format!("{ONE}  a\n{TWO}  a\n"), "list:2: this name stands twice"),
     ] {
