@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Mutants: one small change of a source after another (an operator, a sign, a returned value), and whether a test fails.
-#   checks/mutants.sh 3/20            the third of twenty shards of the crates math, ode, jam and scene
-#   checks/mutants.sh 3/20 ode        of one crate
+#   checks/mutants.sh 3/48            the third of forty-eight shards of the crates math, ode, jam and scene
+#   checks/mutants.sh 3/48 ode        of one crate
 #   checks/mutants.sh --missed [ode]  what the ledger says was missed, against all tests of the four crates
-# Outcomes are added to checks/mutants.csv; python3 checks/mutants.py sums them up. A shard of twenty takes at most an
+# Outcomes are added to checks/mutants.csv; python3 checks/mutants.py sums them up. A shard of 48 takes about an
 # hour on two cores; what it compiled is kept in target/mutation, so that the next one starts at once.
 set -euo pipefail
 cd "$(dirname "$0")/.."
