@@ -7,16 +7,17 @@ use super::source::{Place, Sources, Tests};
 use super::tables::Tables;
 use super::uncertain::{Outcome, Uncertain};
 use super::words;
+use crate::disk;
 use crate::failure::Failure;
 use crate::paths::Paths;
-use serde::Serialize;
+use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::BTreeMap;
 
 /// The form of the file.
 const SCHEMA_VERSION: u32 = 1;
 
 /// A test and what it gave.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tested {
     /// The name for placeholders.
     pub name: Option<String>,
@@ -28,9 +29,11 @@ pub struct Tested {
     pub command: String,
     /// The files that it reads.
     pub tables: Vec<String>,
-    /// The value; `null` when it is none.
+    /// The value; `null` (not a number) when it is none.
+    #[serde(deserialize_with = "or_not_a_number")]
     pub value: f64,
-    /// Its error; `null` when nothing bounds it.
+    /// Its error; `null` (infinite) when nothing bounds it.
+    #[serde(deserialize_with = "or_infinite")]
     pub error: f64,
     /// The value in a few digits.
     pub text: String,
@@ -41,7 +44,7 @@ pub struct Tested {
 }
 
 /// A claim and what is found of it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct JudgedClaim {
     /// Its id.
     pub id: String,
@@ -64,7 +67,7 @@ pub struct JudgedClaim {
 }
 
 /// An erratum and its tests.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct JudgedErratum {
     /// Its id.
     pub id: String,
@@ -85,7 +88,7 @@ pub struct JudgedErratum {
 }
 
 /// A parameter and its tests.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct JudgedParameter {
     /// Its id.
     pub id: String,
@@ -108,7 +111,7 @@ pub struct JudgedParameter {
 }
 
 /// The ledger.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Ledger {
     /// The form of the file.
     pub schema_version: u32,
@@ -134,6 +137,22 @@ impl Ledger {
         })
     }
 
+    /// Reads `data/ledger.json`.
+    ///
+    /// # Errors
+    /// Stale: there is none. Failed: it is malformed.
+    pub fn read(paths: &Paths) -> Result<Ledger, Failure> {
+        let path = paths.ledger();
+        let missing = || Failure::Stale(format!("{}: no such file; cargo xtask verify makes it", path.display()));
+        let text = disk::read_text(&path)?.ok_or_else(missing)?;
+        serde_json::from_str(&text).map_err(Failure::at(&path))
+    }
+
+    /// The number of claims with a recorded verdict.
+    pub fn count(&self, verdict: Verdict) -> usize {
+        self.claims.iter().filter(|claim| claim.verdict == verdict).count()
+    }
+
     /// The file.
     ///
     /// # Errors
@@ -141,6 +160,14 @@ impl Ledger {
     pub fn to_text(&self) -> Result<String, Failure> {
         serde_json::to_string_pretty(self).map(|text| text + "\n").map_err(Failure::failed)
     }
+}
+
+fn or_not_a_number<'de, D: Deserializer<'de>>(value: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(value)?.unwrap_or(f64::NAN))
+}
+
+fn or_infinite<'de, D: Deserializer<'de>>(value: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(value)?.unwrap_or(f64::INFINITY))
 }
 
 /// The verdict of a claim's tests. A failure of the statement as written is only told apart from a condition when

@@ -2,40 +2,42 @@
 
 use super::formula::prose;
 use super::html::{code, escape, latex_html, measured, number, table};
-use super::ledger::{Claim, Erratum, Ledger, Parameter, Test, VERDICTS};
+use crate::ledger::entry::Verdict;
+use crate::ledger::report::{JudgedClaim, JudgedErratum, JudgedParameter, Ledger, Tested};
+use crate::ledger::uncertain::Outcome;
 
 /// The verdicts at a glance: a bar and a list of counts.
 pub fn glance(ledger: &Ledger) -> String {
-    let shown = VERDICTS.iter().filter(|verdict| ledger.count(verdict) > 0);
-    let part = |verdict: &&str| {
+    let shown = Verdict::ALL.into_iter().filter(|&verdict| ledger.count(verdict) > 0);
+    let part = |verdict: Verdict| {
         format!("<span class=\"{}\" style=\"flex-grow:{}\"></span>", class(verdict), ledger.count(verdict))
     };
     let bar: String = shown.map(part).collect();
-    let item = |verdict: &&str| {
-        let (count, class) = (ledger.count(verdict), class(verdict));
+    let item = |verdict: Verdict| {
+        let (count, class, verdict) = (ledger.count(verdict), class(verdict), verdict.words());
         format!(
             "<li class=\"{class}\"><a href=\"#claims\" data-verdict=\"{verdict}\"><b>{count}</b> {verdict}</a></li>\n"
         )
     };
-    let list: String = VERDICTS.iter().map(item).collect();
+    let list: String = Verdict::ALL.into_iter().map(item).collect();
     format!("<div class=\"bar\" aria-hidden=\"true\">{bar}</div>\n<ul class=\"verdicts\">{list}</ul>\n")
 }
 
 /// A name for style sheets.
-fn class(verdict: &str) -> String {
-    verdict.replace(' ', "-")
+fn class(verdict: Verdict) -> String {
+    verdict.words().replace(' ', "-")
 }
 
 /// The boxes that choose verdicts, with their counts.
 pub fn verdict_boxes(ledger: &Ledger) -> String {
-    let one = |verdict: &&str| {
-        let (class, count) = (class(verdict), ledger.count(verdict));
+    let one = |verdict: Verdict| {
+        let (class, count, verdict) = (class(verdict), ledger.count(verdict), verdict.words());
         format!(
             "<label class=\"{class}\"><input type=\"checkbox\" name=\"verdict\" value=\"{verdict}\" checked> {verdict} \
              <span class=\"count\">{count}</span></label>\n"
         )
     };
-    VERDICTS.iter().map(one).collect()
+    Verdict::ALL.into_iter().map(one).collect()
 }
 
 /// The labels that claims stand at, as options.
@@ -49,21 +51,22 @@ pub fn claims(ledger: &Ledger) -> String {
     ledger.claims.iter().map(claim).collect()
 }
 
-fn claim(claim: &Claim) -> String {
+fn claim(claim: &JudgedClaim) -> String {
     let id = escape(&claim.id);
     let noted = |name: &str, words: &Option<String>| {
         let words = words.as_deref().filter(|words| !words.is_empty());
         words.map_or(String::new(), |words| format!("<p><b>{name}:</b> {}</p>\n", prose(words)))
     };
-    let changed = Some(claim.verdict_found.clone()).filter(|found| *found != claim.verdict);
+    let changed =
+        Some(claim.verdict_found).filter(|found| *found != claim.verdict).map(|found| found.words().to_owned());
     let notes =
         noted("The tables now say", &changed) + &noted("Condition", &claim.condition) + &noted("Why", &claim.why);
     format!(
         "<article class=\"claim\" id=\"claim-{id}\" data-verdict=\"{verdict}\" data-label=\"{label}\" data-words=\"{words}\">\n\
          <h3>{says}</h3>\n<p class=\"meta\"><span class=\"verdict {class}\">{verdict}</span> {label_code}</p>\n\
          <p>{finding}</p>\n{notes}{tests}</article>\n",
-        verdict = escape(&claim.verdict),
-        class = class(&claim.verdict),
+        verdict = claim.verdict.words(),
+        class = class(claim.verdict),
         label = escape(&claim.label),
         label_code = code(&claim.label),
         words = escape(&format!("{} {}", claim.says, claim.finding)),
@@ -74,7 +77,7 @@ fn claim(claim: &Claim) -> String {
 }
 
 /// The numbers behind a statement, folded.
-fn tests(id: &str, tests: &[Test]) -> String {
+fn tests(id: &str, tests: &[Tested]) -> String {
     if tests.is_empty() {
         return String::new();
     }
@@ -91,16 +94,18 @@ fn tests(id: &str, tests: &[Test]) -> String {
     )
 }
 
-fn test(test: &Test) -> Vec<String> {
-    let value = test.value.map_or("none".to_owned(), |value| measured(value, test.error));
-    let error = match test.error {
+fn test(test: &Tested) -> Vec<String> {
+    let known = Some(test.error).filter(|error| error.is_finite());
+    let value = if test.value.is_finite() { measured(test.value, known) } else { "none".to_owned() };
+    let error = match known {
         None => "unknown".to_owned(),
         Some(0.0) => "exact".to_owned(),
         Some(error) => number(error, 2),
     };
+    let outcome = test.outcome.map_or("", Outcome::word);
     let is = test.is.as_deref().unwrap_or("");
     let under = if test.under { "under the condition: " } else { "" };
-    vec![format!("{under}{}", escape(&test.words)), value, error, escape(is), escape(test.outcome())]
+    vec![format!("{under}{}", escape(&test.words)), value, error, escape(is), escape(outcome)]
 }
 
 /// All errata.
@@ -111,7 +116,7 @@ pub fn errata(ledger: &Ledger) -> String {
     ledger.errata.iter().map(erratum).collect()
 }
 
-fn erratum(erratum: &Erratum) -> String {
+fn erratum(erratum: &JudgedErratum) -> String {
     let touches = match erratum.touches.as_slice() {
         [] => "No figure changes.".to_owned(),
         figures => format!("Touches {}.", links(figures)),
@@ -138,7 +143,7 @@ pub fn parameters(ledger: &Ledger) -> String {
     table("Parameters", &["symbol", "what", "figures", "source", "how much depends on it"], &rows)
 }
 
-fn parameter(parameter: &Parameter) -> Vec<String> {
+fn parameter(parameter: &JudgedParameter) -> Vec<String> {
     let scenes: Vec<String> = parameter.scenes.iter().map(|key| code(key)).collect();
     vec![
         latex_html(&parameter.symbol),

@@ -7,6 +7,7 @@ use super::scenes;
 use super::source::Source;
 use crate::failure::Failure;
 use crate::figure::Figure;
+use crate::ledger::report::JudgedClaim;
 use crate::manifest::Entry;
 use crate::outputs;
 use crate::paths::Paths;
@@ -202,8 +203,8 @@ fn json_text(value: &serde_json::Value) -> String {
 fn claims(source: &Source<'_>, figure: &Figure) -> String {
     let label = figure.label();
     let mine = source.ledger.claims.iter().filter(|claim| !label.is_empty() && claim.label == label);
-    let link = |claim: &super::ledger::Claim| {
-        let (id, verdict) = (escape(&claim.id), escape(&claim.verdict));
+    let link = |claim: &JudgedClaim| {
+        let (id, verdict) = (escape(&claim.id), claim.verdict.words());
         format!("<li><a href=\"#claim-{id}\">{}</a> ({verdict})</li>", prose(&claim.says))
     };
     let items: String = mine.map(link).collect();

@@ -10,7 +10,6 @@ pub mod data;
 pub mod figures;
 pub mod formula;
 pub mod html;
-pub mod ledger;
 pub mod machines;
 pub mod scenes;
 pub mod source;

@@ -1,10 +1,10 @@
 //! What the page is made from: figures, manifest, descriptions of columns, tables, the ledger. Read once.
 
 use super::html;
-use super::ledger::Ledger;
 use crate::disk;
 use crate::failure::Failure;
 use crate::figure::{self, Figure};
+use crate::ledger::report::Ledger;
 use crate::manifest::{self, Entry};
 use crate::paths::Paths;
 use files::reader::{Section, Value as Toml};
