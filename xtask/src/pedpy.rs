@@ -39,10 +39,18 @@ pub fn check(paths: &Paths) -> Result<(), Failure> {
     if TABLES.iter().any(|table| !tables.join(table).is_file()) {
         return skip(&format!("tables are missing; cargo xtask figures {DIAGRAM} makes them"));
     }
-    match python::installed(paths, ENVIRONMENT, PEDPY_REQUIREMENTS)? {
+    match python(paths)? {
         Some(python) => compare(paths, &python),
         None => skip("it is not installed below the target folder; cargo xtask ci installs it"),
     }
+}
+
+/// The Python that has PedPy, and NumPy with it; `None` where it is not installed.
+///
+/// # Errors
+/// As [`python::installed`].
+pub fn python(paths: &Paths) -> Result<Option<Python>, Failure> {
+    python::installed(paths, ENVIRONMENT, PEDPY_REQUIREMENTS)
 }
 
 /// Installs PedPy below the target folder and makes the tables, so that [`check`] finds both.
