@@ -95,10 +95,11 @@ fn commands(place: &Path, root: &Path) -> Result<(), Failure> {
         print::out("skipped: a copy without a network (unshare -n is not possible here); cargo is told to use none\n")?;
     }
     let cargo = |arguments: &[&str]| {
-        let plain = child::cargo().get_program().to_owned();
-        let mut command = if has_walls { Command::new("unshare") } else { Command::new(&plain) };
+        // cargo as who follows the README starts it: the one behind it would not tell the compiler which toolchain is pinned,
+        // and crates that pin another one would ask for that
+        let mut command = if has_walls { Command::new("unshare") } else { Command::new("cargo") };
         if has_walls {
-            command.arg("-n").arg(&plain);
+            command.args(["-n", "cargo"]);
         }
         command.args(arguments).current_dir(root).env_clear().envs(kept());
         command.env("CARGO_HOME", &home).env("CARGO_NET_OFFLINE", "true");

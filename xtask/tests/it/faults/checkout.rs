@@ -1,7 +1,10 @@
 //! A copy of the checkout with the programs that are built already, and what must be true of it after every run.
 
 use files::write::sha256_file;
+use std::env;
+use std::ffi::OsString;
 use std::fs;
+use std::iter;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
@@ -117,6 +120,18 @@ impl Checkout {
         command.env("CARGO_TARGET_DIR", &self.target).env("CARGO", self.root.join("cargo"));
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
         command
+    }
+
+    /// A search path on which `rustc`, which the runner asks for its version, is free of a library loaded before it:
+    /// with `faketime`'s the compiler stands still.
+    pub fn path_with_true_clock_for_the_compiler(&self) -> OsString {
+        let folder = self.target.join("true-clock");
+        fs::create_dir_all(&folder).expect("a folder");
+        let script = folder.join("rustc");
+        fs::write(&script, "#!/bin/sh\nPATH=${PATH#*:}\nunset LD_PRELOAD\nexec rustc \"$@\"\n").expect("a script");
+        make_executable(&script);
+        let rest = env::var_os("PATH").unwrap_or_default();
+        env::join_paths(iter::once(folder).chain(env::split_paths(&rest))).expect("a path without colons")
     }
 
     pub fn run(&self, figures: &[&str]) -> Ended {

@@ -114,8 +114,8 @@ pub fn clocks(checkout: &Checkout, tally: &mut Tally) {
                 if forget {
                     checkout.forget(true);
                 }
-                let ended =
-                    Ended::of(&mut checkout.under(&["faketime", "-f", date], &[&["figures"], &FIGURES[..]].concat()));
+                let mut command = checkout.under(&["faketime", "-f", date], &[&["figures"], &FIGURES[..]].concat());
+                let ended = Ended::of(command.env("PATH", checkout.path_with_true_clock_for_the_compiler()));
                 assert_eq!(ended.code, Some(0), "the clock at {date}: {}", ended.words);
                 checkout.must_be_right(&FIGURES, date);
                 checkout.must_recover(&FIGURES, &format!("the clock at {date}"));
