@@ -109,9 +109,8 @@ pub fn cargo() -> Command {
 
 /// The first line that a program prints, or `None` when it cannot be run or ends badly.
 pub fn first_line(program: &str, arguments: &[&str]) -> Option<String> {
-    let output = Command::new(program).args(arguments).stdin(Stdio::null()).output().ok()?;
-    let text = String::from_utf8_lossy(&output.stdout).lines().next().unwrap_or("").trim().to_owned();
-    output.status.success().then_some(text)
+    let bytes = output(Command::new(program).args(arguments))?;
+    Some(String::from_utf8_lossy(&bytes).lines().next().unwrap_or("").trim().to_owned())
 }
 
 /// As [`first_line`], in another folder.

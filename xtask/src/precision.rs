@@ -2,6 +2,7 @@
 
 use crate::disk;
 use crate::failure::Failure;
+use crate::paths::Paths;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -12,6 +13,16 @@ pub const TARGETS: [f64; 3] = [1e-6, 1e-9, 1e-12];
 pub const COARSE_TARGETS: [f64; 3] = [1e-2, 1e-4, 1e-6];
 /// The schemes that Treiber and Kanagaraj (2015) compare.
 pub const FIXED: [&str; 4] = ["euler", "ballistic", "heun", "rk4"];
+
+/// The scenes of those tables.
+pub const SCENES: [&str; 6] = [
+    "algebraic_stable",
+    "algebraic_unstable",
+    "exponential_stable",
+    "exponential_unstable",
+    "logarithmic",
+    "logarithmic_small_shift",
+];
 
 /// A run.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,6 +56,15 @@ pub type Cost = fn(&Row) -> Option<f64>;
 pub const COSTS: [(&str, Cost); 2] = [("right_hand_sides", |row| row.right_hand_sides), ("seconds", |row| row.seconds)];
 
 impl Scene {
+    /// The committed table of a scene with the archived seconds.
+    ///
+    /// # Errors
+    /// As [`Scene::read`].
+    pub fn committed(paths: &Paths, name: &str) -> Result<Scene, Failure> {
+        let table = format!("precision_{name}");
+        Scene::read(name, &paths.accuracy(&table), &paths.timing(&table))
+    }
+
     /// Reads the table of a scene, and its seconds where they are archived.
     ///
     /// # Errors

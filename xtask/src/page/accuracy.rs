@@ -3,17 +3,7 @@
 use super::html::{code, escape, measured, number, table};
 use super::source::Source;
 use crate::failure::Failure;
-use crate::precision::{Scene, TARGETS};
-
-/// The scenes of the tables of error against work.
-const SCENES: [&str; 6] = [
-    "algebraic_stable",
-    "algebraic_unstable",
-    "exponential_stable",
-    "exponential_unstable",
-    "logarithmic",
-    "logarithmic_small_shift",
-];
+use crate::precision::{SCENES, Scene, TARGETS};
 
 /// The cheapest method for each error, by evaluations of the right-hand side.
 ///
@@ -22,8 +12,7 @@ const SCENES: [&str; 6] = [
 pub fn cheapest(source: &Source<'_>) -> Result<String, Failure> {
     let mut rows = Vec::new();
     for name in SCENES {
-        let scene =
-            Scene::read(name, &source.paths.accuracy(&format!("precision_{name}")), &source.paths.timing("none"))?;
+        let scene = Scene::committed(source.paths, name)?;
         let mut row = vec![escape(&name.replace('_', " "))];
         for target in TARGETS {
             let found = scene.cheapest(target, |row| row.right_hand_sides, &[]);

@@ -4,17 +4,7 @@ use super::sheet::Sheet;
 use super::{Quantities, Source};
 use crate::failure::Failure;
 use crate::paths::{ACCURACY, PAPER_DISTANCES, REFERENCE_EVENTS};
-use crate::precision::{COARSE_TARGETS, COSTS, FIXED, Scene, TARGETS};
-
-/// The scenes of the tables of error against work.
-pub const SCENES: [&str; 6] = [
-    "algebraic_stable",
-    "algebraic_unstable",
-    "exponential_stable",
-    "exponential_unstable",
-    "logarithmic",
-    "logarithmic_small_shift",
-];
+use crate::precision::{COARSE_TARGETS, COSTS, FIXED, SCENES, Scene, TARGETS};
 
 /// Adds all of it.
 ///
@@ -41,9 +31,8 @@ fn table(source: &Source<'_>, name: &str) -> Result<Sheet, Failure> {
 
 /// The cheapest run for an error, of all methods and of DOP853 and the fixed steps alone; the least error of each method.
 fn work(source: &Source<'_>, all: &mut Quantities, name: &str) -> Result<(), Failure> {
-    let file = format!("precision_{name}");
-    let from = format!("{ACCURACY}/{file}.csv");
-    let scene = Scene::read(name, &source.paths.root.join(&from), &source.paths.timing(&file))?;
+    let from = format!("{ACCURACY}/precision_{name}.csv");
+    let scene = Scene::committed(source.paths, name)?;
     let start = format!("precision.{name}");
     for target in TARGETS {
         let best = scene.cheapest(target, COSTS[0].1, &[]);
