@@ -140,12 +140,12 @@ impl Ledger {
     /// Reads `data/ledger.json`.
     ///
     /// # Errors
-    /// Stale: there is none. Failed: it is malformed.
+    /// Stale: there is none. Usage: it is malformed.
     pub fn read(paths: &Paths) -> Result<Ledger, Failure> {
         let path = paths.ledger();
         let missing = || Failure::Stale(format!("{}: no such file; cargo xtask verify makes it", path.display()));
         let text = disk::read_text(&path)?.ok_or_else(missing)?;
-        serde_json::from_str(&text).map_err(Failure::at(&path))
+        serde_json::from_str(&text).map_err(|error| Failure::Usage(format!("{}: {error}", path.display())))
     }
 
     /// The number of claims with a recorded verdict.
