@@ -5,12 +5,13 @@
 //! another run or program is not believed, and the run begins anew.
 
 use crate::failure::Failure;
+use crate::steps::Steps;
 use cpu_time::ProcessTime;
 use files::write::{atomic, sha256, sha256_file};
-use ode::Control;
+use ode::{Control, Step};
 use scene::checkpoint::{Checkpoint, Underway};
 use scene::run::Scene;
-use scene::simulation::{Outcome, run_from};
+use scene::simulation::{Onlooker, Outcome, run_from};
 use std::io::{IsTerminal as _, Write as _};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -28,6 +29,9 @@ pub struct Care {
     /// Say how far the run is, a line a second on stderr: `progress 0.42`, or `resumed 0.40` at the start
     #[arg(long)]
     progress: bool,
+    /// Write steps.csv too, a print of every step, where these are of adaptive length
+    #[arg(long)]
+    steps: bool,
 }
 
 fn seconds(text: &str) -> Result<Duration, String> {
@@ -44,6 +48,8 @@ pub struct Ended {
     pub seconds: f64,
     /// Steps that were taken from the checkpoint.
     pub resumed_steps: u64,
+    /// The prints of its steps, if they were asked for and are of adaptive length.
+    pub steps: Option<Steps>,
 }
 
 /// Writings take less than this part of the time.
@@ -62,10 +68,10 @@ impl Care {
         let (from, before) = keeper.load(scene).unzip();
         let (steps, done) = from.as_ref().map_or((0, 0.0), |from| (from.steps(), from.fraction(scene)));
         keeper.start(done, before.unwrap_or(0.0));
-        let outcome = run_from(scene, from, &mut |underway| keeper.look(underway)).map_err(Failure::work)?;
+        let outcome = run_from(scene, from, &mut keeper).map_err(Failure::work)?;
         keeper.end();
         let seconds = before.unwrap_or(0.0) + clock.elapsed().as_secs_f64();
-        Ok(Ended { outcome, seconds, resumed_steps: steps })
+        Ok(Ended { outcome, seconds, resumed_steps: steps, steps: keeper.steps })
     }
 
     /// Removes the checkpoint of a run whose results are safe.
@@ -94,11 +100,13 @@ struct Keeper<'a> {
     next_word: Instant,
     next_writing: Instant,
     is_bar_shown: bool,
+    steps: Option<Steps>,
 }
 
 impl<'a> Keeper<'a> {
     fn new(care: &'a Care, scene: &Scene) -> Result<Keeper<'a>, Failure> {
-        let is_kept = care.checkpoint.is_some() && matches!(scene.control, Control::Fixed { .. });
+        let is_fixed = matches!(scene.control, Control::Fixed { .. });
+        let is_kept = care.checkpoint.is_some() && is_fixed;
         let run = if is_kept {
             let program = sha256_file(&std::env::current_exe()?)?;
             sha256(format!("{program}\n{scene:?}").as_bytes())
@@ -108,7 +116,8 @@ impl<'a> Keeper<'a> {
         let (clock, now) = (ProcessTime::now(), Instant::now());
         let (next_word, next_writing) = (now + SILENCE, now + care.checkpoint_every);
         let (before, done, started) = (0.0, 0.0, now);
-        Ok(Keeper { care, run, before, clock, started, done, next_word, next_writing, is_bar_shown: false })
+        let steps = (care.steps && !is_fixed).then(|| Steps::new(scene.ring.pedestrians));
+        Ok(Keeper { care, run, before, clock, started, done, next_word, next_writing, is_bar_shown: false, steps })
     }
 
     /// The checkpoint and the seconds before it; `None` when there is none to believe.
@@ -134,20 +143,6 @@ impl<'a> Keeper<'a> {
         (self.done, self.before) = (done, before);
         if self.care.progress && done > 0.0 {
             say(&format!("resumed {done:.4}"));
-        }
-    }
-
-    fn look(&mut self, underway: &Underway<'_>) {
-        let now = Instant::now();
-        if now >= self.next_word {
-            self.next_word = now + SILENCE;
-            self.tell(underway.fraction());
-        }
-        if now >= self.next_writing && !self.run.is_empty() {
-            self.write(underway);
-            let wait = now.elapsed() * WRITING;
-            self.next_writing =
-                Instant::now() + if wait > self.care.checkpoint_every { wait } else { self.care.checkpoint_every };
         }
     }
 
@@ -178,6 +173,28 @@ impl<'a> Keeper<'a> {
     fn end(&self) {
         if self.is_bar_shown {
             let _ = write!(std::io::stderr(), "\r\x1b[K");
+        }
+    }
+}
+
+impl Onlooker for Keeper<'_> {
+    fn after(&mut self, step: &Step<'_>) {
+        if let Some(steps) = &mut self.steps {
+            steps.push(step);
+        }
+    }
+
+    fn between(&mut self, underway: &Underway<'_>) {
+        let now = Instant::now();
+        if now >= self.next_word {
+            self.next_word = now + SILENCE;
+            self.tell(underway.fraction());
+        }
+        if now >= self.next_writing && !self.run.is_empty() {
+            self.write(underway);
+            let wait = now.elapsed() * WRITING;
+            self.next_writing =
+                Instant::now() + if wait > self.care.checkpoint_every { wait } else { self.care.checkpoint_every };
         }
     }
 }

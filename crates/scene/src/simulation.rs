@@ -69,27 +69,35 @@ impl std::fmt::Display for Broken {
 
 impl std::error::Error for Broken {}
 
+/// Looks on while a scene runs; the run does not depend on it.
+pub trait Onlooker {
+    /// Sees every accepted step of adaptive length; of fixed ones, those that the run needs to see.
+    fn after(&mut self, _step: &Step<'_>) {}
+
+    /// Sees the run every few thousand steps, where these are of fixed length. A run by adaptive steps takes seconds and is
+    /// not shown.
+    fn between(&mut self, _underway: &Underway<'_>) {}
+}
+
+/// Nobody looks on.
+impl Onlooker for () {}
+
 /// Runs a scene to its end, or to the event that ends it.
 ///
 /// # Errors
 /// The integration failed before anything stopped it, with the time it reached.
 pub fn run(scene: &Scene) -> Result<Outcome, Broken> {
-    run_from(scene, None, &mut |_| {})
+    run_from(scene, None, &mut ())
 }
 
-/// As [`run`], from a checkpoint of the same scene to the same bits. `keep` is shown the run every few thousand steps,
-/// where these are of fixed length; a run by adaptive steps takes seconds and is not shown.
+/// As [`run`], from a checkpoint of the same scene to the same bits.
 ///
 /// # Errors
 /// As [`run`]; or a checkpoint for a scene by adaptive steps.
-pub fn run_from(
-    scene: &Scene,
-    from: Option<Checkpoint>,
-    keep: &mut dyn FnMut(&Underway<'_>),
-) -> Result<Outcome, Broken> {
+pub fn run_from(scene: &Scene, from: Option<Checkpoint>, onlooker: &mut dyn Onlooker) -> Result<Outcome, Broken> {
     let form = scene.form.build(&scene.model, scene.ring);
     let near_walls = FormKind::Gaps.build(&scene.model, scene.ring);
-    let mut recorder = Recorder::new(scene, &*form, keep);
+    let mut recorder = Recorder::new(scene, &*form, onlooker);
     let mut statistics = match from {
         Some(checkpoint) => recorder.resume(&*form, checkpoint)?,
         None => {
@@ -139,20 +147,20 @@ struct Recorder<'a> {
     sampler: Sampler,
     watch: Watch<'a>,
     record: Record<'a>,
-    keep: &'a mut dyn FnMut(&Underway<'_>),
+    onlooker: &'a mut dyn Onlooker,
     is_stopped: bool,
     is_near_walls: bool,
     narrowest: Option<Place>,
 }
 
 impl<'a> Recorder<'a> {
-    fn new(scene: &'a Scene, form: &'a dyn Form, keep: &'a mut dyn FnMut(&Underway<'_>)) -> Recorder<'a> {
+    fn new(scene: &'a Scene, form: &'a dyn Form, onlooker: &'a mut dyn Onlooker) -> Recorder<'a> {
         Recorder {
             scene,
             sampler: Sampler::new(scene.sample, form.dimension()),
             watch: Watch::new(scene.model, form, scene.ring.pedestrians),
             record: Record::new(scene, form),
-            keep,
+            onlooker,
             is_stopped: false,
             is_near_walls: false,
             narrowest: None,
@@ -205,6 +213,7 @@ impl<'a> Recorder<'a> {
 
 impl Observer for Recorder<'_> {
     fn after(&mut self, step: &mut Step<'_>) -> ControlFlow<()> {
+        self.onlooker.after(step);
         let new = self.watch.look(step);
         if !self.is_stopped {
             let stop = new.iter().find(|happening| happening.event.is_stop());
@@ -244,7 +253,8 @@ impl Observer for Recorder<'_> {
 
     fn between(&mut self, mark: &Mark<'_>) {
         let Record { std, trajectories, drift, .. } = &self.record;
-        (self.keep)(&Underway { scene: self.scene, mark, found: self.watch.found(), std, trajectories, drift });
+        let found = self.watch.found();
+        self.onlooker.between(&Underway { scene: self.scene, mark, found, std, trajectories, drift });
     }
 }
 

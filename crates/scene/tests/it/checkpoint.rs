@@ -1,9 +1,9 @@
 //! Checkpoints: a run gone on with from any of them is the run that never stopped, to the last bit.
 
 use files::recipe;
-use scene::checkpoint::Checkpoint;
+use scene::checkpoint::{Checkpoint, Underway};
 use scene::run::{Scene, read};
-use scene::simulation::{Outcome, run, run_from};
+use scene::simulation::{Onlooker, Outcome, run, run_from};
 
 /// Thirty pedestrians that overlap, turn back and change places; by the time between samples and lines of `[run]`.
 fn scene(sample: f64, lines: &str) -> Scene {
@@ -20,10 +20,19 @@ fn words(outcome: &Outcome) -> String {
     format!("{outcome:?}")
 }
 
+/// Keeps every checkpoint.
+struct Kept(Vec<Vec<u8>>);
+
+impl Onlooker for Kept {
+    fn between(&mut self, underway: &Underway<'_>) {
+        self.0.push(underway.to_bytes());
+    }
+}
+
 fn checkpoints(scene: &Scene) -> (Outcome, Vec<Vec<u8>>) {
-    let mut kept = Vec::new();
-    let outcome = run_from(scene, None, &mut |underway| kept.push(underway.to_bytes())).expect("it runs");
-    (outcome, kept)
+    let mut kept = Kept(Vec::new());
+    let outcome = run_from(scene, None, &mut kept).expect("it runs");
+    (outcome, kept.0)
 }
 
 #[test]
@@ -43,7 +52,7 @@ fn a_run_resumed_from_any_checkpoint_has_the_same_bits() {
             let checkpoint = Checkpoint::parse(bytes, &scene).expect("a checkpoint");
             assert!(checkpoint.steps() > 0 && checkpoint.fraction(&scene) < 1.0);
             after_stop[usize::from(checkpoint.fraction(&scene) * scene.t_end > stop)] += 1;
-            let resumed = run_from(&scene, Some(checkpoint), &mut |_| {}).expect("it runs");
+            let resumed = run_from(&scene, Some(checkpoint), &mut ()).expect("it runs");
             assert_eq!(words(&resumed), words(&whole), "{lines}");
         }
         println!("{after_stop:?} checkpoints before and after the stop at {stop}, end at {}", whole.statistics.time);

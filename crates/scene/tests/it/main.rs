@@ -1,5 +1,5 @@
 //! Tests of scenes: every complaint, the figures' own scenes, maps, curves, overrides, and runs against published curves
-//! and against a second method.
+//! and against a second method; checkpoints, and prints of steps.
 
 mod checkpoint;
 mod contours;
@@ -14,3 +14,4 @@ mod properties;
 mod published;
 mod reference;
 mod runs;
+mod steps;
