@@ -152,6 +152,9 @@ pub const RUN_SUMMARY: &str = "summary.json";
 /// The tables of a stored run.
 pub const RUN_TABLES: [&str; 2] = ["std.csv", "trajectories.csv"];
 
+/// The prints of the steps of a stored run.
+pub const RUN_STEPS: &str = "steps.csv";
+
 /// How the names of scratch folders begin.
 const SCRATCH: &str = "verify-";
 /// What stands before the process number in a temporary name, as in crate `files`.
@@ -315,6 +318,11 @@ impl Paths {
     /// The hashes of the state of a run, by name.
     pub fn states(scene: &str) -> String {
         format!("data/states/{scene}.csv")
+    }
+
+    /// The prints of the steps of a run, by name.
+    pub fn steps(scene: &str) -> String {
+        format!("data/steps/{scene}.csv")
     }
 
     /// Where a run is made once more with its trajectories.
@@ -499,6 +507,7 @@ impl Paths {
             "data/SHA256SUMS",
             "data/golden/",
             "data/states/",
+            "data/steps/",
             "data/paper-scheme/",
             "data/manifest.json",
             EVENTS,

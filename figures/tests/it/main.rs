@@ -1,10 +1,11 @@
-//! The binaries as a user meets them: sums, redrawing, exit codes, what is left behind.
+//! The binaries as a user meets them: sums, redrawing, exit codes, what is left behind, prints of steps.
 
 mod evidence;
 mod failures;
 mod hard;
 mod precision;
 mod resume;
+mod steps;
 mod studies;
 mod sums;
 
