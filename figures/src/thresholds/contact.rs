@@ -134,6 +134,7 @@ pub fn collision() -> Result<Rows, Failure> {
         "error",
         "a_0_in_m",
         "contact_t",
+        "contact_t_error",
         "agree",
     ]);
     let rings = [(133, 0.1, 300.0), (133, 0.1, 1000.0), (133, 0.1, 3000.0), (133, 1e-4, 3000.0), (66, 0.1, 3000.0)];
@@ -148,10 +149,13 @@ pub fn collision() -> Result<Rows, Failure> {
             let middle = 0.5 * (low + high);
             if touches(middle, Method::Taylor)?.is_some() { high = middle } else { low = middle }
         }
-        let time = touches(high, Method::Taylor)?.map(|touched| touched.time);
-        let agree = touches(low, Method::Dop853)?.is_none() && touches(high, Method::Dop853)?.is_some();
+        let time = |method| Ok::<Option<f64>, Failure>(touches(high, method)?.map(|touched| touched.time));
+        let (time, other) = (time(Method::Taylor)?, time(Method::Dop853)?);
+        let off = time.zip(other).map(|(one, other)| (one - other).abs());
+        let agree = touches(low, Method::Dop853)?.is_none() && other.is_some();
         let (value, error) = (0.5 * (low + high), 0.5 * (high - low));
-        rows.push(row![pedestrians, shift, end, low, high, value, error, REACH / value, time, usize::from(agree)]);
+        let a_0_in_m = REACH / value;
+        rows.push(row![pedestrians, shift, end, low, high, value, error, a_0_in_m, time, off, usize::from(agree)]);
     }
     Ok(rows)
 }
