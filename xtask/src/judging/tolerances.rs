@@ -41,6 +41,11 @@ pub struct Entry {
     pub growth: Option<String>,
     /// Size of the perturbation at the start.
     pub perturbation: Option<f64>,
+    /// Columns of stated errors, where they are not among `columns`.
+    #[serde(default)]
+    pub errors: Vec<String>,
+    /// How many times further a number moves than what the stated error is of.
+    pub factor: Option<f64>,
     /// The rule applied, in words.
     pub because: String,
 }
@@ -73,8 +78,10 @@ pub enum Rule {
     Condition,
     /// Ten times the tolerance of the run, times the growth of errors, times the perturbation.
     Growth,
-    /// Ten times the largest error that the table itself states, in a column `NAME_error`.
+    /// Ten times the largest error that the table itself states, in a column `error` or `NAME_error` or one that is named.
     Stated,
+    /// The distance between the last two values tried.
+    Bisection,
 }
 
 impl Tolerances {

@@ -60,10 +60,9 @@ fn every_run_has_prints_of_all_its_steps() {
     let paths = xtask::paths::Paths::find(Some(data().join(".."))).expect("the checkout");
     let manifest = std::fs::read_to_string(paths.manifest()).expect("the manifest");
     let manifest: serde_json::Value = serde_json::from_str(&manifest).expect("JSON");
-    let steps_of = |figure: &str| -> Vec<u64> {
-        let start = format!("data/{figure}/");
+    let steps_of = |start: &str| -> Vec<u64> {
         let outputs = manifest["outputs"].as_object().expect("outputs").iter();
-        outputs.filter(|(name, _)| name.starts_with(&start)).filter_map(|(_, one)| one["steps"].as_u64()).collect()
+        outputs.filter(|(name, _)| name.starts_with(start)).filter_map(|(_, one)| one["steps"].as_u64()).collect()
     };
     let names = xtask::disk::names(&data().join("steps")).expect("a folder");
     assert_eq!(names, xtask::disk::names(&data().join("states")).expect("a folder"));
@@ -71,7 +70,9 @@ fn every_run_has_prints_of_all_its_steps() {
         let text = std::fs::read_to_string(data().join("steps").join(&name)).expect("prints");
         let taken = files::steps::parse(&text).expect("prints").len() as u64 - 1;
         let figure = name.split('-').next().unwrap_or("");
-        assert!(steps_of(figure).contains(&taken), "{name}: {taken} steps, the manifest has {:?}", steps_of(figure));
+        // supplement 10 makes a run of figure 13 once more, and the manifest counts no steps for what it draws of it
+        let counted = steps_of(&format!("data/{}/", if figure == "s10" { "fig13" } else { figure }));
+        assert!(counted.contains(&taken), "{name}: {taken} steps, the manifest has {counted:?}");
     }
 }
 

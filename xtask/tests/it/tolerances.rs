@@ -100,9 +100,27 @@ fn of_entry(entry: &Entry) -> Vec<(String, String, Vec<f64>)> {
     found
 }
 
+/// The errors that the tables of an entry state: in its own columns, or in those that it names.
 fn stated(entry: &Entry) -> f64 {
-    let errors = of_entry(entry).into_iter().filter(|(_, column, _)| column.ends_with("_error"));
-    FACTOR * largest(errors.flat_map(|(_, _, numbers)| numbers))
+    let is_error = |column: &str| column == "error" || column.ends_with("_error");
+    let errors: Vec<f64> = if entry.errors.is_empty() {
+        of_entry(entry)
+            .into_iter()
+            .filter(|(_, column, _)| is_error(column))
+            .flat_map(|(_, _, errors)| errors)
+            .collect()
+    } else {
+        let all = entry.tables.iter().flat_map(|table| columns(table));
+        all.filter(|(column, _)| entry.errors.contains(column)).flat_map(|(_, errors)| errors).collect()
+    };
+    FACTOR * largest(errors.into_iter()) * entry.factor.unwrap_or(1.0)
+}
+
+/// The width of the last interval of a bisection.
+fn bisection(entry: &Entry) -> f64 {
+    let found = of_entry(entry);
+    let column = |name: &str| &found.iter().find(|(_, column, _)| column == name).expect("an end of the interval").2;
+    largest(column("contact_at").iter().zip(column("none_at")).map(|(high, low)| high - low))
 }
 
 fn condition(entry: &Entry) -> f64 {
@@ -122,6 +140,7 @@ fn every_tolerance_is_what_its_rule_gives() {
             Rule::Exact => (0.0, 0.0, 0.0),
             Rule::TwoWays => (0.0, 0.0, up(two_ways(&entry))),
             Rule::Stated => (up(stated(&entry)), 0.0, 0.0),
+            Rule::Bisection => (up(bisection(&entry)), 0.0, 0.0),
             Rule::Condition => (0.0, up(condition(&entry)), 0.0),
             Rule::Growth => {
                 let grown = largest(growth(entry.growth.as_deref().expect("a scene")).iter().map(|row| row.1));
