@@ -1,13 +1,16 @@
-//! The runner on a copy of this checkout with the real programs: what a wrong scene does to the verdict.
+//! The runner on a copy of this checkout with the real programs: what a wrong scene does to the verdict, and, with programs
+//! built from changed sources, what another colour map, a wrong bit and a wrong length of a step do.
 
 use crate::shop::Ended;
 use serde_json::Value;
+use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// What is copied: everything but the target folder and what is generated and not committed.
-const COPIED: [&str; 10] = [
+const COPIED: [&str; 12] = [
     "Cargo.toml",
     "Cargo.lock",
     "rust-toolchain.toml",
@@ -18,33 +21,52 @@ const COPIED: [&str; 10] = [
     "data/reference",
     "data/accuracy",
     "data/timing",
+    "data/states",
+    "data/steps",
 ];
 /// Single files of the folder of data.
 const DATA: [&str; 5] =
     ["data/SHA256SUMS", "data/SHA256SUMS-supplements", "data/events.csv", "data/manifest.json", "data/tolerances.toml"];
 
-/// A copy of the checkout whose programs are those built already; its cargo does nothing.
+/// A copy of the checkout.
 struct Copy {
     root: PathBuf,
+    target: PathBuf,
+    cargo: OsString,
+    /// Held by the one copy that builds.
+    _building: Option<MutexGuard<'static, ()>>,
 }
 
+/// Copies that build share a target folder, which is kept: the second time only the crates of the checkout are compiled.
+static BUILDING: Mutex<()> = Mutex::new(());
+
 impl Copy {
+    /// A copy whose programs are those built already; its cargo does nothing.
     fn new(name: &str) -> Copy {
         let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-        let _ = fs::remove_dir_all(&root);
+        fill(&root, &[]);
         let here = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-        for name in COPIED.iter().chain(&DATA) {
-            copy(&here.join(name), &root.join(name));
-        }
         let built = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| here.join("target"), PathBuf::from);
-        let release = root.join("target/release");
+        let target = root.join("target");
+        let release = target.join("release");
         fs::create_dir_all(&release).expect("a folder");
         for entry in fs::read_dir(built.join("release")).expect("cargo xtask figures builds the programs").flatten() {
             if entry.path().is_file() {
                 fs::hard_link(entry.path(), release.join(entry.file_name())).expect("a link");
             }
         }
-        Copy { root }
+        Copy { root, target, cargo: "true".into(), _building: None }
+    }
+
+    /// A copy that builds its programs from its own sources.
+    fn building() -> Copy {
+        // a test that failed has left nothing that the next does not replace
+        let guard = BUILDING.lock().unwrap_or_else(PoisonError::into_inner);
+        let scratch = Path::new(env!("CARGO_TARGET_TMPDIR")).join("real-build");
+        let root = scratch.join("checkout");
+        fill(&root, &["xtask/Cargo.toml", "xtask/src", "xtask/examples"]);
+        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+        Copy { root, target: scratch.join("target"), cargo, _building: Some(guard) }
     }
 
     fn edit(&self, name: &str, from: &str, to: &str) {
@@ -57,7 +79,7 @@ impl Copy {
     fn xtask(&self, arguments: &[&str]) -> Ended {
         let mut command = Command::new(env!("CARGO_BIN_EXE_xtask"));
         command.arg("--root").arg(&self.root).args(arguments).current_dir(&self.root);
-        command.env("CARGO_TARGET_DIR", self.root.join("target")).env("CARGO", "true");
+        command.env("CARGO_TARGET_DIR", &self.target).env("CARGO", &self.cargo);
         command.env("GIT_DIR", self.root.join(".git"));
         Ended::of(&command.output().expect("the runner starts"))
     }
@@ -66,6 +88,15 @@ impl Copy {
     fn verify(&self, figure: &str) -> (Value, i32) {
         let ended = self.xtask(&["verify", figure, "--json"]);
         (ended.json()["figures"][0].clone(), ended.code)
+    }
+}
+
+/// Copies what every copy has, and more.
+fn fill(root: &Path, more: &[&str]) {
+    let _ = fs::remove_dir_all(root);
+    let here = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    for name in COPIED.iter().chain(&DATA).chain(more) {
+        copy(&here.join(name), &root.join(name));
     }
 }
 
@@ -89,6 +120,12 @@ fn a_parameter_off_by_a_millionth_is_other_physics() {
         ("fig05", "figures/fig05-exponential-criterion/scene.toml", "d_gap = 2.5", "d_gap = 2.500001"),
         ("fig10", "figures/fig10-logarithmic-criterion/scene.toml", "headway = 1.5", "headway = 1.500001"),
         ("fig14", "figures/fig14-algebraic-growth/scene.toml", "mu      = 0.5", "mu      = 0.500001"),
+        (
+            "s14",
+            "figures/s14-thresholds/scene.toml",
+            "mu = 0.5, v0 = 3.0, epsilon = 0.1, q = 1.0, a_v",
+            "mu = 0.500001, v0 = 3.0, epsilon = 0.1, q = 1.0, a_v",
+        ),
     ] {
         let copy = Copy::new("real-off");
         assert_eq!(copy.verify(figure).1, 0, "{figure} as it is");
@@ -113,4 +150,59 @@ fn a_step_twice_as_large_is_other_physics() {
     assert_eq!((said["verdict"].as_str(), code), (Some("other_physics"), 1), "{said:#}");
     let course = &said["numbers"]["tables"]["unstable.csv"]["course"];
     assert_eq!(course["course"], "growing", "{course:#}");
+}
+
+#[test]
+#[ignore = "builds all programs from changed sources: cargo xtask ci --full"]
+fn another_colour_map_is_another_rendering_of_the_same_data() {
+    let copy = Copy::building();
+    let map = "ColorScale::diverging(\"$\\\\tilde\\\\Phi$\", 0.5)";
+    let other = "ColorScale::sequential(\"$\\\\tilde\\\\Phi$\", -0.5, 0.5)";
+    copy.edit("figures/fig05-exponential-criterion/main.rs", map, other);
+    let (said, code) = copy.verify("5");
+    assert_eq!((said["verdict"].as_str(), code), (Some("other_rendering"), 1), "{said:#}");
+    let levels = ["bytes", "numbers", "pixels"].map(|level| said[level]["verdict"].as_str().unwrap_or(""));
+    assert_eq!(levels, ["differs", "same", "differs"]);
+    let files = said["bytes"]["files"].as_object().expect("files");
+    let differing: Vec<&String> = files.iter().filter(|(_, state)| *state != "same").map(|(name, _)| name).collect();
+    let folder = "figures/fig05-exponential-criterion";
+    assert_eq!(differing, [&format!("{folder}/fig05.png"), &format!("{folder}/fig05.svg")]);
+    let tables = said["numbers"]["tables"].as_object().expect("tables");
+    assert!(tables.len() == 3 && tables.values().all(|table| table["cells"] == 0), "{tables:#?}");
+    assert_eq!(
+        (&said["numbers"]["events"], &said["numbers"]["parted"]),
+        (&serde_json::json!([]), &serde_json::json!([]))
+    );
+    let picture = &said["pixels"]["pictures"][format!("{folder}/fig05.png")];
+    assert!(picture["changed"].as_i64().is_some_and(|changed| changed > 100_000), "{picture:#}");
+}
+
+/// What `verify` says of the first step in which the two runs of figure 7 differ.
+fn first_steps(copy: &Copy) -> [Value; 2] {
+    let (said, code) = copy.verify("7");
+    assert_eq!((said["verdict"].as_str(), code), (Some("other_bits"), 1), "{said:#}");
+    let parted = &said["numbers"]["parted"];
+    assert_eq!(["fig07-stable", "fig07-unstable"].map(Some), [0, 1].map(|run| parted[run]["scene"].as_str()));
+    [0, 1].map(|run| parted[run]["steps"]["part"].clone())
+}
+
+#[test]
+#[ignore = "builds all programs from changed sources: cargo xtask ci --full"]
+fn a_wrong_bit_and_a_wrong_length_are_found_at_their_step() {
+    let copy = Copy::building();
+    let (driver, accepted) = ("crates/ode/src/integrate.rs", "std::mem::swap(&mut carry, &mut next_carry);");
+    // the speed of pedestrian 7 of 57, at the end of the fortieth step
+    let wrong =
+        "if self.statistics.steps == 39 { self.next[57 + 7] = f64::from_bits(self.next[57 + 7].to_bits() ^ 1); }";
+    copy.edit(driver, accepted, &format!("{accepted}\n{wrong}"));
+    for first in first_steps(&copy) {
+        assert_eq!((first["step"].as_i64(), first["pedestrian"].as_i64()), (Some(40), Some(7)), "{first:#}");
+        assert_eq!(first["same_length"].as_bool(), Some(true), "{first:#}");
+    }
+    copy.edit(driver, wrong, "");
+    let length = "let length = if is_last { left } else";
+    copy.edit(driver, length, &format!("{length} if self.statistics.steps == 39 {{ h.next_down() }} else"));
+    for first in first_steps(&copy) {
+        assert_eq!((first["step"].as_i64(), first["same_length"].as_bool()), (Some(40), Some(false)), "{first:#}");
+    }
 }
