@@ -19,7 +19,7 @@ fn every_step_has_a_print_and_the_tables_are_the_same() {
     simulate(&[], &without);
     assert!(!without.join("steps.csv").exists());
     let read = |folder: &Path, name: &str| std::fs::read_to_string(folder.join(name)).expect("a file");
-    for name in ["std.csv", "trajectories.csv", "events.csv"] {
+    for name in ["std.csv", "events.csv"] {
         assert!(read(&with, name) == read(&without, name), "{name}");
     }
     let summary: serde_json::Value = serde_json::from_str(&read(&with, "summary.json")).expect("JSON");
