@@ -13,7 +13,7 @@ pub use algebraic::{Algebraic, AlgebraicLaw};
 pub use exponential::{Exponential, ExponentialLaw};
 pub use logarithmic::{C, Logarithmic, LogarithmicLaw};
 
-use crate::series::{Block, LANES};
+use crate::series::Block;
 use crate::stability::Linear;
 use math::row::{LENGTH, Room};
 
@@ -40,46 +40,28 @@ pub trait Law: Copy + Send {
     fn deviation(&self, base: &Self::Base, gap: f64, speed: f64, ahead: f64) -> f64;
 
     /// Whether the law is so long that a row of pedestrians is faster in several short loops ([`math::row`]).
-    const IN_ROWS: bool = false;
+    const IN_ROWS: bool;
 
     /// Replaces the clearances of a row of pedestrians, at most [`math::row::LENGTH`], by their
-    /// [`Law::acceleration`]s, with the same bits.
-    #[inline(always)]
-    fn accelerations(&self, row: &mut [f64], speeds: &[f64], ahead: &[f64], _work: &mut Work) {
-        let n = row.len();
-        let (speeds, ahead) = (&speeds[..n], &ahead[..n]);
-        for i in 0..n {
-            row[i] = self.acceleration(row[i], speeds[i], ahead[i]);
-        }
-    }
+    /// [`Law::acceleration`]s, with the same bits. Of laws that are [`Law::IN_ROWS`].
+    fn accelerations(&self, row: &mut [f64], speeds: &[f64], ahead: &[f64], work: &mut Work);
 
     /// Replaces the deviations of the gaps of such a row by its [`Law::deviation`]s, with the same bits.
-    #[inline(always)]
-    fn deviations(&self, base: &Self::Base, row: &mut [f64], speeds: &[f64], ahead: &[f64], _work: &mut Work) {
-        let n = row.len();
-        let (speeds, ahead) = (&speeds[..n], &ahead[..n]);
-        for i in 0..n {
-            row[i] = self.deviation(base, row[i], speeds[i], ahead[i]);
-        }
-    }
+    fn deviations(&self, base: &Self::Base, row: &mut [f64], speeds: &[f64], ahead: &[f64], work: &mut Work);
 
     /// Whether the force depends on the gap alone: then there are recurrences for its Taylor coefficients along a motion
     /// (see [`crate::series`]).
-    const HAS_SERIES: bool = false;
+    const HAS_SERIES: bool;
 
     /// What the recurrences keep of each order.
     type Terms: Copy + Default + std::fmt::Debug;
 
     /// Fills the terms of order 0 from the clearances.
-    #[inline(always)]
-    fn start_terms(&self, _clearance: &Block, _terms: &mut Self::Terms) {}
+    fn start_terms(&self, clearance: &Block, terms: &mut Self::Terms);
 
     /// The coefficient of the force, the drive included, of an order >= 1: from that of the clearance and the terms of all
     /// earlier orders. Fills the terms of this order.
-    #[inline(always)]
-    fn next_terms(&self, _earlier: &[Self::Terms], _clearance: &Block, _terms: &mut Self::Terms) -> Block {
-        [0.0; LANES]
-    }
+    fn next_terms(&self, earlier: &[Self::Terms], clearance: &Block, terms: &mut Self::Terms) -> Block;
 
     /// What must stay positive for the run to go on: `d_n` of eq:effDistn, or the gap for the logarithmic law.
     fn room(&self, clearance: f64, speed: f64, ahead: f64) -> f64;
@@ -174,11 +156,7 @@ impl Model {
 
     /// How much room a unit of speed, own or ahead, takes away.
     pub fn room_per_speed(&self) -> f64 {
-        match self {
-            Model::Algebraic(law) => law.widening,
-            Model::Exponential(law) => law.widening,
-            Model::Logarithmic(_) => 0.0,
-        }
+        self.visit(RoomPerSpeed)
     }
 
     /// The coefficients of the linearised law about the uniform flow with this headway and speed.
@@ -188,6 +166,15 @@ impl Model {
             Model::Exponential(law) => law.linearise(law.gap(headway, speed)),
             Model::Logarithmic(law) => law.linearise(headway, speed),
         }
+    }
+}
+
+struct RoomPerSpeed;
+
+impl Visitor for RoomPerSpeed {
+    type Output = f64;
+    fn visit<L: Law>(self, law: L) -> f64 {
+        law.room_per_speed()
     }
 }
 
