@@ -13,11 +13,11 @@ pub struct Jam {
     pub centre: f64,
 }
 
-/// Speeds that differ by less than this fraction of the desired speed are no jam.
+/// Speeds that differ by no more than this fraction of the desired speed are no jam.
 const CONTRAST: f64 = 0.1;
 
 /// The threshold that tells a jam from free flow in a snapshot: half way between the lowest and the highest speed.
-/// `None` while they differ by less than a tenth of the desired speed.
+/// `None` while they differ by no more than a tenth of the desired speed.
 pub fn threshold(speeds: &[f64], desired_speed: f64) -> Option<f64> {
     let low = speeds.iter().copied().fold(f64::INFINITY, |a, b| if b < a { b } else { a });
     let high = speeds.iter().copied().fold(f64::NEG_INFINITY, |a, b| if b > a { b } else { a });

@@ -29,8 +29,8 @@ const LARGE: usize = 4096;
 const VERY_LARGE: usize = 131_072;
 
 impl Cut {
-    /// The cut for `n` pedestrians; `None`: in one.
-    pub(crate) fn of(n: usize) -> Option<Cut> {
+    /// The cut for `n` pedestrians, which changes how long the steps take and nothing else; `None`: in one.
+    pub fn of(n: usize) -> Option<Cut> {
         // asking takes as long as hundreds of steps of a small ring
         let available = || std::thread::available_parallelism().map_or(1, |threads| threads.get());
         let threads = if n >= VERY_LARGE { available().min(n / (VERY_LARGE / 2)) } else { 1 };
