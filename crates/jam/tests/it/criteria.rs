@@ -35,6 +35,17 @@ fn criteria_are_the_exact_margin() {
 }
 
 #[test]
+fn the_criterion_with_a_contact_force_is_exact_where_its_slope_is_a_half() {
+    let mut random = Random(22);
+    for _ in 0..2_000 {
+        let law = Exponential { contact: random.uniform(0.5, 10.0), ..exponential(&mut random) };
+        let linear = law.linearise(0.0);
+        let difference = criteria::exponential(&law, 0.0) - scaled(&linear);
+        assert!(difference.abs() < rounding(&linear), "{law:?}: {difference:e}");
+    }
+}
+
+#[test]
 fn the_logarithmic_criterion_is_the_exact_margin_in_the_limit_of_a_sharp_ramp() {
     let mut random = Random(21);
     for _ in 0..20_000 {

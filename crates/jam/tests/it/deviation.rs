@@ -1,7 +1,7 @@
 //! The laws written as differences from the uniform flow are the printed laws, and stay accurate for small deviations.
 
-use crate::sample::{Deviation, Random, laws};
-use jam::laws::Model;
+use crate::sample::{Deviation, Random, algebraic, laws, variants};
+use jam::laws::{Algebraic, Model};
 use jam::ring::{Ring, Start};
 use jam::states::FormKind;
 use math::twofold::Twofold;
@@ -45,6 +45,21 @@ fn rounding(model: &Model, arguments: [f64; 3]) -> f64 {
     // the logarithm's own scale is the desired speed, for each unit of force
     let force = if matches!(model, Model::Logarithmic(_)) { force + drive } else { force };
     f64::EPSILON * (10.0 * drive + (20.0 + power) * force) + 4.0 * sensitivity(model, arguments)
+}
+
+#[test]
+fn powers_1_2_and_3_are_products() {
+    let mut random = Random(31);
+    for _ in 0..300 {
+        let gap = 2.0 + random.uniform(0.3, 3.0);
+        let room = gap - 2.0;
+        let products = [1.0 / room, 1.0 / (room * room), 1.0 / (room * room * room)];
+        for (power, inverse) in [1.0, 2.0, 3.0].into_iter().zip(products) {
+            let law = Algebraic { relative: 0.0, widening: 0.0, power, ..algebraic(&mut random) };
+            let expected = law.desired_speed - 0.25 - law.strength * law.strength * inverse;
+            assert_eq!(Model::Algebraic(law).acceleration(gap, 0.25, 0.5), expected, "{law:?} at {gap}");
+        }
+    }
 }
 
 #[test]
@@ -137,7 +152,7 @@ fn whole_powers_agree_with_twofold_numbers() {
 fn a_ring_of_deviations_has_the_bits_of_its_pedestrians_one_by_one() {
     let mut random = Random(26);
     for count in [2, 3, 8, 9, 57, 67, 133, 256, 257, 515] {
-        for model in [laws(&mut random), laws(&mut random), laws(&mut random), laws(&mut random)].concat() {
+        for model in variants(&mut random) {
             let ring = Ring { pedestrians: count, length: count as f64 * 4.5 };
             let form = FormKind::Deviations.build(&model, ring);
             let mut state = form.start(Start { shift: 0.1 });
@@ -152,4 +167,71 @@ fn a_ring_of_deviations_has_the_bits_of_its_pedestrians_one_by_one() {
             }
         }
     }
+}
+
+#[test]
+fn a_ring_is_open_while_everybody_has_room() {
+    let mut random = Random(27);
+    let (mut open, mut closed) = (0, 0);
+    for model in (0..40).flat_map(|_| variants(&mut random)).collect::<Vec<_>>() {
+        let ring = Ring { pedestrians: 5, length: 5.0 * 4.5 };
+        let form = FormKind::Deviations.build(&model, ring);
+        let gaps: Vec<f64> = (0..5).map(|_| model.contact() + random.uniform(-0.1, 0.9)).collect();
+        let speeds: Vec<f64> = (0..5).map(|_| random.uniform(0.0, 0.6)).collect();
+        let rooms = (0..5).map(|n| model.room(gaps[n], speeds[n], speeds[(n + 1) % 5]));
+        let least = rooms.fold(f64::INFINITY, f64::min);
+        let expected = !model.is_singular() || least > 0.0;
+        let positions: Vec<f64> = (0..5).map(|n| gaps[..n].iter().sum()).collect();
+        // of a ring that is as long as these gaps
+        let length: f64 = gaps.iter().sum();
+        let by_positions = FormKind::Positions.build(&model, Ring { pedestrians: 5, length });
+        assert_eq!(by_positions.in_domain(&[positions, speeds.clone()].concat()), expected, "{model:?}");
+        let uniform = 0.2;
+        let mut deviations = vec![0.0; form.dimension()];
+        for n in 0..5 {
+            (deviations[n], deviations[5 + n]) = (gaps[n] - ring.headway(), speeds[n] - uniform);
+        }
+        deviations[5 * 2 + 2] = uniform;
+        assert_eq!(form.in_domain(&deviations), expected, "{model:?}");
+        if model.is_singular() {
+            *if expected { &mut open } else { &mut closed } += 1;
+        }
+    }
+    assert!(open > 50 && closed > 50, "{open} open, {closed} closed");
+}
+
+#[test]
+fn a_ring_with_a_room_of_exactly_nothing_is_closed() {
+    let law = Algebraic { relative: 0.0, widening: 0.25, ..algebraic(&mut Random(29)) };
+    let model = Model::Algebraic(law);
+    let ring = Ring { pedestrians: 4, length: 16.0 };
+    for victim in 0..4 {
+        // gap 3, speeds 2: room 3 - 0.25 (2 + 2) - 2 = 0, all exact
+        let (mut gaps, speeds) = ([4.0; 4], [2.0; 4]);
+        gaps[victim] = 3.0;
+        gaps[(victim + 1) % 4] = 5.0;
+        for kind in [FormKind::Deviations, FormKind::Gaps, FormKind::Positions] {
+            let form = kind.build(&model, ring);
+            let mut state = form.start(Start { shift: 0.0 });
+            let places: Vec<f64> = (0..4).map(|n| gaps[..n].iter().sum()).collect();
+            for n in 0..4 {
+                let (place, speed) = match kind {
+                    FormKind::Deviations => (gaps[n] - 4.0, speeds[n]),
+                    FormKind::Gaps => (gaps[n] - 2.0, speeds[n]),
+                    FormKind::Positions => (places[n], speeds[n]),
+                };
+                (state[n], state[4 + n]) = (place, speed);
+            }
+            assert!(!form.in_domain(&state), "{kind:?} {victim}");
+            // slower by a little there is room again
+            state[4 + victim] -= 1e-9;
+            assert!(form.in_domain(&state), "{kind:?} {victim}");
+        }
+    }
+}
+
+#[test]
+fn laws_have_their_names() {
+    let names = laws(&mut Random(28)).map(|model| model.name());
+    assert_eq!(names, ["algebraic", "exponential", "logarithmic"]);
 }

@@ -5,12 +5,22 @@ use jam::laws::{Exponential, Model};
 use jam::ring::{Ring, Start};
 use jam::states::{Form, FormKind, gaps_state};
 use ode::{Control, Group, Measure, Method, Problem, Step, System, integrate};
+use std::cell::Cell;
+use std::f64::consts::PI;
 use std::ops::{ControlFlow, Range};
 
 /// Three pedestrians whose gaps and speeds are `constant + amplitude cos t`; the state is `(cos t, -sin t)`.
 struct Swing {
     gaps: [(f64, f64); 3],
     speeds: [(f64, f64); 3],
+    /// How often gaps and speeds were asked for.
+    reads: Cell<usize>,
+}
+
+impl Swing {
+    fn new(gaps: [(f64, f64); 3], speeds: [(f64, f64); 3]) -> Swing {
+        Swing { gaps, speeds, reads: Cell::new(0) }
+    }
 }
 
 impl System for Swing {
@@ -36,6 +46,7 @@ impl Form for Swing {
         vec![1.0, 0.0]
     }
     fn read(&self, state: &[f64], gaps: &mut [f64], speeds: &mut [f64]) {
+        self.reads.set(self.reads.get() + 1);
         for n in 0..3 {
             gaps[n] = self.gaps[n].0 + self.gaps[n].1 * state[0];
             speeds[n] = self.speeds[n].0 + self.speeds[n].1 * state[0];
@@ -91,14 +102,14 @@ fn assert_events(found: &[Happening], expected: &[(Event, usize, f64)]) {
     assert_eq!(found.len(), expected.len(), "{found:?}");
     for (happening, (event, pedestrian, cos)) in found.iter().zip(expected) {
         assert_eq!((happening.event, happening.pedestrian), (*event, *pedestrian), "{found:?}");
-        assert!(happening.time > 0.0 && happening.time < std::f64::consts::PI, "on the way down: {happening:?}");
+        assert!(happening.time > 0.0 && happening.time < PI, "on the way down: {happening:?}");
         assert!((math::cos(happening.time) - cos).abs() < 1e-12, "{happening:?}: {}", math::cos(happening.time));
     }
 }
 
 #[test]
 fn overlap_negative_speed_and_exchange_in_order() {
-    let swing = Swing { gaps: [(5.0, 0.0), (3.0, 4.0), (2.5, 0.5)], speeds: [(1.0, 0.0), (0.5, 0.0), (0.25, 0.5)] };
+    let swing = Swing::new([(5.0, 0.0), (3.0, 4.0), (2.5, 0.5)], [(1.0, 0.0), (0.5, 0.0), (0.25, 0.5)]);
     // gap 2: 3 + 4 cos = 2; speed 2: 1/4 + cos / 2 = 0; gap 1: 3 + 4 cos = 0; gap 2 just touches 2 at cos = -1
     let expected = [(Event::Overlap, 1, -0.25), (Event::NegativeSpeed, 2, -0.5), (Event::Exchange, 1, -0.75)];
     assert_events(&swing_events(&swing, 0.0, ADAPTIVE), &expected);
@@ -110,7 +121,7 @@ fn overlap_negative_speed_and_exchange_in_order() {
 
 #[test]
 fn widening_makes_the_overlap_earlier() {
-    let swing = Swing { gaps: [(5.0, 0.0), (3.0, 4.0), (5.0, 0.0)], speeds: [(1.0, 0.0), (0.5, 0.0), (0.25, 0.0)] };
+    let swing = Swing::new([(5.0, 0.0), (3.0, 4.0), (5.0, 0.0)], [(1.0, 0.0), (0.5, 0.0), (0.25, 0.0)]);
     // room of 1: 3 + 4 cos - 2 - a_v (1/2 + 1/4) = 0 for a_v = 2: cos = 1/8; exchange as before
     let expected = [(Event::Overlap, 1, 0.125), (Event::Exchange, 1, -0.75)];
     assert_events(&swing_events(&swing, 2.0, ADAPTIVE), &expected);
@@ -119,7 +130,7 @@ fn widening_makes_the_overlap_earlier() {
 #[test]
 fn a_dip_within_a_step_is_seen() {
     // gap 0 is below 2 only for cos < -0.98, 0.4 time units about t = pi, within the step from 2 to 4
-    let swing = Swing { gaps: [(2.98, 1.0), (5.0, 0.0), (5.0, 0.0)], speeds: [(1.0, 0.0); 3] };
+    let swing = Swing::new([(2.98, 1.0), (5.0, 0.0), (5.0, 0.0)], [(1.0, 0.0); 3]);
     let found = swing_events(&swing, 0.0, Control::Fixed { step: 2.0 });
     assert_eq!(found.len(), 1, "{found:?}");
     assert_eq!((found[0].event, found[0].pedestrian), (Event::Overlap, 0));
@@ -129,14 +140,77 @@ fn a_dip_within_a_step_is_seen() {
 
 #[test]
 fn nothing_happens_where_nothing_is_negative() {
-    let swing = Swing { gaps: [(3.001, 1.0), (5.0, 0.0), (5.0, 0.0)], speeds: [(1.001, 1.0); 3] };
+    let swing = Swing::new([(3.001, 1.0), (5.0, 0.0), (5.0, 0.0)], [(1.001, 1.0); 3]);
     assert!(swing_events(&swing, 0.0, ADAPTIVE).is_empty());
+}
+
+#[test]
+fn of_equals_the_first_is_named() {
+    let swing = Swing::new([(5.0, 0.0), (3.0, 4.0), (3.0, 4.0)], [(1.0, 0.0); 3]);
+    assert_events(&swing_events(&swing, 0.0, ADAPTIVE), &[(Event::Overlap, 1, -0.25), (Event::Exchange, 1, -0.75)]);
+}
+
+#[test]
+fn widening_counts_from_the_last_pedestrian_to_the_first() {
+    // room of 2: 7 + 2 cos - 2 - (2 + 2) = 0 at cos = -1/2; the widening is what is missing, and no gap is small
+    let swing = Swing::new([(20.0, 0.0), (20.0, 0.0), (7.0, 2.0)], [(2.0, 0.0), (0.5, 0.0), (2.0, 0.0)]);
+    assert_events(&swing_events(&swing, 1.0, ADAPTIVE), &[(Event::Overlap, 2, -0.5)]);
+    let swing = Swing::new([(20.0, 0.0), (7.0, 2.0), (20.0, 0.0)], [(0.5, 0.0), (2.0, 0.0), (2.0, 0.0)]);
+    assert_events(&swing_events(&swing, 1.0, ADAPTIVE), &[(Event::Overlap, 1, -0.5)]);
+}
+
+/// Readings of gaps and speeds by a watch over so many steps of this length, from this phase of the swing on.
+fn readings(swing: &Swing, widening: f64, begin: f64, step: f64, steps: usize) -> usize {
+    let before = swing.reads.get();
+    let start = [math::cos(begin), -math::sin(begin)];
+    watched(swing, relaxation(widening), &start, 3, step * steps as f64, Control::Fixed { step });
+    swing.reads.get() - before
+}
+
+/// A sixth of a swing.
+const SIXTH: f64 = PI / 3.0;
+
+#[test]
+fn a_calm_step_is_read_once() {
+    // what comes near no event is looked at at the ends of steps only: once before the first step, once after each
+    let calm = Swing::new([(12.0, 1.0), (13.0, -1.0), (14.0, 2.0)], [(3.0, 0.5), (2.0, -0.5), (2.5, 0.0)]);
+    assert_eq!(readings(&calm, 0.0, 0.0, SIXTH, 6), 7);
+    assert_eq!(readings(&calm, 0.5, 0.0, SIXTH, 6), 7);
+    // at rest a speed of exactly 0 is no event, and is not looked for
+    let standing = Swing::new([(12.0, 0.0); 3], [(0.0, 0.0); 3]);
+    assert_eq!(readings(&standing, 0.0, 0.0, SIXTH, 6), 7);
+}
+
+#[test]
+fn only_steps_that_may_hold_an_event_are_searched() {
+    // Gap of 0 is 3.5 + cos t, least room 1/2 at t = pi. The control points of a step from a to b are cos a,
+    // cos a - h/3 sin a, cos b + h/3 sin b, cos b, for h = pi / 3: from pi/3 to 2 pi/3 they lie 2.0, 1.698, 1.302, 1.0,
+    // spread 1.0 <= least; from 2 pi/3 to pi: 1.0, 0.698, 0.5, 0.5, spread 0.5 <= least; so no step is searched.
+    let near = Swing::new([(3.5, 1.0), (20.0, 0.0), (20.0, 0.0)], [(3.0, 0.0); 3]);
+    assert_eq!(readings(&near, 0.0, 0.0, SIXTH, 6), 7);
+    // Lower by 1/10 the least of the second is 0.4 against the same spread of 0.5, and that of the first is 0.9 against
+    // 1.0: both, and the two on the way up, are searched at 17 places and one or two more next to the lower end.
+    let nearer = Swing::new([(3.4, 1.0), (20.0, 0.0), (20.0, 0.0)], [(3.0, 0.0); 3]);
+    assert_eq!(readings(&nearer, 0.0, 0.0, SIXTH, 6), 7 + 2 * 18 + 2 * 19);
+}
+
+#[test]
+fn a_hump_within_a_step_widens_what_is_searched() {
+    // Room 0.45 - cos t over one step of 2 pi / 3, a fifth earlier or later than even about its top: the control points
+    // less 0.45 are 0.318, 0.980, 1.186, 0.663 or the other way round. The spread 0.868 is more than the least, 0.768;
+    // without the highest of them it would be 0.662, and nothing would be searched.
+    let hump = |least: f64| Swing::new([(2.0 + least, -1.0), (20.0, 0.0), (20.0, 0.0)], [(3.0, 0.0); 3]);
+    for begin in [2.0 * SIXTH - 0.2, 2.0 * SIXTH + 0.2] {
+        assert!(readings(&hump(0.45), 0.0, begin, 2.0 * SIXTH, 1) > 2 + 16, "{begin}");
+        // higher by 1/5 nothing is searched
+        assert_eq!(readings(&hump(0.65), 0.0, begin, 2.0 * SIXTH, 1), 2, "{begin}");
+    }
 }
 
 #[test]
 fn blow_up_is_a_speed_beyond_the_bound() {
     // |v_1| = 1e12 (1 - cos t) passes the bound at t = pi / 2, backwards, so its speed is negative from the start on
-    let swing = Swing { gaps: [(5.0, 0.0); 3], speeds: [(1.0, 0.0), (-BLOW_UP, BLOW_UP), (1.0, 0.0)] };
+    let swing = Swing::new([(5.0, 0.0); 3], [(1.0, 0.0), (-BLOW_UP, BLOW_UP), (1.0, 0.0)]);
     let found = swing_events(&swing, 0.0, ADAPTIVE);
     let blow_up = found.iter().find(|happening| happening.event == Event::BlowUp).expect("it blows up");
     assert_eq!(blow_up.pedestrian, 1);
@@ -206,7 +280,7 @@ fn a_watch_goes_on_in_another_form() {
 fn for_the_logarithmic_law_an_overlap_is_an_exchange() {
     let model = Model::Logarithmic(jam::laws::Logarithmic { desired_speed: 1.0, widening: 0.0, epsilon: 0.01 });
     assert_eq!((model.contact(), model.room(0.5, 1.0, 1.0)), (0.0, 0.5));
-    let swing = Swing { gaps: [(0.5, 1.0), (5.0, 0.0), (5.0, 0.0)], speeds: [(1.0, 0.0); 3] };
+    let swing = Swing::new([(0.5, 1.0), (5.0, 0.0), (5.0, 0.0)], [(1.0, 0.0); 3]);
     let found = watched(&swing, model, &[1.0, 0.0], 3, 6.0, ADAPTIVE);
     assert_events(&found, &[(Event::Overlap, 0, -0.5), (Event::Exchange, 0, -0.5)]);
     assert_eq!(found[0].time, found[1].time);

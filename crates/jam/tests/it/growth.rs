@@ -36,6 +36,20 @@ fn errors(model: &Model, ring: Ring, l: usize) -> (f64, f64) {
     ((math::ln(size) / time - re) / re, angle / (im * time))
 }
 
+#[test]
+fn a_state_holds_half_of_a_real_wave() {
+    for (count, l) in [(7, 1), (12, 5), (67, 20)] {
+        let k = 2.0 * PI * l as f64 / count as f64;
+        let wave: Vec<f64> = (0..count).map(|n| 3.0 + 0.5 * math::cos(k * n as f64 + 0.3)).collect();
+        let (re, im) = waves::coefficient(&wave, k);
+        // sums of so many terms of size 3
+        let rounding = 8.0 * count as f64 * f64::EPSILON;
+        assert!((re - 0.25 * math::cos(0.3)).abs() < rounding, "{re}");
+        assert!((im - 0.25 * math::sin(0.3)).abs() < rounding, "{im}");
+        assert!((waves::coefficient(&wave, 0.0).0 - 3.0).abs() < rounding);
+    }
+}
+
 fn cases() -> Vec<(Model, f64)> {
     let algebraic = |strength: f64, relative: f64, power: f64, widening: f64| {
         let law = Algebraic { strength, relative, power, widening, epsilon: 0.1, desired_speed: 3.0 };

@@ -1,7 +1,7 @@
 //! Steps of Heun's scheme made many at once: the bits of the scheme as printed, at every width, size and cut.
 
-use crate::sample::{Random, laws, paper_laws};
-use jam::laws::Model;
+use crate::sample::{Random, paper_laws, variants};
+use jam::laws::{Exponential, Logarithmic, Model};
 use jam::ring::{Ring, Start};
 use jam::states::{Cut, Form, FormKind, heun_steps};
 use math::simd::Width;
@@ -22,8 +22,7 @@ fn bits(state: &[f64]) -> Vec<u64> {
 
 /// Paper's laws and random ones of every combination of terms.
 fn many_laws() -> Vec<Model> {
-    let mut random = Random(15);
-    paper_laws().into_iter().chain((0..6).flat_map(|_| laws(&mut random))).collect()
+    paper_laws().into_iter().chain(variants(&mut Random(15))).collect()
 }
 
 #[test]
@@ -97,6 +96,109 @@ fn a_cut_burst_with_an_event_leaves_the_state_untouched() {
                 Burst::Eventful
             );
             assert_eq!(state, start);
+        }
+    }
+}
+
+#[test]
+fn whoever_passes_the_one_ahead_ends_a_burst_under_laws_without_a_wall() {
+    let ring = Ring { pedestrians: 20, length: 20.0 * 4.5 };
+    for model in many_laws().into_iter().filter(|model| !model.is_singular()) {
+        let form = FormKind::Positions.build(&model, ring);
+        for victim in [0, 7, 19] {
+            // through the one ahead within 45 of the steps: no force of these laws stops a speed of 100
+            let mut start = form.start(Start { shift: 0.0 });
+            start[20..].fill(1.0);
+            start[20 + victim] = 100.0;
+            let mut state = start.clone();
+            let burst = heun_steps(&model, ring, (0.001, 100), &mut state, None, Width::Eight);
+            assert_eq!((burst, state), (Burst::Eventful, start), "{model:?} {victim}");
+        }
+    }
+}
+
+#[test]
+fn rings_are_cut_where_they_are_large() {
+    assert_eq!([Cut::of(2), Cut::of(4096)], [None, None]);
+    let one = Some(Cut { block: 1024, steps: 16, threads: 1 });
+    assert_eq!([Cut::of(4097), Cut::of(131_071)], [one, one]);
+    let available = std::thread::available_parallelism().map_or(1, |threads| threads.get());
+    let threads = |n| Cut::of(n).expect("it is large").threads;
+    // each with 65,536 at least
+    assert_eq!(threads(131_072), available.min(2));
+    assert_eq!(threads(10_000_000), available.min(152));
+}
+
+/// A state of positions with these gaps and speeds.
+fn positions(gaps: &[f64], speeds: &[f64]) -> Vec<f64> {
+    let places = gaps.iter().scan(0.0, |place, gap| Some(std::mem::replace(place, *place + gap)));
+    places.chain(speeds.iter().copied()).collect()
+}
+
+/// What a burst of so many steps of 0.001 says of a ring with one pedestrian who is different, in one piece.
+fn burst_with(model: &Model, size: usize, victim: usize, (gap, speed): (f64, f64), ahead: f64, steps: u64) -> Burst {
+    let (mut gaps, mut speeds) = (vec![4.5; size], vec![1.0; size]);
+    (gaps[victim], speeds[victim]) = (gap, speed);
+    speeds[(victim + 1) % size] = ahead;
+    let ring = Ring { pedestrians: size, length: gaps.iter().sum() };
+    let mut state = positions(&gaps, &speeds);
+    let before = state.clone();
+    let burst = heun_steps(model, ring, (0.001, steps), &mut state, None, Width::Eight);
+    assert_eq!(burst == Burst::Eventful, state == before, "a burst is whole or leaves the state as it was");
+    burst
+}
+
+/// No force but the drive, of this law's contact.
+fn drive() -> [Model; 2] {
+    let (strength, range, contact, widening, epsilon, desired_speed) = (0.0, 1.0, 0.0, 0.0, 0.1, 1.0);
+    let exponential = Exponential { strength, range, contact, widening, epsilon, desired_speed };
+    [Model::Exponential(exponential), Model::Logarithmic(Logarithmic { desired_speed, widening, epsilon: 0.01 })]
+}
+
+#[test]
+fn what_is_no_more_after_the_last_step_is_seen_as_well() {
+    for model in drive() {
+        let contact = model.contact();
+        for size in [3, 20, 600] {
+            for victim in [0, 1, size - 2, size - 1] {
+                let said = |own, ahead, steps| burst_with(&model, size, victim, own, ahead, steps);
+                // 0.05 of room, and 0.1 walked in the one step
+                assert_eq!(said((contact + 0.05, 100.0), 1.0, 1), Burst::Eventful, "{model:?} {victim} of {size}");
+                assert_eq!(said((contact + 0.15, 100.0), 1.0, 1), Burst::Quiet, "{model:?} {victim} of {size}");
+            }
+        }
+    }
+    // slower than nothing after one step: a force of some 7 on who nearly stands
+    let strong = Model::Exponential(Exponential {
+        strength: 10.0,
+        range: 1.5,
+        contact: 0.0,
+        widening: 0.0,
+        epsilon: 0.1,
+        desired_speed: 1.0,
+    });
+    for victim in [0, 1, 18, 19] {
+        let said = |speed| burst_with(&strong, 20, victim, (2.5, speed), 1.0, 1);
+        assert_eq!(said(0.001), Burst::Eventful, "{victim}");
+        assert_eq!(said(0.1), Burst::Quiet, "{victim}");
+    }
+}
+
+#[test]
+fn what_is_no_more_for_a_moment_within_is_seen_as_well() {
+    for model in drive() {
+        let contact = model.contact();
+        // around whole registers and whole rows
+        for size in [3, 20, 256, 600] {
+            for victim in [0, 1, size / 2, size - 1] {
+                let said = |own, ahead| burst_with(&model, size, victim, own, ahead, 100);
+                // too close at the start, but the one ahead leaves; walking backwards, but speeding up; both
+                let cases = [((contact - 0.01, 1.0), 2.0), ((4.0, -0.01), 2.0), ((contact - 0.01, -0.01), 2.0)];
+                for (own, ahead) in cases {
+                    assert_eq!(said(own, ahead), Burst::Eventful, "{model:?} {victim} of {size}: {own:?}");
+                }
+                assert_eq!(said((contact + 0.01, 0.5), 2.0), Burst::Quiet, "{model:?} {victim} of {size}");
+            }
         }
     }
 }

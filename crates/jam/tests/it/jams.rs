@@ -35,6 +35,20 @@ fn a_jam_may_lie_across_the_seam() {
 }
 
 #[test]
+fn who_walks_at_the_threshold_is_free() {
+    let (positions, speeds) = snapshot(&[2, 3]);
+    assert!(find(&positions, &speeds, LENGTH, 0.25).is_empty());
+    let (positions, mut speeds) = snapshot(&[2, 3, 4]);
+    speeds[3] = 0.625;
+    // the crossing lies on the pedestrian at the threshold
+    let expected = [
+        Jam { first: 2, pedestrians: 1, extent: 3.0, centre: 4.5 },
+        Jam { first: 4, pedestrians: 1, extent: 3.0, centre: 7.5 },
+    ];
+    assert_eq!(find(&positions, &speeds, LENGTH, 0.625), expected);
+}
+
+#[test]
 fn no_jam_without_both_slow_and_free() {
     assert!(jams(&[]).is_empty());
     assert!(jams(&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9]).is_empty());
@@ -47,6 +61,9 @@ fn a_threshold_needs_contrast() {
     assert_eq!(threshold(&[0.95, 1.0, 0.98], 1.0), None);
     // a tenth of the desired speed, not of the speeds
     assert_eq!(threshold(&[0.25, 0.5], 4.0), None);
+    // at exactly a tenth there is none yet
+    assert_eq!(threshold(&[0.0, 0.5], 5.0), None);
+    assert_eq!(threshold(&[0.0, 0.5], 4.999), Some(0.25));
     assert_eq!(threshold(&[], 1.0), None);
 }
 

@@ -4,6 +4,7 @@ use crate::sample::{Random, laws};
 use jam::laws::Model;
 use jam::stability::Linear;
 use jam::uniform::steady_speed;
+use math::twofold::Twofold;
 use std::f64::consts::PI;
 
 /// The derivative of `f` at 0 from central differences with `h` and `2 h` (error of `h^4`), and how far it may be off:
@@ -116,6 +117,45 @@ fn roots_solve_the_polynomial_and_are_the_larger_ones() {
         let difference = (linear.refined_growth_rate(k) - re).abs();
         assert!(difference < 10.0 * f64::EPSILON * (re.abs() + im.abs()), "{linear:?}, k = {k}: {difference:e}");
     }
+}
+
+/// The root of `z^2 + b z + c` next to `z`, by Newton's method in twofold numbers: its real part.
+fn exact_growth_rate(z: (f64, f64), b: (f64, f64), c: (f64, f64)) -> Twofold {
+    let (b, c) = ((Twofold::from(b.0), Twofold::from(b.1)), (Twofold::from(c.0), Twofold::from(c.1)));
+    let mut z = (Twofold::from(z.0), Twofold::from(z.1));
+    for _ in 0..3 {
+        let residual =
+            (z.0 * z.0 - z.1 * z.1 + b.0 * z.0 - b.1 * z.1 + c.0, z.0 * z.1 * 2.0 + b.0 * z.1 + b.1 * z.0 + c.1);
+        let slope = (z.0 * 2.0 + b.0, z.1 * 2.0 + b.1);
+        let size = slope.0 * slope.0 + slope.1 * slope.1;
+        z.0 = z.0 - (residual.0 * slope.0 + residual.1 * slope.1) / size;
+        z.1 = z.1 - (residual.1 * slope.0 - residual.0 * slope.1) / size;
+    }
+    z.0
+}
+
+#[test]
+fn a_refined_growth_rate_is_the_double_next_to_the_exact_one() {
+    let mut random = Random(30);
+    let mut improved = 0;
+    for _ in 0..20_000 {
+        let linear = Linear {
+            phi: random.magnitude(-3.0, 1.5),
+            beta: random.perhaps(0.0, 2.0),
+            kappa: random.perhaps(0.0, 2.0),
+        };
+        let k = PI * random.magnitude(-4.0, 0.0);
+        let (root, (b, c)) = (linear.root(k), linear.polynomial(k));
+        let exact = exact_growth_rate(root, b, c);
+        let refined = linear.refined_growth_rate(k);
+        let error = |value: f64| (exact - Twofold::from(value)).abs().hi;
+        // half a unit in the last place, and the correction, some 1e-16 of the root, to a few of its digits
+        let (re, im) = (root.0.abs(), root.1.abs());
+        let allowed = 0.5 * f64::EPSILON * re + 64.0 * f64::EPSILON * f64::EPSILON * (re + im);
+        assert!(error(refined) <= allowed, "{linear:?}, k = {k}: {:e} of {allowed:e}", error(refined));
+        improved += u32::from(error(refined) < error(root.0));
+    }
+    assert!(improved > 10_000, "{improved}");
 }
 
 #[test]

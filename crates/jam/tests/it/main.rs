@@ -5,6 +5,7 @@ mod convergence;
 mod criteria;
 mod deviation;
 mod events;
+mod forms;
 mod growth;
 mod heun;
 mod jams;

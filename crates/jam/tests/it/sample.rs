@@ -64,6 +64,23 @@ pub fn logarithmic(random: &mut Random) -> Logarithmic {
     }
 }
 
+/// Laws of each kind with every combination of terms, the rest at random: one of each.
+pub fn variants(random: &mut Random) -> Vec<Model> {
+    let mut all = Vec::new();
+    for widening in [0.0, random.uniform(0.05, 0.4)] {
+        for relative in [0.0, random.uniform(0.2, 2.0)] {
+            for power in [1.0, 2.0, 3.0, random.uniform(0.5, 3.5)] {
+                all.push(Model::Algebraic(Algebraic { relative, widening, power, ..algebraic(random) }));
+            }
+        }
+        for contact in [0.0, random.uniform(0.5, 10.0)] {
+            all.push(Model::Exponential(Exponential { contact, widening, ..exponential(random) }));
+        }
+        all.push(Model::Logarithmic(Logarithmic { widening, ..logarithmic(random) }));
+    }
+    all
+}
+
 /// One law of each kind.
 pub fn laws(random: &mut Random) -> [Model; 3] {
     [

@@ -1,7 +1,7 @@
 //! The uniform flow: its speed, and that it stays to the last bit.
 
 use crate::sample::{HEADWAYS, Random, laws, paper_laws};
-use jam::laws::{Exponential, Logarithmic, Model};
+use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
 use jam::ring::{Ring, Start};
 use jam::states::FormKind;
 use jam::uniform::steady_speed;
@@ -68,6 +68,19 @@ fn no_uniform_flow_where_there_is_no_room() {
         desired_speed: 1.0,
     });
     assert!(steady_speed(&stiff, 2.5).is_err());
+}
+
+#[test]
+fn the_search_for_a_steady_speed_ends_at_so_many_desired_ones() {
+    let law = |strength: f64, desired_speed: f64| {
+        let (relative, power, widening, epsilon) = (0.0, 2.0, 0.0, 0.1);
+        Model::Algebraic(Algebraic { strength, relative, power, widening, epsilon, desired_speed })
+    };
+    // at a room of 1 the steady speed is v_0 - mu^2: 1e11 backwards is within 1e12 v_0 of v_0 = 1, not of 1/100
+    let speed = steady_speed(&law(1e11_f64.sqrt(), 1.0), 3.0).expect("it is within");
+    assert!((speed / -1e11 - 1.0).abs() < 1e-10, "{speed}");
+    assert!(steady_speed(&law(1e11_f64.sqrt(), 0.01), 3.0).is_err());
+    assert!(steady_speed(&law(1e11_f64.sqrt(), 100.0), 3.0).is_ok());
 }
 
 /// Calls `look` with gaps and speeds after every step of a run that starts uniform.
