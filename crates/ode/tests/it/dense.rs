@@ -1,8 +1,8 @@
 //! The solution inside the steps.
 
-use crate::problems::{distance, general_methods, oscillation, oscillator, power, watched};
-use ode::tableau::Interpolant;
-use ode::{Control, Method};
+use crate::problems::{Equations, distance, general_methods, oscillation, oscillator, power, watched};
+use ode::tableau::{Interpolant, Tableau};
+use ode::{Control, Method, Step};
 
 /// The largest error at the ends of the steps and inside them.
 fn errors(method: Method, steps: u32) -> (f64, f64) {
@@ -89,6 +89,24 @@ fn at_the_ends_the_states_are_those_of_the_step() {
 }
 
 #[test]
+fn next_to_an_end_the_state_is_that_of_the_end() {
+    let mut state = [0.0; 2];
+    watched(&oscillator(), &[1.0, 0.5], 1.0, Method::Dop853, Control::Fixed { step: 0.5 }, &mut |step| {
+        let ends = [step.before().to_vec(), step.after().to_vec()];
+        // a change of 1e-10 of such a step would show in either component
+        for (theta, end) in [(-5e-10, 0), (5e-10, 0), (1.0 - 5e-10, 1), (1.0 + 5e-10, 1)] {
+            step.at_fraction(theta, &mut state);
+            assert_eq!(state, *ends[end], "{theta}");
+        }
+        for (theta, end) in [(1e-9, 0), (2e-9, 0), (1.0 - 2e-9, 1)] {
+            step.at_fraction(theta, &mut state);
+            assert!(distance(&state, &ends[end]) > 1e-10, "{theta}");
+        }
+    })
+    .expect("nothing stands in the way");
+}
+
+#[test]
 fn looking_inside_changes_nothing() {
     // the extrapolation uses its own working space to look inside: the next step must not notice
     for method in general_methods().filter(|method| method.is_adaptive()) {
@@ -107,4 +125,60 @@ fn looking_inside_changes_nothing() {
         });
         assert_eq!(looked.evaluations > plain.evaluations, has_further_stages, "{}", method.name());
     }
+}
+
+/// Whether a method's interpolant is the cubic through both ends.
+fn has_cubic(method: Method) -> bool {
+    let of_tableau = |tableau: &Tableau| matches!(tableau.interpolant, Interpolant::Cubic);
+    method.tableau().map_or(method == Method::Ballistic, of_tableau)
+}
+
+/// Thrown straight up with speed 3, a unit of acceleration downwards: methods of order 2, and the ballistic scheme, have
+/// no error, and neither has a cubic through both ends, which costs no evaluation.
+#[test]
+fn inside_a_step_a_throw_is_a_parabola() {
+    let throw = Equations { dynamics: |_, rates| rates[1] = -1.0, ..oscillator() };
+    for method in general_methods().filter(|&method| method != Method::Euler && has_cubic(method)) {
+        let mut state = [0.0; 2];
+        let run = |look: &mut dyn FnMut(&mut Step<'_>)| {
+            watched(&throw, &[0.5, 3.0], 3.0, method, Control::Fixed { step: 0.5 }, look).expect("it runs")
+        };
+        let plain = run(&mut |_| {});
+        let looked = run(&mut |step| {
+            for theta in [0.125, 0.5, 0.75] {
+                step.at_fraction(theta, &mut state);
+                let t = step.start + theta * step.length();
+                let expected = [0.5 + 3.0 * t - 0.5 * t * t, 3.0 - t];
+                assert!(distance(&state, &expected) < 8.0 * f64::EPSILON, "{}: {state:?}", method.name());
+            }
+        });
+        assert_eq!(looked.evaluations, plain.evaluations, "{}", method.name());
+    }
+}
+
+#[test]
+fn where_a_step_ends_with_rates_that_are_no_numbers_the_chord_is_taken() {
+    // the rate of the first is infinite from 1 on, which it reaches with the first step; the second bends
+    let system = Equations {
+        dimension: 2,
+        positions: 0,
+        dynamics: |state, rates| {
+            rates[0] = if state[0] < 1.0 { 1.0 } else { f64::INFINITY };
+            rates[1] = state[1];
+        },
+        kinematics: |_, _| {},
+        ..oscillator()
+    };
+    let mut inside = Vec::new();
+    let result = watched(&system, &[0.5, 1.0], 1.0, Method::Euler, Control::Fixed { step: 0.5 }, &mut |step| {
+        for theta in [0.25, 0.5] {
+            let mut state = [0.0; 2];
+            step.at_fraction(theta, &mut state);
+            inside.push(state);
+        }
+    });
+    assert!(result.is_err(), "the next step ends nowhere");
+    // the second from 1 to 3/2 with rates 1 and 3/2: 1 + theta / 2 + theta (1 - theta) (0 (1 - theta) - theta / 4)
+    let second = |theta: f64| 1.0 + 0.5 * theta - 0.25 * theta * theta * (1.0 - theta);
+    assert_eq!(inside, [[0.625, second(0.25)], [0.75, second(0.5)]]);
 }

@@ -1,6 +1,6 @@
 //! Times, counts and sums of the two drivers.
 
-use crate::problems::{general_methods, oscillator, solve, watched};
+use crate::problems::{general_methods, kepler, oscillator, planet, solve, watched};
 use math::twofold::Twofold;
 use ode::{Control, Method, Problem, Step, integrate};
 use std::ops::ControlFlow;
@@ -57,6 +57,17 @@ fn the_time_gathers_no_rounding() {
         let unit = end.next_up() - end;
         // Kahan's sum is within a unit of the exact one; the last time is the end, which its length was chosen to meet
         assert!((exact - *end).abs().hi <= unit, "t = {end}: {:e} units", (exact - *end).hi / unit);
+    }
+}
+
+#[test]
+fn the_last_step_meets_the_end_for_any_end() {
+    for end in (1..200).map(|i| 0.37 * f64::from(i)) {
+        let steps = steps(end, Control::Adaptive { tolerance: 1e-8 }, Method::Dop853);
+        let sum = steps.iter().fold(Twofold::ZERO, |sum, (_, _, length)| sum + *length);
+        // the last length is what the sum and its carry leave, far below the rounding of the larger ends, 7e-15; the
+        // carry lacks what is lost where the first steps grow
+        assert!((sum - end).abs().hi <= 1e-16, "{end}: {:e}", (sum - end).hi);
     }
 }
 
@@ -142,4 +153,38 @@ fn the_ballistic_scheme_moves_with_the_mean_speed() {
     // x'' = -x from (1, 0.5): v_1 = v_0 - h x_0, x_1 = x_0 + h (v_0 + v_1) / 2
     let statistics = solve(&oscillator(), &[1.0, 0.5], 0.25, Method::Ballistic, Control::Fixed { step: 0.25 });
     assert_eq!(statistics.state, [1.0 + 0.25 * 0.5 * (0.5 + 0.25), 0.25]);
+}
+
+/// Steps, rejected ones among them, evaluations: what the control of the step has chosen. No law of nature, but any change
+/// of it is one that somebody should have meant.
+#[test]
+fn so_many_steps_are_taken() {
+    let mut taken = Vec::new();
+    for method in general_methods().filter(|method| method.is_adaptive()) {
+        for tolerance in [1e-5, 1e-10] {
+            let run = solve(&kepler(), &planet(0.0), 20.0, method, Control::Adaptive { tolerance });
+            taken.push((method.name(), tolerance, run.steps, run.rejected, run.evaluations));
+        }
+    }
+    let expected = [
+        ("bs32", 1e-5, 403, 0, 1210),
+        ("bs32", 1e-10, 18583, 2, 55756),
+        ("dopri54", 1e-5, 76, 17, 559),
+        ("dopri54", 1e-10, 665, 0, 3991),
+        ("tsit54", 1e-5, 83, 21, 625),
+        ("tsit54", 1e-10, 718, 0, 4309),
+        ("verner65", 1e-5, 76, 20, 769),
+        ("verner65", 1e-10, 451, 0, 3609),
+        ("verner76", 1e-5, 61, 17, 764),
+        ("verner76", 1e-10, 266, 0, 2661),
+        ("verner87", 1e-5, 42, 14, 715),
+        ("verner87", 1e-10, 133, 33, 2126),
+        ("verner98", 1e-5, 41, 12, 837),
+        ("verner98", 1e-10, 106, 26, 2087),
+        ("dop853", 1e-5, 42, 13, 648),
+        ("dop853", 1e-10, 134, 33, 1972),
+        ("extrapolation", 1e-5, 20, 8, 1813),
+        ("extrapolation", 1e-10, 37, 11, 3110),
+    ];
+    assert_eq!(taken, expected);
 }

@@ -159,3 +159,22 @@ fn a_state_at_rest_stays() {
         assert_eq!(statistics.time, 100.0);
     }
 }
+
+#[test]
+fn without_a_size_or_a_rate_the_first_step_is_a_thousandth() {
+    let growing = Equations::scalar(|_, rates| rates[0] = 1.0);
+    let resting = Equations::scalar(|_, rates| rates[0] = 0.0);
+    for (system, start) in [(&growing, 0.0), (&resting, 1.0), (&resting, 0.0)] {
+        let mut lengths = Vec::new();
+        let control = Control::Adaptive { tolerance: 1e-6 };
+        watched(system, &[start], 2.0, Method::Dop853, control, &mut |step| lengths.push(step.length()))
+            .expect("nothing stands in the way");
+        assert_eq!(lengths[0], 1e-3, "from {start}");
+    }
+    // with both it is the time to change by a hundredth
+    let mut lengths = Vec::new();
+    let control = Control::Adaptive { tolerance: 1e-2 };
+    watched(&growing, &[3.0], 2.0, Method::Dop853, control, &mut |step| lengths.push(step.length()))
+        .expect("nothing stands in the way");
+    assert!((lengths[0] - 0.03).abs() < 1e-16, "{}", lengths[0]);
+}
