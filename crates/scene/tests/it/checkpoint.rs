@@ -20,19 +20,39 @@ fn words(outcome: &Outcome) -> String {
     format!("{outcome:?}")
 }
 
-/// Keeps every checkpoint.
-struct Kept(Vec<Vec<u8>>);
+/// Keeps every checkpoint, and the part of the run that was done.
+#[derive(Default)]
+struct Kept {
+    checkpoints: Vec<Vec<u8>>,
+    fractions: Vec<f64>,
+}
 
 impl Onlooker for Kept {
     fn between(&mut self, underway: &Underway<'_>) {
-        self.0.push(underway.to_bytes());
+        self.checkpoints.push(underway.to_bytes());
+        self.fractions.push(underway.fraction());
     }
 }
 
 fn checkpoints(scene: &Scene) -> (Outcome, Vec<Vec<u8>>) {
-    let mut kept = Kept(Vec::new());
+    let mut kept = Kept::default();
     let outcome = run_from(scene, None, &mut kept).expect("it runs");
-    (outcome, kept.0)
+    (outcome, kept.checkpoints)
+}
+
+#[test]
+fn checkpoints_tell_how_far_they_are() {
+    let scene = scene(1.0, "method = \"rk4\"\ndt = 0.00048828125\n");
+    let mut kept = Kept::default();
+    run_from(&scene, None, &mut kept).expect("it runs");
+    assert!(kept.fractions.len() > 5, "{}", kept.fractions.len());
+    for (i, (bytes, fraction)) in kept.checkpoints.iter().zip(kept.fractions).enumerate() {
+        let checkpoint = Checkpoint::parse(bytes, &scene).expect("a checkpoint");
+        // 4096 steps of 1/2048 are 2 of the 60
+        let done = 2.0 * (i + 1) as f64;
+        assert_eq!((checkpoint.steps(), checkpoint.fraction(&scene)), (4096 * (i as u64 + 1), done / 60.0));
+        assert_eq!(fraction, done / 60.0);
+    }
 }
 
 #[test]

@@ -300,6 +300,18 @@ fn complaints_about_the_run() {
 }
 
 #[test]
+fn what_is_just_allowed_is_allowed() {
+    // as many steps as may be
+    let steps = RUN.replacen("tolerance = 1e-11", "dt = 1.0\nmost_steps = 3000", 1);
+    assert_eq!(complaint(&steps), None);
+    // exactly 20 million rows
+    let rows = RUN.replacen("133", "100", 1).replacen("3000.0", "200000.0", 1);
+    assert_eq!(complaint(&rows), None);
+    let more = rows.replacen("200000.0", "200001.0", 1);
+    assert!(complaint(&more).is_some_and(|words| words.contains("2.00001e7 rows, more than 2e7")), "{more}");
+}
+
+#[test]
 fn complaints_about_the_whole_file() {
     let known = "title, source, origin, panel, law, ring, start, run, uniform, map, curve";
     let tables = "law, ring, start, run, uniform, map, curve";
@@ -399,6 +411,11 @@ fn complaints_about_maps() {
                 "kind = \"algebraic\"\nq = 2.0",
                 "kind = \"logarithmic\"\nepsilon = 0.01",
                 ":9: map.x.parameter = \"mu\": the logarithmic law has no parameter mu; an axis can be a_v, v0, d_gap, headway, k",
+            ),
+            (
+                "kind = \"algebraic\"\nq = 2.0",
+                "kind = \"exponential\"\na = 3.0\nb = 1.5",
+                ":10: map.x.parameter = \"mu\": the exponential law has no parameter mu; an axis can be a, b, c, a_v, v0, d_gap, headway, k",
             ),
         ],
     );

@@ -3,7 +3,7 @@
 use crate::project::figures;
 use files::recipe::{self, Kind, Recipe};
 use jam::criteria;
-use jam::laws::{Algebraic, Model};
+use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
 use jam::uniform::steady_speed;
 use std::f64::consts::LN_2;
 
@@ -54,6 +54,98 @@ fn maps_over_the_headway_solve_for_the_steady_speed() {
         let speed = steady_speed(&model, 3.0).expect("there is room");
         assert_eq!(row[2], model.linearise(3.0, speed).growth_rate(row[1]));
     }
+}
+
+/// The paper's criterion of a law in the uniform flow at this headway.
+fn criterion(model: &Model, headway: f64) -> f64 {
+    let speed = steady_speed(model, headway).expect("there is room");
+    match model {
+        Model::Algebraic(law) => criteria::algebraic(law, law.gap(headway, speed)),
+        Model::Exponential(law) => criteria::exponential(law, law.gap(headway, speed)),
+        Model::Logarithmic(law) => criteria::logarithmic(law, headway, speed),
+    }
+}
+
+/// Checks the map over `parameter` and the headway of a law whose lines are these, against laws changed by `change`.
+fn assert_axis(lines: &[&str], parameter: &str, model: Model, change: impl Fn(&mut Model, f64)) {
+    let rest: Vec<&str> = lines.iter().copied().filter(|line| !line.starts_with(&format!("{parameter} ="))).collect();
+    assert!(rest.len() < lines.len(), "{parameter}");
+    let axes = format!(
+        "x = {{ parameter = \"{parameter}\", from = 0.5, to = 2.5, cells = 2 }}\n\
+         y = {{ parameter = \"headway\", from = 8.0, to = 10.0, cells = 2 }}\n"
+    );
+    let (_, computed) = computed(&format!("[law]\n{}\n[map]\nvalue = \"criterion\"\n{axes}", rest.join("\n")));
+    let mut rows = computed.table.rows();
+    for value in [1.0, 2.0] {
+        for headway in [8.5, 9.5] {
+            let mut changed = model;
+            change(&mut changed, value);
+            let row = rows.next().expect("a row for each cell");
+            assert_eq!(row, [value, headway, criterion(&changed, headway)], "{parameter}");
+        }
+    }
+}
+
+#[test]
+fn every_parameter_of_every_law_can_be_an_axis() {
+    let algebraic = Algebraic { relative: 0.25, widening: 0.125, power: 1.5, ..law(0.5, 0.0) };
+    let lines =
+        ["kind = \"algebraic\"", "mu = 0.5", "delta = 0.25", "q = 1.5", "a_v = 0.125", "v0 = 3.0", "epsilon = 0.1"];
+    let assert_algebraic = |parameter: &str, change: fn(&mut Algebraic, f64)| {
+        assert_axis(&lines, parameter, Model::Algebraic(algebraic), |model, value| match model {
+            Model::Algebraic(law) => change(law, value),
+            _ => unreachable!("it is algebraic"),
+        });
+    };
+    assert_algebraic("mu", |law, value| law.strength = value);
+    assert_algebraic("delta", |law, value| law.relative = value);
+    assert_algebraic("q", |law, value| law.power = value);
+    assert_algebraic("a_v", |law, value| law.widening = value);
+    assert_algebraic("v0", |law, value| law.desired_speed = value);
+    let exponential =
+        Exponential { strength: 3.0, range: 1.5, contact: 0.5, widening: 0.125, epsilon: 0.1, desired_speed: 3.0 };
+    let lines = ["kind = \"exponential\"", "a = 3.0", "b = 1.5", "c = 0.5", "a_v = 0.125", "v0 = 3.0", "epsilon = 0.1"];
+    let assert_exponential = |parameter: &str, change: fn(&mut Exponential, f64)| {
+        assert_axis(&lines, parameter, Model::Exponential(exponential), |model, value| match model {
+            Model::Exponential(law) => change(law, value),
+            _ => unreachable!("it is exponential"),
+        });
+    };
+    assert_exponential("a", |law, value| law.strength = value);
+    assert_exponential("b", |law, value| law.range = value);
+    assert_exponential("c", |law, value| law.contact = value);
+    assert_exponential("a_v", |law, value| law.widening = value);
+    assert_exponential("v0", |law, value| law.desired_speed = value);
+    let logarithmic = Logarithmic { desired_speed: 3.0, widening: 0.125, epsilon: 0.01 };
+    let lines = ["kind = \"logarithmic\"", "a_v = 0.125", "v0 = 3.0", "epsilon = 0.01"];
+    let assert_logarithmic = |parameter: &str, change: fn(&mut Logarithmic, f64)| {
+        assert_axis(&lines, parameter, Model::Logarithmic(logarithmic), |model, value| match model {
+            Model::Logarithmic(law) => change(law, value),
+            _ => unreachable!("it is logarithmic"),
+        });
+    };
+    assert_logarithmic("a_v", |law, value| law.widening = value);
+    assert_logarithmic("v0", |law, value| law.desired_speed = value);
+}
+
+#[test]
+fn the_error_of_a_map_is_the_largest_of_its_cells_relative_to_large_values() {
+    let axes = "x = { parameter = \"k\", from = 0.0, to = 3.0, cells = 9 }\n\
+                y = { parameter = \"mu\", from = 0.5, to = 20.0, cells = 9 }\n";
+    let text = format!("{LAW}[uniform]\nd_gap = 1.0\n[map]\nvalue = \"growth_rate\"\n{axes}");
+    let (map, computed) = computed(&text);
+    let errors = computed.table.rows().map(|row| {
+        let linear = law(row[1], 0.0).linearise(1.0);
+        let (rate, refined) = (linear.growth_rate(row[0]), linear.refined_growth_rate(row[0]));
+        assert_eq!(row[2], rate);
+        (rate - refined).abs() / rate.abs().max(1.0)
+    });
+    let largest = errors.fold(0.0, f64::max);
+    assert_eq!(map.x.cells * map.y.cells, 81);
+    assert_eq!(computed.error, largest);
+    // more than one of the last digits differs, and large values are among them
+    assert!(largest > 1e-17, "{largest:e}");
+    assert!(computed.table.rows().any(|row| row[2] > 2.0));
 }
 
 #[test]

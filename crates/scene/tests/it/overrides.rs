@@ -44,6 +44,20 @@ fn step_and_tolerance_replace_each_other() {
 }
 
 #[test]
+fn every_state_has_its_form() {
+    let recipe = figure("fig11");
+    let form = |state: Option<&str>| {
+        scene(&recipe, "main", &Overrides { state: state.map(str::to_owned), ..Overrides::default() }).form
+    };
+    assert_eq!(form(None), FormKind::Deviations);
+    assert_eq!([form(Some("deviations")), form(Some("gaps"))], [FormKind::Deviations, FormKind::Gaps]);
+    // the series of the method ask for gaps or deviations
+    let positions =
+        Overrides { method: Some("dop853".to_owned()), state: Some("positions".to_owned()), ..Overrides::default() };
+    assert_eq!(scene(&recipe, "main", &positions).form, FormKind::Positions);
+}
+
+#[test]
 fn complaints_about_given_values_name_no_line() {
     let tables = Overrides { t_end: Some(-1.0), ..Overrides::default() }.apply(&figure("fig11").panels[0].tables);
     let error = scene::run::read("my.toml", &tables).expect_err("a negative time");

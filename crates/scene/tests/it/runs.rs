@@ -3,8 +3,10 @@
 use crate::project::{figure, jams, scene, with_check};
 use files::table::Table;
 use jam::events::Event;
+use jam::states::FormKind;
+use ode::{Statistics, Step};
 use scene::Overrides;
-use scene::simulation::{Outcome, run};
+use scene::simulation::{Onlooker, Outcome, Place, run, run_from};
 
 /// The largest difference of a column over the rows that both have, relative to its range.
 fn difference(runs: &[Outcome; 2], table: fn(&Outcome) -> &Table, column: &str) -> f64 {
@@ -56,6 +58,74 @@ fn the_unstable_algebraic_run_blows_up_at_one_time() {
     let error = difference(&runs, |run| &run.std, "std");
     println!("std before the blow-up: {error:e} of the range");
     assert!(error < 1e-8, "{error:e}");
+}
+
+/// The states at the ends of the steps that it sees.
+#[derive(Default)]
+struct Ends(Vec<Vec<f64>>);
+
+impl Onlooker for Ends {
+    fn after(&mut self, step: &Step<'_>) {
+        self.0.push(step.after().to_vec());
+    }
+}
+
+#[test]
+fn a_run_that_changes_its_state_at_the_walls_counts_both_parts() {
+    let overrides = Overrides { method: Some("dop853".to_owned()), ..Overrides::default() };
+    let scene = scene(&figure("fig04"), "unstable", &overrides);
+    let mut seen = Ends::default();
+    let run = run_from(&scene, None, &mut seen).expect("it runs");
+    let Statistics { steps, rejected, evaluations, .. } = run.statistics;
+    assert_eq!(steps, seen.0.len() as u64);
+    // deviations until somebody is ten times as fast as desired, then gaps
+    let form = FormKind::Deviations.build(&scene.model, scene.ring);
+    let (first, second): (Vec<_>, Vec<_>) = seen.0.iter().partition(|state| state.len() == form.dimension());
+    let (mut gaps, mut speeds) = (vec![0.0; 67], vec![0.0; 67]);
+    let mut fastest = |state: &[f64]| {
+        form.read(state, &mut gaps, &mut speeds);
+        speeds.iter().fold(0.0, |most: f64, v| most.max(v.abs()))
+    };
+    let (last, before) = (fastest(first[first.len() - 1]), fastest(first[first.len() - 2]));
+    assert!(!second.is_empty() && before <= 30.0 && last > 30.0, "{before}, {last}, {}", second.len());
+    // each step that is taken evaluates eleven stages and the rates at its end, each that is not at most as many; a step
+    // that is looked into evaluates three more, once for each sample, or some tens of times where an event is searched
+    let stages = 12 * steps + 11 * rejected;
+    assert!(rejected > 0 && rejected < steps, "{rejected} of {steps}");
+    assert!((12 * steps..stages + 3 * 20 * steps).contains(&evaluations), "{evaluations}, stages {stages}");
+}
+
+#[test]
+fn of_a_calm_run_by_heun_only_the_steps_to_samples_are_seen() {
+    let overrides = Overrides { dt: Some(1e-3), t_end: Some(20.0), sample: Some(0.5), ..Overrides::paper() };
+    let mut seen = Ends::default();
+    let run = run_from(&scene(&figure("fig04"), "stable", &overrides), None, &mut seen).expect("it runs");
+    assert_eq!((run.statistics.steps, seen.0.len()), (20_000, 40));
+}
+
+#[test]
+fn a_run_that_breaks_off_names_who_had_the_least_room() {
+    let text = "[law]\nkind = \"algebraic\"\nmu = 0.5\nq = 2.0\na_v = 0.2\nv0 = 3.0\n\
+                [ring]\npedestrians = 9\nlength = 45.0\n[start]\nshift = 0.8\n[run]\nt_end = 60.0\nsample = 1.0\n\
+                method = \"dop853\"\ntolerance = 1e-10\nmost_steps = ";
+    // who has the least room changes as the wave goes round
+    let mut named = std::collections::BTreeSet::new();
+    for most in [3, 15, 30, 45, 60] {
+        let recipe = files::recipe::parse("my.toml", &format!("{text}{most}\n")).expect("a scene");
+        let scene = scene::run::read("my.toml", &recipe.panels[0].tables).expect("a run");
+        let mut seen = Ends::default();
+        let Err(broken) = run_from(&scene, None, &mut seen) else { panic!("{most} steps are enough") };
+        let Place { pedestrian, gap, room, speed } = broken.narrowest.expect("a state was reached");
+        let (mut gaps, mut speeds) = ([0.0; 9], [0.0; 9]);
+        let form = FormKind::Deviations.build(&scene.model, scene.ring);
+        form.read(seen.0.last().expect("a step was made"), &mut gaps, &mut speeds);
+        let rooms: Vec<f64> = (0..9).map(|n| gaps[n] - 0.2 * (speeds[n] + speeds[(n + 1) % 9]) - 2.0).collect();
+        assert_eq!((gap, speed), (gaps[pedestrian], speeds[pedestrian]));
+        assert!((room - rooms[pedestrian]).abs() < 1e-14, "{room} not {}", rooms[pedestrian]);
+        assert!(rooms.iter().all(|other| room <= other + 1e-14), "{room} of {rooms:?}");
+        named.insert(pedestrian);
+    }
+    assert!(named.len() > 2, "{named:?}");
 }
 
 #[test]
