@@ -78,11 +78,6 @@ impl SoftplusBase {
         let (reach, share) = if size > -LOWEST { (0.0, 0.0) } else { (-LOWEST, share) };
         SoftplusBase { point, sign, above, below, reach, decay: decay.hi, inverse: 1.0 - share, share }
     }
-
-    /// The point y0.
-    pub fn point(&self) -> f64 {
-        self.point
-    }
 }
 
 /// softplus(y0 + d) - softplus(y0), with an error relative to this difference, however

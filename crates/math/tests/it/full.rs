@@ -135,3 +135,62 @@ fn decimals_are_read_to_98_bits() {
         assert!((read - value).hi.abs() <= value.hi.abs() * f64::from_bits((1023 - 98) << 52), "{value:?}");
     }
 }
+
+#[test]
+fn logarithms_next_to_minus_1_keep_their_precision() {
+    // 1 + x = 2^-k, exactly, or less by a tail of x
+    for k in 2..=50 {
+        let power = f64::from_bits((1023 - k) << 52);
+        let truth = -(Twofold::LN_2 * k as f64);
+        let error = ((full::ln_1p(Twofold::from(power - 1.0)) - truth).hi / truth.hi).abs();
+        assert!(error < f64::from_bits((1023 - 100) << 52), "2^-{k}: {error:e}");
+        let tail = power * f64::from_bits((1023 - 60) << 52);
+        // ln(p + t) = ln p + t / p - (t / p)^2 / 2
+        let value = full::ln_1p(Twofold::sum(power - 1.0, tail));
+        let difference = (value - truth - tail / power).hi.abs();
+        assert!(difference < truth.hi.abs() * f64::from_bits((1023 - 98) << 52), "2^-{k}: {difference:e}");
+    }
+}
+
+#[test]
+fn beyond_700_the_exponential_stays_where_it_is() {
+    for far in [700.5, 1e3, 1e6, 1e300] {
+        assert_eq!(full::exp(Twofold::from(far)), full::exp(Twofold::from(700.0)));
+        assert_eq!(full::exp(Twofold::from(-far)), full::exp(Twofold::from(-700.0)));
+        assert_eq!(full::softplus(Twofold::from(far)).hi, far);
+    }
+    let (large, small) = (full::exp(Twofold::from(700.0)).hi, full::exp(Twofold::from(-700.0)).hi);
+    assert!(
+        (large / 1.0142320547350045e304 - 1.0).abs() < 1e-15 && (small / 9.859676543759770e-305 - 1.0).abs() < 1e-15
+    );
+    // and one step before it is another value
+    assert!(full::exp(Twofold::from(699.5)) != full::exp(Twofold::from(700.0)));
+}
+
+/// A double with so many significant digits, by the standard library, which is exact, in the form of [`decimal::format`].
+fn by_std(value: f64, digits: usize) -> String {
+    format!("{:.*e}", digits - 1, value).replace("e0", "")
+}
+
+#[test]
+fn decimals_are_those_of_the_exact_value() {
+    let mut random = Random(83);
+    for _ in 0..3000 {
+        let x = random.signed_spread(1e-30, 1e30);
+        for digits in [1, 2, 17, 40, 90] {
+            assert_eq!(decimal::format(Twofold::from(x), digits), by_std(x, digits), "{x:e}");
+        }
+        // a tail that the sum can hold, of either sign: the digits of the sum
+        let tail = x * f64::from_bits((1023 - 20) << 52) * if random.bits() & 1 == 0 { 1.0 } else { -1.0 };
+        let hi = f64::from_bits(x.to_bits() & !0xff_ffff);
+        let lo = f64::from_bits(tail.to_bits() & !0xffff_ffff);
+        if Twofold::sum(hi, lo).lo == 0.0 {
+            assert_eq!(decimal::format(Twofold { hi, lo }, 60), by_std(hi + lo, 60), "{hi:e} {lo:e}");
+        }
+    }
+    for x in [5e-324, f64::MIN_POSITIVE, 1.5, 2.0, 1e300, 0.1, 0.7, 1.0 / 3.0, 3.0, f64::MAX] {
+        for digits in [1, 30, 60] {
+            assert_eq!(decimal::format(Twofold::from(x), digits), by_std(x, digits), "{x:e}");
+        }
+    }
+}

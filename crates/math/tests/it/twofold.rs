@@ -57,3 +57,21 @@ fn functions_have_eighty_bits() {
     assert_near(of(1e-5).exp_m1(), pair(1.0000050000166668e-5, -3.111926571619883e-22), 80);
     assert_near(of(-0.3).ln_1p(), pair(-0.35667494393873234, -2.6895094047056423e-17), 80);
 }
+
+#[test]
+fn outside_their_domains_twofold_functions_say_so() {
+    for x in [0.0, -0.0, -1.0, -1e300, f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
+        assert!(Twofold::from(x).ln().hi.is_nan(), "{x}");
+    }
+    for x in [-1.0, -2.0, f64::INFINITY, f64::NAN] {
+        assert!(Twofold::from(x).ln_1p().hi.is_nan(), "{x}");
+    }
+    let overflow = 709.782_712_893_384;
+    for x in [710.0, 800.0, 1e300, f64::INFINITY, overflow + 1e-3] {
+        assert_eq!(Twofold::from(x).exp().hi, f64::INFINITY, "{x}");
+    }
+    for x in [-708.1, -800.0, -1e300, f64::NEG_INFINITY] {
+        assert_eq!(Twofold::from(x).exp(), Twofold::ZERO, "{x}");
+    }
+    assert!(Twofold::from(-708.0).exp().hi > 3e-308 && Twofold::from(709.5).exp().hi > 1e308);
+}
