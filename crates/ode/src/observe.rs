@@ -12,7 +12,7 @@ pub trait Observer {
     /// The time of the next sample: steps that end before it need not be shown unless something happens in them. By
     /// default every step is shown.
     fn next_sample(&self) -> f64 {
-        0.0
+        f64::NEG_INFINITY
     }
 
     /// As many adaptive steps as may be tried, rejected ones included; one more is

@@ -143,3 +143,17 @@ fn other_methods_are_never_made_in_bursts() {
         assert_eq!((looking.shown.len(), system.asked.borrow().len()), (5000, 0), "{}", method.name());
     }
 }
+
+#[test]
+fn who_wants_to_see_every_step_sees_it_before_time_0_too() {
+    let system = Bursting::new(true, 0);
+    let control = Control::Fixed { step: 1.0 / 1024.0 };
+    let problem = Problem { system: &system, start: &[1.0, 0.0], begin: -2.0, end: 3.0, method: Method::Heun, control };
+    let mut shown = 0;
+    integrate(&problem, &mut |_: &mut Step<'_>| {
+        shown += 1;
+        ControlFlow::Continue(())
+    })
+    .expect("nothing stands in the way");
+    assert_eq!((shown, system.asked.borrow().len()), (5 * 1024, 0));
+}
