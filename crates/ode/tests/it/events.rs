@@ -130,3 +130,15 @@ fn samples_end_where_they_are_told() {
     .expect("nothing stands in the way");
     assert_eq!(times, [0.25, 0.5, 0.75, 1.0, 1.25, 1.5]);
 }
+
+#[test]
+fn a_sample_that_rounding_puts_behind_the_end_is_taken() {
+    // three intervals of 0.1 are 0.30000000000000004
+    let mut times = Vec::new();
+    let mut sampler = Sampler::new(0.1, 1);
+    watched(&clock(), &[0.0], 0.3, Method::Euler, Control::Fixed { step: 0.15 }, &mut |step| {
+        sampler.within(step, 0.3, &mut |t, _| times.push(t));
+    })
+    .expect("nothing stands in the way");
+    assert_eq!(times, [0.1, 0.2, 0.1 * 3.0]);
+}

@@ -105,6 +105,19 @@ fn no_step_is_rejected() {
     assert_eq!(statistics.rejected, 0);
 }
 
+/// An order of the series counts as an evaluation, the first of which is that of the rates: one more at the very start.
+#[test]
+fn orders_follow_the_tolerance_and_are_counted() {
+    let counted = |control: Control| {
+        let run = run(3, 0.5, control, &mut |_| {});
+        assert_eq!((run.evaluations - 1) % run.steps, 0, "{run:?}");
+        (run.evaluations - 1) / run.steps
+    };
+    let adaptive = [1e-2, 1e-4, 1e-7, 1e-10, 1e-15].map(|tolerance| counted(Control::Adaptive { tolerance }));
+    // 4.3 - 0.45 ln(tolerance): 6.37, 8.44, 11.55, 14.66, 19.84
+    assert_eq!((adaptive, counted(Control::Fixed { step: 0.25 })), ([6, 8, 12, 15, 20], 24));
+}
+
 /// A state at rest has a series of one term: the step reaches the end.
 #[test]
 fn a_state_at_rest_takes_one_step() {
