@@ -2,8 +2,8 @@
 
 use crate::problems::{general_methods, kepler, oscillator, planet, solve, watched};
 use math::twofold::Twofold;
-use ode::{Control, Method, Problem, Step, integrate};
-use std::ops::ControlFlow;
+use ode::{Control, Group, Measure, Method, Problem, Step, System, integrate};
+use std::ops::{ControlFlow, Range};
 
 /// Start, end and length of every step.
 fn steps(end: f64, control: Control, method: Method) -> Vec<(f64, f64, f64)> {
@@ -187,4 +187,45 @@ fn so_many_steps_are_taken() {
         ("extrapolation", 1e-10, 37, 11, 3110),
     ];
     assert_eq!(taken, expected);
+}
+
+/// Two that grow and one that rests, in one group.
+struct Growing {
+    measure: Measure,
+}
+
+impl System for Growing {
+    fn dimension(&self) -> usize {
+        3
+    }
+    fn kinematics(&self, _state: &[f64], _rates: &mut [f64]) {}
+    fn dynamics(&self, state: &[f64], rates: &mut [f64]) {
+        (rates[0], rates[1], rates[2]) = (state[0], 0.5 * state[1], 0.0);
+    }
+    fn positions(&self) -> Vec<Range<usize>> {
+        Vec::new()
+    }
+    fn groups(&self) -> Vec<Group> {
+        vec![Group { range: 0..3, measure: self.measure, floor: f64::MIN_POSITIVE }]
+    }
+}
+
+#[test]
+fn errors_are_measured_by_the_largest_or_the_smallest_of_a_group() {
+    let steps = |measure: Measure, resting: f64, tolerance: f64| {
+        let system = Growing { measure };
+        let start = [1.0, -2.0, resting];
+        let control = Control::Adaptive { tolerance };
+        let problem =
+            Problem { system: &system, start: &start, begin: 0.0, end: 5.0, method: Method::Dopri54, control };
+        integrate(&problem, &mut |_: &mut Step<'_>| ControlFlow::Continue(())).expect("it runs").steps
+    };
+    // the one that rests is the smallest: tolerance and size are one product
+    let reference = steps(Measure::Smallest, 1e-3, 1e-6);
+    assert_eq!([steps(Measure::Smallest, -1e-3, 1e-6), steps(Measure::Smallest, 0.1, 1e-8)], [reference; 2]);
+    assert!(steps(Measure::Smallest, 1e-5, 1e-6) > 2 * reference);
+    // the largest it is not, as long as the others are larger
+    let reference = steps(Measure::Largest, 1e-3, 1e-6);
+    assert_eq!([steps(Measure::Largest, -1e-3, 1e-6), steps(Measure::Largest, 0.1, 1e-6)], [reference; 2]);
+    assert!(steps(Measure::Largest, 1e6, 1e-6) < reference);
 }
