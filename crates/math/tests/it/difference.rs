@@ -1,9 +1,10 @@
 //! Differences of the softplus function, whose errors must be relative to the difference.
 
-use crate::lane::true_softplus;
+use crate::lane::{about, true_softplus};
 use crate::sample::{COUNT, Random, assert_error, error_in_units};
 use math::lane::{SoftplusBase, softplus_difference};
 use math::twofold::Twofold;
+use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
 /// softplus(y0 + d) - softplus(y0): for small d as ln(1 + (e^d - 1) / (1 + e^-y0)),
 /// in which nothing cancels, and as it stands for larger ones.
@@ -51,6 +52,27 @@ fn steps_of_all_sizes_keep_their_precision() {
         let crossings = few(52, |random| -2.0 * y0 + random.signed_spread(1e-6, 2.0));
         assert_difference(y0, &crossings);
     }
+}
+
+/// The logarithm takes another way where u = (e^-|y| - a) / (1 + a), a = e^-|y0|, passes sqrt(2) - 1 or sqrt(1/2) - 1: for
+/// the doubles about these the two halves of it must change at the same one.
+#[test]
+fn steps_to_where_the_logarithm_takes_another_way_keep_their_precision() {
+    let mut tried = 0;
+    for y0 in POINTS {
+        let a = math::exp(-y0.abs());
+        for threshold in [SQRT_2 - 1.0, FRAC_1_SQRT_2 - 1.0] {
+            let decay = a + threshold * (1.0 + a);
+            if decay <= 0.0 || decay > 1.0 {
+                continue;
+            }
+            for y in [math::ln(decay), -math::ln(decay)] {
+                assert_difference(y0, &about(y - y0, 200));
+                tried += 1;
+            }
+        }
+    }
+    assert!(tried > 20, "{tried}");
 }
 
 #[test]

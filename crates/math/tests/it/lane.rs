@@ -11,6 +11,7 @@
 use crate::sample::{arguments, assert_error, error_in_units};
 use math::lane;
 use math::twofold::Twofold;
+use std::f64::consts::SQRT_2;
 
 #[test]
 fn exp_keeps_its_bound() {
@@ -54,6 +55,23 @@ fn softplus_keeps_its_bound() {
     assert_error("softplus", 2.0, &arguments(30, |random| random.uniform(-4.0, 4.0)), lane::softplus, truth);
     assert_error("softplus", 2.0, &arguments(31, |random| random.uniform(-640.0, 640.0)), lane::softplus, truth);
     assert_error("softplus", 2.0, &arguments(32, |random| random.signed_spread(1e-20, 40.0)), lane::softplus, truth);
+}
+
+/// The doubles about one, nearest first.
+pub fn about(x: f64, count: i64) -> Vec<f64> {
+    (0..count).flat_map(|k| [-k, k]).map(|k| f64::from_bits((x.to_bits() as i64 + k) as u64)).collect()
+}
+
+/// The logarithm takes another way from 1 + e^x = sqrt(2) on: both halves of it must change at the same double.
+#[test]
+fn softplus_keeps_its_bound_where_the_logarithm_takes_another_way() {
+    let threshold = SQRT_2 - 1.0;
+    let x = math::ln(threshold);
+    let arguments = about(x, 40);
+    assert!(arguments.iter().any(|&x| lane::exp(x) == threshold), "e^x is the threshold itself for some of them");
+    let truth = |x: f64| true_softplus(Twofold::from(x));
+    assert_error("softplus", 2.0, &arguments, lane::softplus, truth);
+    assert_error("softplus", 2.0, &about(-x, 40), lane::softplus, truth);
 }
 
 #[test]
