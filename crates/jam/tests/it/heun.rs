@@ -168,6 +168,19 @@ fn what_is_no_more_after_the_last_step_is_seen_as_well() {
             }
         }
     }
+    // the speed ahead takes room away as well: 5.005 - 0.1 (20 + 10) - 2, less 0.01 after one step
+    let wide = Model::Exponential(Exponential {
+        strength: 0.0,
+        range: 1.0,
+        contact: 0.0,
+        widening: 0.1,
+        epsilon: 0.1,
+        desired_speed: 1.0,
+    });
+    for victim in [0, 1, 18, 19] {
+        let said = |gap| burst_with(&wide, 20, victim, (gap, 20.0), 10.0, 1);
+        assert_eq!([said(5.005), said(5.02)], [Burst::Eventful, Burst::Quiet], "{victim}");
+    }
     // slower than nothing after one step: a force of some 7 on who nearly stands
     let strong = Model::Exponential(Exponential {
         strength: 10.0,
@@ -198,6 +211,13 @@ fn what_is_no_more_for_a_moment_within_is_seen_as_well() {
                     assert_eq!(said(own, ahead), Burst::Eventful, "{model:?} {victim} of {size}: {own:?}");
                 }
                 assert_eq!(said((contact + 0.01, 0.5), 2.0), Burst::Quiet, "{model:?} {victim} of {size}");
+                // too close and backwards before the first step, neither after it
+                let both = (contact - 0.0005, -0.0005);
+                assert_eq!(
+                    burst_with(&model, size, victim, both, 2.0, 1),
+                    Burst::Eventful,
+                    "{model:?} {victim} of {size}"
+                );
             }
         }
     }
