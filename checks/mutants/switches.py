@@ -12,6 +12,8 @@ PARSER = tree_sitter.Parser(tree_sitter.Language(tree_sitter_rust.language()))
 ACTIVE = "::mutation::active()"
 COMPARISONS = {"==", "!=", "<", ">", "<=", ">="}
 LOGICAL = {"&&", "||"}
+# Around what is computed by the compiler, or is no expression to the parser.
+CONSTANT = {"const_item", "static_item", "const_block", "const_parameter", "type_arguments", "array_type", "token_tree"}
 
 
 def offsets(text, span):
@@ -61,9 +63,10 @@ class Source:
         node = self.root.descendant_for_byte_range(end - 1, end)
         while node is not None and node.type != "function_item":
             node = node.parent
-        if node is None or any(child.type == "function_modifiers" and "const" in self.source(child) for child in node.children):
-            return None
-        return node.child_by_field_name("body")
+        return None if node is None or self.is_const(node) else node.child_by_field_name("body")
+
+    def is_const(self, function):
+        return any(child.type == "function_modifiers" and "const" in self.source(child) for child in function.children)
 
     def place(self, mutant, start, end):
         """The node whose text depends on the switch of this mutant; none if no switch can be there."""
@@ -96,15 +99,10 @@ class Source:
     def is_constant(self, node):
         """The item around a node that the compiler computes, if there is one."""
         while node is not None:
-            if node.type in ("const_item", "static_item", "const_block", "const_parameter", "type_arguments"):
-                return node
-            if node.type == "array_type" or node.type == "token_tree":
+            if node.type in CONSTANT:
                 return node
             if node.type == "function_item":
-                kinds = [child for child in node.children if child.type == "function_modifiers"]
-                return node if any("const" in self.source(child) for child in kinds) else None
-            if node.type == "closure_expression":
-                pass
+                return node if self.is_const(node) else None
             node = node.parent
         return None
 
