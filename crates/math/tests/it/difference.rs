@@ -108,3 +108,8 @@ fn far_points_behave() {
         }
     }
 }
+
+#[test]
+fn the_base_at_0_is_that_of_0() {
+    assert_eq!(SoftplusBase::ZERO, SoftplusBase::new(0.0));
+}
