@@ -5,6 +5,7 @@
 #   checks/mutants.sh missed          what the ledger says was missed, or was never tried
 #   checks/mutants.sh file PATH...    those of some files
 #   checks/mutants.sh alone SITE...   some (FILE:LINE:COLUMN), each compiled for itself
+#   checks/mutants.sh compare N       N random ones compiled for themselves, compared with the table
 #   checks/mutants.sh                 the table, from checks/mutants.csv, and what is not explained
 # Needs python3. cargo-mutants, which lists the mutants, and two Python packages go below the target folder.
 set -euo pipefail

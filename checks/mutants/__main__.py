@@ -39,7 +39,6 @@ def portions(mutants):
     return out + ([current] if current else [])
 
 
-
 def tried_alone(number, mutant, tests):
     """The outcome of a mutant that is written into the source, and the test that told."""
     workshop.write_one(mutant)

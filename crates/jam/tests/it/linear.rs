@@ -48,16 +48,17 @@ fn largest_growth(linear: &Linear) -> f64 {
     long.chain(even).map(|k| linear.growth_rate(k)).fold(f64::NEG_INFINITY, f64::max)
 }
 
+/// A linearised law with and without each term; `phi` is `10^x` with `x` between the two.
+fn linear(random: &mut Random, low: f64, high: f64) -> Linear {
+    Linear { phi: random.magnitude(low, high), beta: random.perhaps(0.0, 2.0), kappa: random.perhaps(0.0, 2.0) }
+}
+
 #[test]
 fn margins_tell_growth_from_decay() {
     let mut random = Random(10);
     let mut unstable = 0;
     for _ in 0..100_000 {
-        let linear = Linear {
-            phi: random.magnitude(-2.0, 1.0),
-            beta: random.perhaps(0.0, 2.0),
-            kappa: random.perhaps(0.0, 2.0),
-        };
+        let linear = linear(&mut random, -2.0, 1.0);
         assert_margins(&linear, &mut random);
         unstable += u32::from(linear.long_wave_margin() > 0.0);
     }
@@ -97,16 +98,16 @@ fn margins_of_waves_tend_to_that_of_long_ones() {
     assert!((linear.margin(1e-9) - linear.long_wave_margin()).abs() < 4.0 * f64::EPSILON);
 }
 
+/// A linearised law with and without its terms, and a wave number.
+fn law_and_wave(random: &mut Random) -> (Linear, f64) {
+    (linear(random, -3.0, 1.5), PI * random.magnitude(-4.0, 0.0))
+}
+
 #[test]
 fn roots_solve_the_polynomial_and_are_the_larger_ones() {
     let mut random = Random(12);
     for _ in 0..20_000 {
-        let linear = Linear {
-            phi: random.magnitude(-3.0, 1.5),
-            beta: random.perhaps(0.0, 2.0),
-            kappa: random.perhaps(0.0, 2.0),
-        };
-        let k = PI * random.magnitude(-4.0, 0.0);
+        let (linear, k) = law_and_wave(&mut random);
         let (b, c) = linear.polynomial(k);
         let (re, im) = linear.root(k);
         let residual = (re * re - im * im + b.0 * re - b.1 * im + c.0, 2.0 * re * im + b.0 * im + b.1 * re + c.1);
@@ -139,12 +140,7 @@ fn a_refined_growth_rate_is_the_double_next_to_the_exact_one() {
     let mut random = Random(30);
     let mut improved = 0;
     for _ in 0..20_000 {
-        let linear = Linear {
-            phi: random.magnitude(-3.0, 1.5),
-            beta: random.perhaps(0.0, 2.0),
-            kappa: random.perhaps(0.0, 2.0),
-        };
-        let k = PI * random.magnitude(-4.0, 0.0);
+        let (linear, k) = law_and_wave(&mut random);
         let (root, (b, c)) = (linear.root(k), linear.polynomial(k));
         let exact = exact_growth_rate(root, b, c);
         let refined = linear.refined_growth_rate(k);
