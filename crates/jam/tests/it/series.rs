@@ -99,7 +99,7 @@ fn deviations_have_a_series_where_the_force_depends_on_the_gap_alone() {
     for model in variants(&mut Random(19)) {
         let of_the_gap = match model {
             Model::Algebraic(law) => law.relative == 0.0 && law.widening == 0.0,
-            Model::Exponential(law) => law.contact == 0.0 && law.widening == 0.0,
+            Model::Exponential(law) => law.widening == 0.0,
             Model::Logarithmic(law) => law.widening == 0.0,
         };
         for kind in [FormKind::Deviations, FormKind::Gaps, FormKind::Positions] {
