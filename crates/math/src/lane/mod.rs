@@ -18,8 +18,10 @@ pub(crate) mod exponential;
 pub(crate) mod logarithm;
 mod power;
 pub(crate) mod softplus;
+pub(crate) mod tanh;
 
 pub use exponential::{exp, exp_m1};
 pub use logarithm::{ln, ln_1p};
 pub use power::{pow, pow_m1};
 pub use softplus::{SoftplusBase, sigmoid, softplus, softplus_difference};
+pub use tanh::tanh;
