@@ -7,12 +7,13 @@ use crate::graph::{Graph, Symbol};
 use crate::limits::LARGEST_POWER;
 use crate::operation::{Binary, Id, Operation, Unary};
 use crate::place::{Place, Problem};
+use std::collections::BTreeMap;
 
 /// What became of a node.
 #[derive(Clone, Copy, Debug)]
 enum Folded {
-    /// A number, from an operation.
-    Number(f64),
+    /// A number, from an operation; where it is not finite, which of [`Folder::problems`] is to blame.
+    Number(f64, Option<usize>),
     /// A number that is a literal or a parameter: as a factor 0 or 1 it counts.
     Plain(f64),
     /// A product with a factor 0.
@@ -24,9 +25,16 @@ enum Folded {
 impl Folded {
     fn number(self) -> Option<f64> {
         match self {
-            Folded::Number(value) | Folded::Plain(value) => Some(value),
+            Folded::Number(value, _) | Folded::Plain(value) => Some(value),
             Folded::Gone => Some(0.0),
             Folded::Node(_) => None,
+        }
+    }
+
+    fn blame(self) -> Option<usize> {
+        match self {
+            Folded::Number(_, blame) => blame,
+            _ => None,
         }
     }
 
@@ -41,7 +49,8 @@ impl Folded {
 
 /// Binds the parameters of a graph.
 pub(crate) fn bind(graph: &Graph, values: &[f64]) -> Result<Bound, Problem> {
-    let mut folder = Folder { arena: Arena::default(), place: Place::default() };
+    let mut folder =
+        Folder { arena: Arena::default(), place: Place::default(), problems: Vec::new(), blames: BTreeMap::new() };
     let mut folded: Vec<Folded> = Vec::with_capacity(graph.arena.nodes.len());
     for (symbol, place) in &graph.arena.nodes {
         folder.place = *place;
@@ -64,31 +73,31 @@ pub(crate) fn bind(graph: &Graph, values: &[f64]) -> Result<Bound, Problem> {
             folder.operand(folded[*root])
         })
         .collect();
-    finished(graph, folder.arena, &roots)
+    finished(graph, &folder, &roots)
 }
 
 /// The nodes that the roots need.
-fn finished(graph: &Graph, arena: Arena<Operation>, roots: &[Id]) -> Result<Bound, Problem> {
-    let mut needed = vec![false; arena.nodes.len()];
+fn finished(graph: &Graph, folder: &Folder, roots: &[Id]) -> Result<Bound, Problem> {
+    let nodes = &folder.arena.nodes;
+    let mut needed = vec![false; nodes.len()];
     roots.iter().for_each(|root| needed[*root] = true);
-    for (id, (node, _)) in arena.nodes.iter().enumerate().rev() {
+    for (id, (node, _)) in nodes.iter().enumerate().rev() {
         if needed[id] {
             node.operands().for_each(|operand| needed[operand] = true);
         }
     }
     let mut bound = Bound { file: graph.file.clone(), nodes: Vec::new(), places: Vec::new(), roots: Vec::new() };
     let mut moved: Vec<Id> = Vec::with_capacity(needed.len());
-    for ((node, place), needed) in arena.nodes.iter().zip(needed) {
+    for (id, ((node, place), needed)) in nodes.iter().zip(needed).enumerate() {
         moved.push(bound.nodes.len());
         if !needed {
             continue;
         }
+        if let Some(blame) = folder.blames.get(&id) {
+            return Err(folder.problems[*blame].clone());
+        }
         bound.places.push(*place);
         bound.nodes.push(match *node {
-            Operation::Constant(value) if !value.is_finite() => {
-                let found = format!("an expression without s, v and x whose value is {value}");
-                return Err(Problem::new(*place, found, "parameters for which it is finite"));
-            }
             Operation::Constant(_) | Operation::Variable(_) => *node,
             Operation::Unary(unary, a) => Operation::Unary(unary, moved[a]),
             Operation::Binary(binary, a, b) => Operation::Binary(binary, moved[a], moved[b]),
@@ -104,6 +113,10 @@ struct Folder {
     arena: Arena<Operation>,
     /// Of the node at hand.
     place: Place,
+    /// Operations without variables that have no finite value: no error as long as nothing needs them.
+    problems: Vec<Problem>,
+    /// Constants that are not finite, and the problem.
+    blames: BTreeMap<Id, usize>,
 }
 
 impl Folder {
@@ -115,15 +128,40 @@ impl Folder {
     fn operand(&mut self, folded: Folded) -> Id {
         match folded {
             Folded::Node(id) => id,
-            Folded::Number(value) | Folded::Plain(value) => self.arena.add(Operation::Constant(value), self.place),
             Folded::Gone => self.arena.add(Operation::Constant(0.0), self.place),
+            Folded::Plain(value) => self.arena.add(Operation::Constant(value), self.place),
+            Folded::Number(value, blame) => {
+                let id = self.arena.add(Operation::Constant(value), self.place);
+                if let Some(blame) = blame {
+                    self.blames.entry(id).or_insert(blame);
+                }
+                id
+            }
         }
+    }
+
+    /// The value of an operation on numbers.
+    fn computed(&mut self, operation: Operation, operands: &[Folded], value: f64) -> Folded {
+        if value.is_finite() {
+            return Folded::Number(value, None);
+        }
+        let inherited = operands.iter().find_map(|operand| operand.blame());
+        let blame = inherited.unwrap_or_else(|| {
+            let operands: Vec<f64> = operands.iter().filter_map(|operand| operand.number()).collect();
+            let (found, valid) = eval::complaint(&operation, &operands);
+            self.problems.push(Problem::new(self.place, found, valid));
+            self.problems.len() - 1
+        });
+        Folded::Number(value, Some(blame))
     }
 
     fn unary(&mut self, unary: Unary, a: Folded) -> Folded {
         match (unary, a, a.number()) {
             (Unary::Neg, Folded::Gone, _) => Folded::Gone,
-            (_, _, Some(value)) => Folded::Number(eval::apply(unary, &Value::<f64>::Constant(value)).nearest()),
+            (_, _, Some(value)) => {
+                let value = eval::apply(unary, &Value::<f64>::Constant(value)).nearest();
+                self.computed(Operation::Unary(unary, 0), &[a], value)
+            }
             _ => {
                 let a = self.operand(a);
                 self.node(Operation::Unary(unary, a))
@@ -142,15 +180,12 @@ impl Folder {
             (Binary::Add | Binary::Sub, other, Folded::Gone) => return other,
             _ => {}
         }
-        if let (Some(a), Some(b)) = (a.number(), b.number()) {
-            if let (Binary::Pow, Some(n)) = (binary, whole(b)) {
-                return self.power(Folded::Number(a), n);
-            }
-            let value = eval::combine(binary, &Value::<f64>::Constant(a), &Value::Constant(b));
-            return Folded::Number(value.nearest());
-        }
         if let (Binary::Pow, Some(n)) = (binary, b.number().and_then(whole)) {
             return self.power(a, n);
+        }
+        if let (Some(left), Some(right)) = (a.number(), b.number()) {
+            let value = eval::combine(binary, &Value::<f64>::Constant(left), &Value::Constant(right)).nearest();
+            return self.computed(Operation::Binary(binary, 0, 0), &[a, b], value);
         }
         let (a, b) = (self.operand(a), self.operand(b));
         self.node(Operation::Binary(binary, a, b))
@@ -158,9 +193,12 @@ impl Folder {
 
     fn power(&mut self, a: Folded, n: i32) -> Folded {
         match (a.number(), n) {
-            (_, 0) => Folded::Number(1.0),
+            (_, 0) => Folded::Number(1.0, None),
             (_, 1) => a,
-            (Some(value), _) => Folded::Number(eval::power(&Value::<f64>::Constant(value), n).nearest()),
+            (Some(value), _) => {
+                let value = eval::power(&Value::<f64>::Constant(value), n).nearest();
+                self.computed(Operation::Power(0, n), &[a], value)
+            }
             (None, _) => {
                 let a = self.operand(a);
                 self.node(Operation::Power(a, n))
@@ -172,15 +210,15 @@ impl Folder {
         let width = width.number().unwrap_or(f64::NAN);
         if width == 0.0 {
             let fallen = self.unary(Unary::Neg, x);
-            return Ok(self.binary(Binary::Max, Folded::Number(0.0), fallen));
+            return Ok(self.binary(Binary::Max, Folded::Number(0.0, None), fallen));
         }
         let slope = -1.0 / width;
         if !(width > 0.0 && width.is_finite() && slope.is_finite()) {
             return Err(Problem::new(self.place, format!("a ramp of width {width}"), "0 (sharp) or 1e-300 and larger"));
         }
-        let argument = self.binary(Binary::Mul, x, Folded::Number(slope));
+        let argument = self.binary(Binary::Mul, x, Folded::Number(slope, None));
         let softplus = self.unary(Unary::Softplus, argument);
-        Ok(self.binary(Binary::Mul, Folded::Number(width), softplus))
+        Ok(self.binary(Binary::Mul, Folded::Number(width, None), softplus))
     }
 }
 

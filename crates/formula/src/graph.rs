@@ -4,7 +4,7 @@ use crate::Bound;
 use crate::arena::{Arena, Key, Node};
 use crate::fold;
 use crate::operation::{Id, Operation, Variable};
-use crate::place::{Error, Place};
+use crate::place::{Error, Place, Problem};
 
 /// A node before parameters have values.
 #[derive(Clone, Copy, Debug)]
@@ -117,12 +117,17 @@ impl Graph {
     /// Nothing else is changed and nothing re-associated.
     ///
     /// # Errors
-    /// A part without variables that has no finite value, or a negative width of a ramp, with its place in the file.
+    /// A part without variables that has no finite value, a value that is not finite, or a negative width of a ramp, with
+    /// its place in the file.
     ///
     /// # Panics
     /// `values` has another length than the list of parameters.
     pub fn bind(&self, values: &[f64]) -> Result<Bound, Error> {
         assert_eq!(values.len(), self.parameters.len(), "one value for each parameter");
+        for (parameter, value) in self.parameters.iter().zip(values).filter(|(_, value)| !value.is_finite()) {
+            let problem = Problem::new(parameter.place, format!("{} = {value}", parameter.name), "a finite number");
+            return Err(problem.within(&self.file));
+        }
         fold::bind(self, values).map_err(|problem| problem.within(&self.file))
     }
 }
