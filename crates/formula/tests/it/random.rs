@@ -5,7 +5,7 @@ use crate::common::{Random, graph, state};
 use crate::dual::Dual;
 use crate::running::Running;
 use crate::trees::{PARAMETERS, tree};
-use formula::{Bound, Number, Value, Variable};
+use formula::{Bound, Kink, Number, Value, Variable};
 use math::twofold::Twofold;
 
 const COUNT: usize = 10_000;
@@ -93,6 +93,12 @@ fn derivatives_are_those_of_differences() {
     let (mut checked, mut sharp, mut of_doubles) = (0, 0, 0);
     for (text, _, bound) in formulas(3) {
         let root = bound.acceleration();
+        // next to a kink a difference is no derivative
+        let value = |node| bound.eval(node, state).map_or(f64::NAN, |value| value.nearest());
+        let is_near = |kink: &Kink| (value(kink.left) - kink.right.map_or(0.0, value)).abs() < 1e-4;
+        if bound.kinks(root).iter().any(is_near) {
+            continue;
+        }
         let at = |t: f64| {
             let value = bound.eval(root, |variable| Twofold::sum(state(variable), direction(variable) * t));
             value.ok().map(|value| number(value, Twofold::from))
