@@ -11,7 +11,7 @@
 //! | module | for | error |
 //! |---|---|---|
 //! | [`scalar`] (re-exported) | one value at a time, full domain | correctly rounded but for rare cases |
-//! | [`lane`] | the body of a loop that the compiler vectorises | at most 2 units in the last place |
+//! | [`lane`] | the body of a loop that the compiler vectorises | at most 3 units in the last place, powers more |
 //! | [`row`] | a row of values in place, as short loops | as its lane: the same bits |
 //! | [`mod@slice`] | whole slices, built of lanes | as its lane |
 //! | [`simd`] | runs a loop with the widest registers the processor has | none: the same bits |

@@ -12,6 +12,7 @@ use crate::lane::SoftplusBase;
 use crate::lane::exponential::{Reduced, exp_m1_of, exp_of};
 use crate::lane::logarithm::{Parts, Ratio, ln_1p_of};
 use crate::lane::softplus::{Change, reduced_decay, softplus_difference_of, softplus_of};
+use crate::lane::tanh::{tanh_of, twice_size};
 
 /// The doubles of the widest registers.
 pub const LANES: usize = 8;
@@ -61,6 +62,22 @@ pub fn exp_m1(x: &mut [f64], room: &mut Room) {
         let [r, missing, shifted, _] = room.rows(x.len());
         reduce(Reduced::new, x, r, missing, shifted);
         expand(exp_m1_of, x, r, missing, shifted);
+    }
+}
+
+/// x\[i\] = tanh x\[i\].
+#[inline(always)]
+pub fn tanh(x: &mut [f64], room: &mut Room) {
+    for x in x.chunks_mut(LENGTH) {
+        let [r, missing, shifted, t] = room.rows(x.len());
+        for i in 0..x.len() {
+            t[i] = twice_size(x[i]);
+        }
+        reduce(Reduced::new, t, r, missing, shifted);
+        expand(exp_m1_of, t, r, missing, shifted);
+        for i in 0..x.len() {
+            x[i] = tanh_of(x[i], t[i]);
+        }
     }
 }
 

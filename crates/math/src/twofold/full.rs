@@ -60,6 +60,18 @@ pub fn softplus(x: Twofold) -> Twofold {
     positive_part + ln_1p(exp(-size))
 }
 
+/// tanh x, with full relative precision near 0.
+#[inline(always)]
+pub fn tanh(x: Twofold) -> Twofold {
+    // e^-80 is below 2^-107 of 1
+    let is_negative = x.hi < 0.0;
+    let size = if is_negative { -x } else { x };
+    let size = if size.hi > 40.0 { Twofold::from(40.0) } else { size };
+    let t = exp_m1(size.times(2.0));
+    let value = t / (t + 2.0);
+    if is_negative { -value } else { value }
+}
+
 /// The logarithm `first` + ln(1 + w) for a w of the order of a double's rounding: one step of Newton's method.
 #[inline(always)]
 fn improved(first: f64, w: Twofold) -> Twofold {

@@ -48,6 +48,27 @@ fn logarithms_undo_exponentials_of_twofold_arguments() {
 }
 
 #[test]
+fn tanh_is_that_of_its_definition_and_of_its_series() {
+    let mut random = Random(84);
+    let allowed = f64::from_bits((1023 - 97) << 52);
+    for _ in 0..20_000 {
+        let x = Twofold::sum(random.uniform(-45.0, 45.0), random.uniform(-1e-17, 1e-17));
+        let (up, down) = (full::exp(x), full::exp(-x));
+        let truth = (up - down) / (up + down);
+        let error = (full::tanh(x) - truth).hi.abs();
+        assert!(error <= allowed, "{x:?}: {error:e}");
+        let x = Twofold::from(random.signed_spread(1e-100, 1e-5));
+        // tanh x = x - x^3/3 + 2 x^5/15 - 17 x^7/315 + ..., of which the next term is below 2^-130
+        let z = x * x;
+        let tail = z * 2.0 / 15.0 - z * z * 17.0 / 315.0;
+        let truth = x * (z * (tail - Twofold::ONE / 3.0) + 1.0);
+        let error = ((full::tanh(x) - truth).hi / x.hi).abs();
+        assert!(error <= allowed, "{x:?}: relative error {error:e}");
+    }
+    assert_eq!((full::tanh(Twofold::ZERO).hi, full::tanh(Twofold::from(-1e300)).hi), (0.0, -1.0));
+}
+
+#[test]
 fn a_tail_keeps_its_relative_precision() {
     // ln(1 + y) = y - y^2/2 up to y^3 for y = e^x
     for x in [-40.0, -60.5, -300.25, -699.0] {
@@ -82,7 +103,7 @@ fn twofold_functions_have_the_same_bits_at_every_width() {
     let x: Vec<Twofold> =
         (0..1001).map(|_| Twofold::sum(random.signed_spread(1e-20, 600.0), random.uniform(-1e-40, 1e-40))).collect();
     let bits = |values: &[Twofold]| values.iter().map(|v| [v.hi.to_bits(), v.lo.to_bits()]).collect::<Vec<_>>();
-    for f in [full::exp, full::exp_m1, full::softplus] {
+    for f in [full::exp, full::exp_m1, full::softplus, full::tanh] {
         let single: Vec<Twofold> = x.iter().map(|x| f(std::hint::black_box(*x))).collect();
         for width in [Width::Baseline, Width::Four, Width::Eight] {
             let mut out = vec![Twofold::ZERO; x.len()];

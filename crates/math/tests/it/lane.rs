@@ -10,7 +10,7 @@
 
 use crate::sample::{arguments, assert_error, error_in_units};
 use math::lane;
-use math::twofold::Twofold;
+use math::twofold::{Twofold, full};
 use std::f64::consts::SQRT_2;
 
 #[test]
@@ -79,6 +79,15 @@ fn sigmoid_keeps_its_bound() {
     let truth = |x: f64| Twofold::ONE / ((-Twofold::from(x)).exp() + 1.0);
     assert_error("sigmoid", 2.5, &arguments(33, |random| random.uniform(-4.0, 40.0)), lane::sigmoid, truth);
     assert_error("sigmoid", 2.5, &arguments(34, |random| random.uniform(-640.0, 40.0)), lane::sigmoid, truth);
+}
+
+/// Half a unit each for the sum and the quotient (the sum counts up to twice), 1.3 for the exponential.
+#[test]
+fn tanh_keeps_its_bound() {
+    let truth = |x: f64| full::tanh(Twofold::from(x));
+    assert_error("tanh", 3.0, &arguments(40, |random| random.uniform(-2.0, 2.0)), lane::tanh, truth);
+    assert_error("tanh", 3.0, &arguments(41, |random| random.uniform(-25.0, 25.0)), lane::tanh, truth);
+    assert_error("tanh", 3.0, &arguments(42, |random| random.signed_spread(1e-280, 1.0)), lane::tanh, truth);
 }
 
 /// The error of ln(1 + c R) with R known, as a function of the argument R.

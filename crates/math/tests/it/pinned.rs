@@ -53,6 +53,7 @@ fn lanes_have_the_pinned_bits() {
         ("exp_m1", lanes(&signed, lane::exp_m1)),
         ("softplus", lanes(&signed, lane::softplus)),
         ("sigmoid", lanes(&signed, lane::sigmoid)),
+        ("tanh", lanes(&signed, lane::tanh)),
         ("softplus_difference", lanes(&signed, move |x| lane::softplus_difference(&base, x))),
         ("ln", lanes(&positive, lane::ln)),
         ("ln_1p", lanes(&positive, lane::ln_1p)),
@@ -76,6 +77,7 @@ fn twofold_functions_have_the_pinned_bits() {
         ("ln", of(&positive, full::ln)),
         ("ln_1p", of(&positive, full::ln_1p)),
         ("softplus", of(&signed, full::softplus)),
+        ("tanh", of(&signed, full::tanh)),
         ("exp to 80 bits", of(&signed, Twofold::exp)),
         ("exp_m1 to 80 bits", of(&signed, Twofold::exp_m1)),
         ("ln to 80 bits", of(&positive, Twofold::ln)),
@@ -105,12 +107,13 @@ const SCALARS: [(&str, u64); 9] = [
     ("complex_sqrt", 0x23f089d1338adca7),
 ];
 
-const TWOFOLDS: [(&str, u64); 10] = [
+const TWOFOLDS: [(&str, u64); 11] = [
     ("exp", 0xe56bb08a2858e4ed),
     ("exp_m1", 0xf786fb7bf26a791d),
     ("ln", 0x0221a9275a5e4ce5),
     ("ln_1p", 0xebb90bee9772cf85),
     ("softplus", 0x5429c5a7f1645ee3),
+    ("tanh", 0x2a37ecacc396d96a),
     ("exp to 80 bits", 0x1bd22ccdb517d040),
     ("exp_m1 to 80 bits", 0xb6f2124f7719fb58),
     ("ln to 80 bits", 0xa8abd71507c392fc),
@@ -118,11 +121,12 @@ const TWOFOLDS: [(&str, u64); 10] = [
     ("sqrt", 0xded8369eda032efc),
 ];
 
-const LANES: [(&str, u64); 9] = [
+const LANES: [(&str, u64); 10] = [
     ("exp", 0x9e59492749fa0b36),
     ("exp_m1", 0x2ace3e0efa874206),
     ("softplus", 0x0b7b5d398378e9d2),
     ("sigmoid", 0x06070d237d73e4b8),
+    ("tanh", 0xbc44e26cf286a0fb),
     ("softplus_difference", 0xbe2b53e55bfd604d),
     ("ln", 0x5c68dc0e4dc0ee00),
     ("ln_1p", 0xc85676a352a2f58a),

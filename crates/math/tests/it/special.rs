@@ -44,8 +44,17 @@ fn lanes_answer_nan_outside_their_domains() {
     for x in [-1.0, -2.0, INFINITY, -INFINITY, f64::NAN, 2e307] {
         assert!(lane::ln_1p(x).is_nan(), "{x:e}");
     }
-    for f in [lane::exp, lane::exp_m1, lane::softplus, lane::sigmoid] {
+    for f in [lane::exp, lane::exp_m1, lane::softplus, lane::sigmoid, lane::tanh] {
         assert!(f(f64::NAN).is_nan());
+    }
+}
+
+#[test]
+fn tanh_reaches_its_limits_and_keeps_the_sign_of_zero() {
+    assert_eq!((lane::tanh(INFINITY), lane::tanh(-INFINITY), lane::tanh(19.1)), (1.0, -1.0, 1.0));
+    assert!(lane::tanh(18.0) < 1.0);
+    for x in [0.0, -0.0, 1e-300, -5e-308] {
+        assert_eq!(lane::tanh(x).to_bits(), x.to_bits(), "{x:e}");
     }
 }
 

@@ -38,6 +38,7 @@ fn lanes_have_the_same_bits_at_every_width() {
     assert_same_bits("exp_m1", &x, lane::exp_m1);
     assert_same_bits("softplus", &x, lane::softplus);
     assert_same_bits("sigmoid", &x, lane::sigmoid);
+    assert_same_bits("tanh", &x, lane::tanh);
     for y0 in [-750.0, -25.0, -0.3, 0.0, 0.3, 25.0, 750.0] {
         let base = SoftplusBase::new(y0);
         assert_same_bits("softplus_difference", &x, move |d| lane::softplus_difference(&base, d));
@@ -111,6 +112,7 @@ fn rows_have_the_bits_of_their_lanes() {
         assert_row("exp", x, row::exp, lane::exp);
         assert_row("exp_m1", x, row::exp_m1, lane::exp_m1);
         assert_row("softplus", x, row::softplus, lane::softplus);
+        assert_row("tanh", x, row::tanh, lane::tanh);
         assert_row("ln_1p", &above, row::ln_1p, lane::ln_1p);
         let mut row = x.to_vec();
         row::softplus_difference(&base, &mut row, &mut Room::default());

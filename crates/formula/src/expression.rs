@@ -1,0 +1,60 @@
+//! One expression whose names are variables.
+
+use crate::build::Builder;
+use crate::graph::Graph;
+use crate::operation::{Operation, Variable};
+use crate::parse::{Vocabulary, parse};
+use crate::place::{Error, Place, Problem};
+use crate::{Bound, Number, Value};
+use std::collections::BTreeMap;
+
+/// An expression outside of a law: functions, constants and operators as there, but `s v x j sum` are names like all others,
+/// and every name is a variable.
+#[derive(Clone, Debug)]
+pub struct Expression {
+    names: Vec<(String, Place)>,
+    bound: Bound,
+}
+
+impl Expression {
+    /// Parses a text whose first character stands at `place` of `file`.
+    ///
+    /// # Errors
+    /// What is wrong, with its place, what was found and what would be valid.
+    pub fn parse(file: &str, place: Place, text: &str) -> Result<Expression, Error> {
+        let graph = graph(file, place, text).map_err(|problem| problem.within(file));
+        graph.and_then(|(names, graph)| Ok(Expression { names, bound: graph.bind(&[])? }))
+    }
+
+    /// The names in the order in which they first stand in the text, and where.
+    pub fn names(&self) -> &[(String, Place)] {
+        &self.names
+    }
+
+    /// The value, with `variable` giving that of each name, by its place in [`names`](Expression::names).
+    ///
+    /// # Errors
+    /// The part that has no value, such as the logarithm of a negative number.
+    pub fn eval<T: Number>(&self, mut variable: impl FnMut(usize) -> T) -> Result<Value<T>, Error> {
+        self.bound.eval(self.bound.roots()[0], |free| match free {
+            Variable::Free(place) => variable(place),
+            Variable::Spacing(_) | Variable::Speed(_) => unreachable!("only a law has neighbours"),
+        })
+    }
+}
+
+fn graph(file: &str, place: Place, text: &str) -> Result<(Vec<(String, Place)>, Graph), Problem> {
+    let tree = parse(text, place, Vocabulary::Free)?;
+    let mut builder = Builder::default();
+    let (mut names, mut known) = (Vec::new(), BTreeMap::new());
+    for (name, place) in tree.names() {
+        if !known.contains_key(name) {
+            let variable = Operation::Variable(Variable::Free(names.len()));
+            known.insert(name, builder.plain(variable, place)?);
+            names.push((name.to_owned(), place));
+        }
+    }
+    let root = builder.expression(&tree.entries, &known, 0)?;
+    let graph = Graph { file: file.to_owned(), arena: builder.arena, parameters: Vec::new(), roots: vec![root] };
+    Ok((names, graph))
+}

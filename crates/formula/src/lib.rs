@@ -1,0 +1,60 @@
+//! Formulas: the language in which a scene file states a law, and expressions elsewhere.
+//!
+//! A text becomes a tree, the trees of a law one [`Graph`] whose parameters are symbols, and that, with numbers for
+//! parameters, a [`Bound`] list of operations. The list is carried out as it stands: by [`Bound::eval`] with any
+//! [`Number`], or by an interpreter of one's own that goes over [`Bound::nodes`].
+//!
+//! ```
+//! use formula::{Definition, Given, Place, Variable, law};
+//!
+//! let line = |name, given, line| Definition { name, key: Place { line, column: 1 }, value: Place { line, column: 17 }, given };
+//! let graph = law("scene.toml", Place { line: 1, column: 1 }, &[
+//!     line("acceleration", Given::Text("kappa*(V - v)"), 2),
+//!     line("V", Given::Text("tanh(s - 2) + tanh(2)"), 3),
+//!     line("kappa", Given::Number(1.5), 4),
+//!     line("body", Given::Number(0.0), 5),
+//! ])?;
+//! let bound = graph.bind(&graph.values())?;
+//! let value = bound.eval(bound.acceleration(), |variable| match variable {
+//!     Variable::Spacing(_) => 2.0,
+//!     _ => 0.5,
+//! })?;
+//! assert!((value.nearest() - 1.5 * (0.9640275800758169 - 0.5)).abs() < 1e-15);
+//! # Ok::<(), formula::Error>(())
+//! ```
+//!
+//! # Meaning
+//! - `s`, `v`: spacing to the predecessor and own speed; `s[j]`, `v[j]`: those of pedestrian n + j; `x[j]` =
+//!   x_{n+j} - x_n: the spacings between, added from the nearest to the farthest, negative for j < 0.
+//! - `sum(j, a, b, EXPRESSION)`: the terms added in the order of j, from the left. Named expressions do not see j.
+//! - `^` binds tightest, to the right; then unary minus (`-2^2` is -4); then `* /`, then `+ -`, to the left.
+//! - Functions `exp ln ln_1p exp_m1 sqrt tanh softplus abs min max ramp`, constants `e pi`.
+//! - `min` and `max` take two or more arguments, two at a time from the left; the first wins a tie.
+//!
+//! [`Graph::bind`] says what is folded, [`limits`] what is allowed at most.
+
+mod arena;
+mod bound;
+mod build;
+mod eval;
+mod expression;
+mod fold;
+mod graph;
+mod law;
+pub mod limits;
+mod names;
+mod number;
+mod operation;
+mod parse;
+mod place;
+mod token;
+mod tree;
+
+pub use bound::{Bound, Kink};
+pub use eval::Value;
+pub use expression::Expression;
+pub use graph::{Graph, Parameter, Stencil};
+pub use law::{Definition, Given, law};
+pub use number::Number;
+pub use operation::{Binary, Id, Operation, Unary, Variable};
+pub use place::{Error, Place};

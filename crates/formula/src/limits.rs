@@ -1,0 +1,12 @@
+//! What a formula may take at most, so that no text exhausts stack, memory or patience.
+
+/// Bytes of one expression.
+pub const LONGEST_TEXT: usize = 16_384;
+/// Brackets, signs and exponents inside each other.
+pub const DEEPEST: usize = 100;
+/// How far a neighbour may be, and a bound of a sum.
+pub const FARTHEST: i32 = 1000;
+/// Operations of a law, with sums written out and named expressions counted once.
+pub const MOST_OPERATIONS: usize = 100_000;
+/// Largest whole exponent that is carried out as repeated multiplication.
+pub const LARGEST_POWER: i32 = 16;

@@ -1,0 +1,55 @@
+//! The syntax tree: a list in the order of evaluation, so that nothing recurses over it however long a text is.
+
+use crate::operation::{Binary, Unary};
+use crate::place::Place;
+
+/// Which quantity of a pedestrian.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Quantity {
+    Spacing,
+    Speed,
+    Distance,
+}
+
+/// `factor j + offset`: which pedestrian.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Index {
+    pub(crate) factor: i32,
+    pub(crate) offset: i32,
+}
+
+/// One entry. Operations take their operands from the values of the entries before, the last ones first, as on a stack.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Entry {
+    Number(f64),
+    /// A named expression, a parameter or a free name.
+    Name(Box<str>),
+    /// The index of the sum around.
+    SumIndex,
+    Neighbour(Quantity, Index),
+    Unary(Unary),
+    Binary(Binary),
+    Ramp,
+    /// The entries that follow, so many, once for every index from the first to the last, added in that order.
+    Sum {
+        from: i32,
+        to: i32,
+        length: usize,
+    },
+}
+
+/// An expression.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Tree {
+    pub(crate) entries: Vec<(Entry, Place)>,
+}
+
+impl Tree {
+    /// The names in it and where they stand, in the order of the text.
+    pub(crate) fn names(&self) -> impl Iterator<Item = (&str, Place)> {
+        self.entries.iter().filter_map(|(entry, place)| match entry {
+            Entry::Name(name) => Some((&**name, *place)),
+            _ => None,
+        })
+    }
+}

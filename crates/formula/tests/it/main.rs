@@ -1,0 +1,11 @@
+//! Tests of formulas: what they mean, what they refuse, how exact they are.
+
+mod bad;
+mod common;
+mod dual;
+mod fuzz;
+mod good;
+mod laws;
+mod random;
+mod running;
+mod trees;
