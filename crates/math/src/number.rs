@@ -65,10 +65,10 @@ pub trait Number:
     /// |x|.
     fn abs(self) -> Self;
 
-    /// The smaller of two; the first of equal ones.
+    /// The smaller of two; the first of equal ones; NaN if either is.
     fn min(self, other: Self) -> Self;
 
-    /// The larger of two; the first of equal ones.
+    /// The larger of two; the first of equal ones; NaN if either is.
     fn max(self, other: Self) -> Self;
 
     /// x^q, by repeated multiplication where q is whole and at most 16 in size: then x may be negative too.
@@ -166,12 +166,12 @@ impl Number for f64 {
 
     #[inline(always)]
     fn min(self, other: f64) -> f64 {
-        if other < self { other } else { self }
+        if other < self || other.is_nan() { other } else { self }
     }
 
     #[inline(always)]
     fn max(self, other: f64) -> f64 {
-        if other > self { other } else { self }
+        if other > self || other.is_nan() { other } else { self }
     }
 }
 
@@ -210,11 +210,7 @@ impl Number for Twofold {
     }
 
     fn tanh(self) -> Twofold {
-        let is_negative = self.hi < 0.0;
-        let size = if is_negative { -self } else { self };
-        let less = full::exp_m1(size * -2.0);
-        let value = -less / (less + 2.0);
-        if is_negative { -value } else { value }
+        full::tanh(self)
     }
 
     fn softplus(self) -> Twofold {
@@ -226,10 +222,10 @@ impl Number for Twofold {
     }
 
     fn min(self, other: Twofold) -> Twofold {
-        if (other - self).hi < 0.0 { other } else { self }
+        if (other - self).hi < 0.0 || other.hi.is_nan() { other } else { self }
     }
 
     fn max(self, other: Twofold) -> Twofold {
-        if (other - self).hi > 0.0 { other } else { self }
+        if (other - self).hi > 0.0 || other.hi.is_nan() { other } else { self }
     }
 }

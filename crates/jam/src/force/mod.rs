@@ -2,10 +2,12 @@
 
 mod blocks;
 mod compiled;
+mod formula;
 mod heun;
 mod series;
 
 pub use compiled::Compiled;
+pub use formula::{Interpreted, Prepared, Source};
 pub use heun::{Cut, heun_steps};
 pub use series::Motion;
 

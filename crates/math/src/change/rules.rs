@@ -147,6 +147,17 @@ pub fn exp(kept: &Kept, da: f64) -> f64 {
     kept.a * lane::exp_m1(da)
 }
 
+/// What [`exp`] does to e^da - 1, and [`ln`] to da before the logarithm.
+#[inline(always)]
+pub fn scale(kept: &Kept, x: f64) -> f64 {
+    kept.a * x
+}
+
+/// The point of a softplus function.
+pub fn softplus_base(kept: &Kept) -> &SoftplusBase {
+    &kept.softplus
+}
+
 /// Whether e^a0 is next to nothing: then e^da may overflow where their product does not.
 #[inline(always)]
 pub fn is_faint(kept: &Kept) -> bool {

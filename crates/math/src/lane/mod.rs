@@ -15,14 +15,12 @@
 //! the time where the processor can fuse (AVX2), and many times as long where not.
 
 pub(crate) mod exponential;
-mod hyperbolic;
 pub(crate) mod logarithm;
 mod power;
 pub(crate) mod softplus;
 pub(crate) mod tanh;
 
 pub use exponential::{exp, exp_m1};
-pub use hyperbolic::tanh;
 pub use logarithm::{ln, ln_1p};
 pub use power::{pow, pow_m1};
 pub use softplus::{SoftplusBase, sigmoid, softplus, softplus_difference};
