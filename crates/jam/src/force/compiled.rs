@@ -5,6 +5,7 @@ use super::heun::{self, Cut};
 use super::series::{Memory, Motion};
 use super::{Flow, Force, Steps};
 use crate::laws::Law;
+use crate::ramp::Bend;
 use math::change::{Player, Recorder, Tape};
 use math::lanes::Lanes;
 use math::simd::{Kernel, dispatch};
@@ -74,6 +75,10 @@ impl<L: Law> Force for Compiled<L> {
 
     fn uses_speeds(&self) -> bool {
         self.law.uses_speeds()
+    }
+
+    fn bend(&self) -> Option<Bend> {
+        self.law.bend()
     }
 
     fn series(&self, motion: Motion<'_>) {

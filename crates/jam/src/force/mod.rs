@@ -11,6 +11,7 @@ pub use formula::{Interpreted, Prepared, Source};
 pub use heun::{Cut, heun_steps};
 pub use series::Motion;
 
+use crate::ramp::Bend;
 use math::simd::Width;
 use ode::Burst;
 
@@ -35,6 +36,11 @@ pub trait Force: std::fmt::Debug + Send {
 
     /// Whether the force, the relaxation of one's own speed apart, depends on speeds.
     fn uses_speeds(&self) -> bool;
+
+    /// Where the force bends sharply, if it does.
+    fn bend(&self) -> Option<Bend> {
+        None
+    }
 
     /// Writes the Taylor coefficients of a motion.
     fn series(&self, motion: Motion<'_>);

@@ -1,6 +1,7 @@
 //! The algebraically decaying force, Eq. (8), eq:invd.
 
 use super::Law;
+use crate::ramp::Bend;
 use crate::stability::Linear;
 use math::number::Number;
 use std::f64::consts::LN_2;
@@ -47,6 +48,11 @@ impl Law for Algebraic {
 
     fn uses_speeds(&self) -> bool {
         self.widening != 0.0 || self.relative != 0.0
+    }
+
+    fn bend(&self) -> Option<Bend> {
+        let slope = 1.0 / self.epsilon;
+        (self.relative != 0.0).then_some(Bend { clearance: 0.0, speed: -slope, ahead: slope, offset: 0.0 })
     }
 
     #[inline(always)]

@@ -1,6 +1,7 @@
 //! The exponential force, eq:sfm.
 
 use super::Law;
+use crate::ramp::Bend;
 use crate::stability::Linear;
 use math::lane;
 use math::number::Number;
@@ -44,6 +45,11 @@ impl Law for Exponential {
 
     fn uses_speeds(&self) -> bool {
         self.widening != 0.0
+    }
+
+    fn bend(&self) -> Option<Bend> {
+        let (slope, speed) = (1.0 / self.epsilon, -self.widening / self.epsilon);
+        (self.contact != 0.0).then_some(Bend { clearance: slope, speed, ahead: speed, offset: 0.0 })
     }
 
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! The logarithmic force, eq:modlog.
 
 use super::Law;
-use crate::ramp::smooth_ramp;
+use crate::ramp::{Bend, smooth_ramp};
 use crate::stability::Linear;
 use math::lane;
 use math::number::Number;
@@ -43,6 +43,11 @@ impl Law for Logarithmic {
 
     fn uses_speeds(&self) -> bool {
         self.widening != 0.0
+    }
+
+    fn bend(&self) -> Option<Bend> {
+        let (clearance, speed) = (0.5 / self.epsilon, -0.5 * self.widening / self.epsilon);
+        Some(Bend { clearance, speed, ahead: speed, offset: -1.0 / self.epsilon })
     }
 
     #[inline(always)]

@@ -13,6 +13,7 @@ pub use exponential::Exponential;
 pub use logarithmic::{C, Logarithmic};
 
 use crate::force::{Compiled, Force};
+use crate::ramp::Bend;
 use crate::stability::Linear;
 use math::number::Number;
 
@@ -36,6 +37,9 @@ pub trait Law: Copy + Send + Sync + std::fmt::Debug + 'static {
     /// The law with the terms of the paper's runs and no others, if these are all that it has: the same law, with the
     /// parameters that leave a term out as constants, so that the compiler leaves it out as well.
     fn plain(&self) -> Option<Self>;
+
+    /// Where the smooth ramp bends, if the law has one; where its argument is a quotient, its numerator.
+    fn bend(&self) -> Option<Bend>;
 }
 
 /// A law with its parameters, as data.

@@ -97,6 +97,20 @@ impl System for Deviations {
         ]
     }
 
+    fn bends(&self) -> usize {
+        self.force.bend().map_or(0, |_| self.pedestrians)
+    }
+
+    fn bend_arguments(&self, state: &[f64], rates: &[f64], arguments: &mut [f64], slopes: &mut [f64]) {
+        let Some(bend) = self.force.bend() else { return };
+        let n = self.pedestrians;
+        let (_, _, speed) = self.extras();
+        let sum = bend.speed + bend.ahead;
+        let offset = bend.offset + (bend.clearance * self.net_gap + sum * state[speed]);
+        bend.arguments(offset, &state[..n], &state[n..2 * n], arguments);
+        bend.arguments(sum * rates[speed], &rates[..n], &rates[n..2 * n], slopes);
+    }
+
     fn in_domain(&self, state: &[f64]) -> bool {
         let n = self.pedestrians;
         self.force.is_open(self.flow(state), &state[..n], &state[n..2 * n])
