@@ -6,6 +6,7 @@
 
 use math::complex_sqrt;
 use math::twofold::Twofold;
+use std::f64::consts::PI;
 
 /// The coefficients of the linearised law; all >= 0 for the laws of the paper.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,6 +17,143 @@ pub struct Linear {
     pub beta: f64,
     /// Response to the relative speed.
     pub kappa: f64,
+}
+
+/// How the acceleration of pedestrian n answers to the spacings and speeds of n + j: the derivatives `f_{s_j}`, `f_{v_j}`
+/// in the uniform flow, for any neighbours j.
+///
+/// A wave `exp(z t + i k n)` of positions obeys `z^2 + b z + c = 0` with `b(k) = -sum_j f_{v_j} e^{ijk}` and
+/// `c(k) = sum_j f_{s_j} e^{ijk} (1 - e^{ik})`. Both roots decay if and only if `Re b > 0` and
+/// `D = (Re b)^2 Re c + Re b Im b Im c - (Im c)^2 > 0` (the criterion of Routh and Hurwitz for complex coefficients).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Response {
+    /// `(j, f_{s_j})`.
+    pub spacings: Vec<(i32, f64)>,
+    /// `(j, f_{v_j})`.
+    pub speeds: Vec<(i32, f64)>,
+}
+
+/// Which waves are looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Waves {
+    /// All `k` in (0, pi].
+    All,
+    /// Those of a ring of so many: `k = 2 pi l / N`.
+    Ring(usize),
+}
+
+impl Response {
+    /// `b` and `c` of `z^2 + b z + c = 0`.
+    pub fn polynomial(&self, k: f64) -> (Complex, Complex) {
+        let mut b = (0.0, 0.0);
+        for (j, slope) in &self.speeds {
+            let angle = f64::from(*j) * k;
+            b = (b.0 - slope * math::cos(angle), b.1 - slope * math::sin(angle));
+        }
+        // 1 - e^{ik} without cancellation
+        let half = math::sin(0.5 * k);
+        let (re, im) = (2.0 * half * half, -math::sin(k));
+        let mut c = (0.0, 0.0);
+        for (j, slope) in &self.spacings {
+            let angle = f64::from(*j) * k;
+            let (cos, sin) = (math::cos(angle), math::sin(angle));
+            c = (c.0 + slope * (cos * re - sin * im), c.1 + slope * (cos * im + sin * re));
+        }
+        (b, c)
+    }
+
+    /// The root `z^+` with the larger real part, for `k` in (0, pi].
+    pub fn root(&self, k: f64) -> Complex {
+        let (b, c) = self.polynomial(k);
+        let discriminant = (b.0 * b.0 - b.1 * b.1 - 4.0 * c.0, 2.0 * b.0 * b.1 - 4.0 * c.1);
+        let s = complex_sqrt(discriminant.0, discriminant.1);
+        // the sum that does not cancel gives one root, its product with the other is c
+        let same_side = b.0 * s.0 + b.1 * s.1 >= 0.0;
+        let sum = if same_side { (b.0 + s.0, b.1 + s.1) } else { (b.0 - s.0, b.1 - s.1) };
+        let far = (-0.5 * sum.0, -0.5 * sum.1);
+        let size = sum.0 * sum.0 + sum.1 * sum.1;
+        if size == 0.0 {
+            return far;
+        }
+        let near = (-2.0 * (c.0 * sum.0 + c.1 * sum.1) / size, -2.0 * (c.1 * sum.0 - c.0 * sum.1) / size);
+        if near.0 >= far.0 { near } else { far }
+    }
+
+    /// `Re z^+`: the growth rate of the wave.
+    pub fn growth_rate(&self, k: f64) -> f64 {
+        self.root(k).0
+    }
+
+    /// How far a wave is from stability, negative when it decays: `-D / ((1 - cos k) sum_j f_{s_j})`, or `-D` where that sum
+    /// is not positive. Where `Re b <= 0`, which no relaxation outweighs, at least `-Re b`.
+    pub fn margin_of(&self, k: f64) -> f64 {
+        let (b, c) = self.polynomial(k);
+        let d = b.0 * b.0 * c.0 + b.0 * b.1 * c.1 - c.1 * c.1;
+        let half = math::sin(0.5 * k);
+        self.damped(-d / (2.0 * half * half * self.stiffness()), b.0)
+    }
+
+    /// The limit of long waves, `k -> 0`.
+    pub fn long_wave_margin(&self) -> f64 {
+        let moment = |list: &[(i32, f64)], power: i32| -> f64 {
+            list.iter().map(|(j, slope)| slope * f64::from(j.pow(power as u32))).sum()
+        };
+        let (s0, s1) = (moment(&self.spacings, 0), moment(&self.spacings, 1));
+        let (v0, v1) = (moment(&self.speeds, 0), moment(&self.speeds, 1));
+        let d = v0 * v0 * (0.5 * s0 + s1) - v0 * v1 * s0 - s0 * s0;
+        self.damped(-2.0 * d / self.stiffness(), -v0)
+    }
+
+    /// `sum_j f_{s_j}`, or 1 where it is not positive.
+    fn stiffness(&self) -> f64 {
+        let sum: f64 = self.spacings.iter().map(|(_, slope)| slope).sum();
+        if sum > 0.0 { sum } else { 1.0 }
+    }
+
+    fn damped(&self, margin: f64, re_b: f64) -> f64 {
+        if re_b > 0.0 || margin > -re_b { margin } else { -re_b }
+    }
+
+    /// The largest margin over the waves, and the `k` where it lies (0: the limit of long waves).
+    pub fn margin(&self, waves: Waves) -> (f64, f64) {
+        let better = |best: (f64, f64), k: f64| {
+            let margin = self.margin_of(k);
+            if margin > best.0 || best.0.is_nan() { (margin, k) } else { best }
+        };
+        match waves {
+            Waves::Ring(pedestrians) => {
+                let k = |l: usize| 2.0 * PI * l as f64 / pedestrians as f64;
+                (1..=pedestrians / 2).map(k).fold((f64::NAN, 0.0), better)
+            }
+            Waves::All => {
+                // a sum of waves over the stencil: fine enough for its shortest one
+                let widest = self.spacings.iter().chain(&self.speeds).map(|(j, _)| j.unsigned_abs()).max();
+                let count = 64 * (widest.unwrap_or(0) as usize + 2);
+                let step = PI / count as f64;
+                let coarse = (1..=count).map(|i| step * i as f64).fold((self.long_wave_margin(), 0.0), better);
+                self.refined(coarse, step)
+            }
+        }
+    }
+
+    /// The maximum next to the best of a grid, by a golden section.
+    fn refined(&self, coarse: (f64, f64), step: f64) -> (f64, f64) {
+        const GOLDEN: f64 = 0.618_033_988_749_894_9;
+        if coarse.1 == 0.0 {
+            return coarse;
+        }
+        let (mut low, mut high) = (coarse.1 - step, if coarse.1 + step > PI { PI } else { coarse.1 + step });
+        let mut best = coarse;
+        for _ in 0..60 {
+            let (left, right) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
+            let (at_left, at_right) = (self.margin_of(left), self.margin_of(right));
+            for (margin, k) in [(at_left, left), (at_right, right)] {
+                best = if margin > best.0 { (margin, k) } else { best };
+            }
+            (low, high) = if at_left > at_right { (low, right) } else { (left, high) };
+        }
+        best
+    }
 }
 
 /// A complex number, real and imaginary part.

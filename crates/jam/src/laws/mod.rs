@@ -5,16 +5,19 @@
 
 mod algebraic;
 mod exponential;
+mod formula;
 mod logarithmic;
 pub mod presets;
 
 pub use algebraic::Algebraic;
 pub use exponential::Exponential;
+pub use formula::Formula;
 pub use logarithmic::{C, Logarithmic};
 
 use crate::force::{Compiled, Force};
 use crate::ramp::Bend;
-use crate::stability::Linear;
+use crate::stability::{Linear, Response};
+use math::dual::Dual;
 use math::number::Number;
 
 /// A law of motion as a formula.
@@ -43,7 +46,7 @@ pub trait Law: Copy + Send + Sync + std::fmt::Debug + 'static {
 }
 
 /// A law with its parameters, as data.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Model {
     /// eq:invd.
     Algebraic(Algebraic),
@@ -51,15 +54,18 @@ pub enum Model {
     Exponential(Exponential),
     /// eq:modlog.
     Logarithmic(Logarithmic),
+    /// Any other, as formulas.
+    Formula(Formula),
 }
 
 /// Does something with whatever law it is.
 macro_rules! each {
-    ($model:expr, $law:ident => $action:expr) => {
+    ($model:expr, $law:ident => $action:expr, $formula:ident => $other:expr) => {
         match $model {
             Model::Algebraic($law) => $action,
             Model::Exponential($law) => $action,
             Model::Logarithmic($law) => $action,
+            Model::Formula($formula) => $other,
         }
     };
 }
@@ -81,50 +87,75 @@ impl Model {
             Model::Algebraic(_) => "algebraic",
             Model::Exponential(_) => "exponential",
             Model::Logarithmic(_) => "logarithmic",
+            Model::Formula(_) => "formula",
         }
     }
 
-    /// The desired speed `v_0'`.
+    /// The desired speed `v_0'`; of a formula its parameter `v0`, else `scale`, else 1.
     pub fn desired_speed(&self) -> f64 {
-        each!(self, law => law.desired_speed)
+        self.speed_scale().unwrap_or(1.0)
+    }
+
+    /// The size of speeds, if the law has one.
+    pub fn speed_scale(&self) -> Option<f64> {
+        each!(self, law => Some(law.desired_speed), formula => formula.speed_scale())
     }
 
     /// The force on all pedestrians of a ring.
     pub fn force(&self) -> Box<dyn Force> {
-        each!(*self, law => Box::new(Compiled::new(law)))
+        each!(self, law => Box::new(Compiled::new(*law)), formula => formula.force())
     }
 
-    /// The acceleration as the paper prints it.
+    /// The acceleration as the paper prints it; of a formula, that of the uniform flow with this own speed.
     pub fn acceleration(&self, gap: f64, speed: f64, ahead: f64) -> f64 {
-        each!(self, law => law.acceleration(gap - self.contact(), speed, ahead))
+        let net_gap = gap - self.contact();
+        each!(self, law => law.acceleration(net_gap, speed, ahead), formula => formula.uniform(gap, speed))
     }
 
     /// The gap at which two standing pedestrians touch (see [`Law::CONTACT`]).
     pub fn contact(&self) -> f64 {
-        each!(self, law => contact_of(law))
+        each!(self, law => contact_of(law), formula => formula.contact())
     }
 
     /// Whether the force is infinite where the room ends (see [`Law::SINGULAR`]).
     pub fn is_singular(&self) -> bool {
-        each!(self, law => is_singular(law))
+        each!(self, law => is_singular(law), _formula => false)
     }
 
     /// The room of a pedestrian (see [`Law::effective_gap`]).
     pub fn room(&self, gap: f64, speed: f64, ahead: f64) -> f64 {
-        each!(self, law => law.effective_gap(gap - self.contact(), speed, ahead))
+        let net_gap = gap - self.contact();
+        each!(self, law => law.effective_gap(net_gap, speed, ahead), formula => formula.uniform_gap(gap, speed))
     }
 
     /// How much room a unit of speed, own or ahead, takes away.
     pub fn room_per_speed(&self) -> f64 {
-        -each!(self, law => law.effective_gap(0.0, 1.0, 0.0))
+        -each!(self, law => law.effective_gap(0.0, 1.0, 0.0), _formula => 0.0)
     }
 
-    /// The coefficients of the linearised law about the uniform flow with this headway and speed.
-    pub fn linearise(&self, headway: f64, speed: f64) -> Linear {
+    /// How the acceleration answers to spacings and speeds in this uniform flow. `None` where it has no derivative.
+    pub fn response(&self, headway: f64, speed: f64) -> Option<Response> {
+        each!(self, law => Some(response_of(law, headway, speed)), formula => formula.response(headway, speed))
+    }
+
+    /// The coefficients of the linearised law about the uniform flow with this headway and speed; `None` for a formula,
+    /// whose stencil may be any other ([`Model::response`]).
+    pub fn linearise(&self, headway: f64, speed: f64) -> Option<Linear> {
         match self {
-            Model::Algebraic(law) => law.linearise(law.gap(headway, speed)),
-            Model::Exponential(law) => law.linearise(law.gap(headway, speed)),
-            Model::Logarithmic(law) => law.linearise(headway, speed),
+            Model::Algebraic(law) => Some(law.linearise(law.gap(headway, speed))),
+            Model::Exponential(law) => Some(law.linearise(law.gap(headway, speed))),
+            Model::Logarithmic(law) => Some(law.linearise(headway, speed)),
+            Model::Formula(_) => None,
         }
     }
+}
+
+/// The derivatives of a law of one predecessor.
+fn response_of<L: Law>(law: &L, headway: f64, speed: f64) -> Response {
+    let net_gap = headway - L::CONTACT;
+    let slope = |which: usize| {
+        let variable = |index: usize, value: f64| Dual { value, slope: if index == which { 1.0 } else { 0.0 } };
+        law.acceleration(variable(0, net_gap), variable(1, speed), variable(2, speed)).slope
+    };
+    Response { spacings: vec![(0, slope(0))], speeds: vec![(0, slope(1)), (1, slope(2))] }
 }

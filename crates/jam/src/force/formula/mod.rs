@@ -1,12 +1,12 @@
 //! The force of a law that is a formula in a scene: its graph, carried out by rows of pedestrians, with the bits that the
 //! same formula has as a Rust function.
 
-mod program;
+pub mod program;
 mod rows;
 mod series;
 
 use super::{Cut, Flow, Force, Motion, Steps};
-use formula::Bound;
+use formula::{Bound, Id};
 use math::change::rules::Kept;
 use math::simd::dispatch;
 use ode::Burst;
@@ -16,11 +16,11 @@ use rows::{Machine, Neighbours, Reach, Rows};
 use std::cell::RefCell;
 use std::sync::Arc;
 
-/// A bound formula, ready to be carried out.
+/// A formula that is ready to be carried out.
 #[derive(Clone, Debug)]
 pub struct Prepared {
     contact: f64,
-    acceleration: Program,
+    program: Program,
     reach: Reach,
     /// How many operations keep something of earlier orders of a series.
     operations: usize,
@@ -28,23 +28,23 @@ pub struct Prepared {
 }
 
 impl Prepared {
-    /// Prepares a formula; `contact` is the spacing at which two touch.
-    pub fn new(bound: &Bound, contact: f64) -> Prepared {
-        let acceleration = Program::new(bound, bound.acceleration(), contact);
-        let reach = Reach::of(&acceleration);
-        let operations = acceleration.instructions.iter().map(|instruction| histories(&instruction.action)).sum();
-        let uses_speeds = !relaxes_only(&acceleration);
-        Prepared { contact, acceleration, reach, operations, uses_speeds }
+    /// Prepares a root of a graph; `contact` is the spacing at which two touch.
+    pub fn new(bound: &Bound, root: Id, contact: f64) -> Prepared {
+        let program = Program::new(bound, root, contact);
+        let reach = Reach::of(&program);
+        let operations = program.instructions.iter().map(|instruction| histories(&instruction.action)).sum();
+        let uses_speeds = !relaxes_only(&program);
+        Prepared { contact, program, reach, operations, uses_speeds }
     }
 
-    /// The program of the acceleration.
-    pub fn acceleration(&self) -> &Program {
-        &self.acceleration
+    /// The instructions.
+    pub fn program(&self) -> &Program {
+        &self.program
     }
 
-    /// The spacing at which two touch.
-    pub fn contact(&self) -> f64 {
-        self.contact
+    /// How far it looks behind and ahead, in pedestrians.
+    pub fn reach(&self) -> (usize, usize) {
+        (self.reach.behind, self.reach.ahead)
     }
 }
 
@@ -82,6 +82,8 @@ fn relaxes_only(program: &Program) -> bool {
 #[derive(Clone, Debug)]
 pub struct Interpreted {
     prepared: Arc<Prepared>,
+    /// The effective gap, where it is not the net gap.
+    gap: Option<Arc<Prepared>>,
     scratch: RefCell<Scratch>,
 }
 
@@ -96,10 +98,11 @@ struct Scratch {
 
 impl Interpreted {
     /// The force of this formula.
-    pub fn new(prepared: Arc<Prepared>) -> Interpreted {
+    pub fn new(prepared: Arc<Prepared>, gap: Option<Arc<Prepared>>) -> Interpreted {
         let mut scratch = Scratch::default();
-        scratch.machine.resize(prepared.acceleration.registers);
-        Interpreted { prepared, scratch: RefCell::new(scratch) }
+        let own = prepared.program.registers;
+        scratch.machine.resize(gap.as_ref().map_or(own, |gap| own.max(gap.program.registers)));
+        Interpreted { prepared, gap, scratch: RefCell::new(scratch) }
     }
 }
 
@@ -114,14 +117,14 @@ impl Force for Interpreted {
 
     fn accelerations(&self, net_gaps: &[f64], speeds: &[f64], accelerations: &mut [f64]) {
         let Scratch { neighbours, machine, .. } = &mut *self.scratch.borrow_mut();
-        let Prepared { acceleration: program, reach, contact, .. } = &*self.prepared;
+        let Prepared { program, reach, contact, .. } = &*self.prepared;
         neighbours.fill(*reach, net_gaps, speeds, *contact);
         dispatch(Rows { program, kept: None, neighbours, machine, result: accelerations });
     }
 
     fn deviations(&self, flow: Flow, spacings: &[f64], speeds: &[f64], accelerations: &mut [f64]) -> f64 {
         let Scratch { neighbours, machine, reference, kept, .. } = &mut *self.scratch.borrow_mut();
-        let Prepared { acceleration: program, reach, contact, .. } = &*self.prepared;
+        let Prepared { program, reach, contact, .. } = &*self.prepared;
         let uniform = match *reference {
             Some((known, acceleration)) if known == flow => acceleration,
             _ => keep(program, flow, *contact, kept),
@@ -141,7 +144,7 @@ impl Force for Interpreted {
     }
 
     fn series(&self, motion: Motion<'_>) {
-        let Prepared { acceleration: program, operations, contact, .. } = &*self.prepared;
+        let Prepared { program, operations, contact, .. } = &*self.prepared;
         let memory = &mut self.scratch.borrow_mut().memory;
         dispatch(series::Coefficients { program, operations: *operations, contact: *contact, motion, memory });
     }

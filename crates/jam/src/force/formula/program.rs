@@ -139,6 +139,28 @@ impl Program {
         }
     }
 
+    /// Whether a kink lies at these values of the variables: `|x|` at 0, or the smaller or larger of two equal numbers.
+    pub fn is_on_kink(&self, variable: impl Fn(Source) -> f64) -> bool {
+        let mut registers = vec![0.0; self.registers];
+        for Instruction { action, of, into, .. } in &self.instructions {
+            let get = |source: Source| match source {
+                Source::Register(index) => registers[index],
+                other => variable(other),
+            };
+            let x = get(*of);
+            let is_kink = match *action {
+                Action::Function(Function::Abs) => x == 0.0,
+                Action::Min(y) | Action::Max(y) => x == get(y),
+                _ => false,
+            };
+            if is_kink {
+                return true;
+            }
+            registers[*into] = action.act(x, get);
+        }
+        false
+    }
+
     /// The variables that occur.
     pub fn variables(&self) -> Vec<Source> {
         let operands = self.instructions.iter().flat_map(|instruction| {
