@@ -4,6 +4,7 @@ mod bad;
 mod common;
 mod dual;
 mod fuzz;
+mod gallery;
 mod good;
 mod laws;
 mod random;
