@@ -91,7 +91,10 @@ fn text(random: &mut Random) -> String {
         match random.below(3) {
             0 => text.insert_str(from, random.pick(&WORDS)),
             1 => text.replace_range(from..to, random.pick(&WORDS)),
-            _ => text.insert_str(from, &text[from..to].to_owned()),
+            _ => {
+                let copy = text[from..to].to_owned();
+                text.insert_str(from, &copy);
+            }
         }
     }
     text

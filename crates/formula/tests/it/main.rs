@@ -2,6 +2,7 @@
 
 mod bad;
 mod common;
+mod corpus;
 mod dual;
 mod fuzz;
 mod gallery;
