@@ -5,12 +5,12 @@
 
 pub mod criteria;
 pub mod events;
+pub mod force;
 pub mod jams;
 pub mod laws;
 pub mod observe;
 pub mod ramp;
 pub mod ring;
-pub mod series;
 pub mod stability;
 pub mod states;
 pub mod uniform;

@@ -17,10 +17,15 @@
 //! | [`simd`] | runs a loop with the widest registers the processor has | none: the same bits |
 //! | [`twofold`] | numbers of 106 bits as pairs of doubles; functions in [`twofold::full`] | about 2^-104; 2^-100 |
 
+pub mod change;
 pub mod complex;
+pub mod dual;
 pub mod lane;
+pub mod lanes;
+pub mod number;
 pub mod row;
 pub mod scalar;
+pub mod series;
 pub mod simd;
 pub mod slice;
 pub mod twofold;

@@ -2,37 +2,32 @@
 //! logarithmic law): a gap that closes keeps all its digits.
 
 use super::{Form, closing_rates};
-use crate::laws::Law;
+use crate::force::{Flow, Force, Motion};
 use crate::observe::spread;
 use crate::ring::{Ring, Start};
-use crate::series::{Motion, Workspace};
-use math::simd::{Kernel, dispatch};
 use ode::{Group, Measure, System};
-use std::cell::RefCell;
 use std::ops::Range;
 
 /// The ring as gaps and speeds.
-#[derive(Clone, Debug)]
-pub struct Gaps<L: Law> {
-    law: L,
+#[derive(Debug)]
+pub struct Gaps {
+    force: Box<dyn Force>,
     pedestrians: usize,
     clearance: f64,
-    workspace: RefCell<Workspace<L::Terms>>,
 }
 
-impl<L: Law> Gaps<L> {
-    /// The ring under this law.
-    pub fn new(law: L, ring: Ring) -> Gaps<L> {
-        Gaps {
-            law,
-            pedestrians: ring.pedestrians,
-            clearance: ring.headway() - L::CONTACT,
-            workspace: RefCell::default(),
-        }
+impl Gaps {
+    /// The ring under this force.
+    pub fn new(force: Box<dyn Force>, ring: Ring) -> Gaps {
+        let clearance = ring.headway() - force.contact();
+        Gaps { force, pedestrians: ring.pedestrians, clearance }
     }
 }
 
-impl<L: Law> System for Gaps<L> {
+/// Nothing to be added to net gaps and speeds.
+const AT_REST: Flow = Flow { net_gap: 0.0, speed: 0.0 };
+
+impl System for Gaps {
     fn dimension(&self) -> usize {
         2 * self.pedestrians + 1
     }
@@ -46,25 +41,16 @@ impl<L: Law> System for Gaps<L> {
     fn dynamics(&self, state: &[f64], rates: &mut [f64]) {
         let n = self.pedestrians;
         let (clearances, speeds) = (&state[..n], &state[n..2 * n]);
-        dispatch(Accelerations { law: self.law, clearances, speeds, rates: &mut rates[n..2 * n] });
+        self.force.accelerations(clearances, speeds, &mut rates[n..2 * n]);
     }
 
     fn has_series(&self) -> bool {
-        L::HAS_SERIES
+        true
     }
 
     fn series(&self, order: usize, unit: f64, coefficients: &mut [f64]) {
         let (n, dimension) = (self.pedestrians, self.dimension());
-        dispatch(Motion {
-            law: self.law,
-            pedestrians: n,
-            clearance: 0.0,
-            order,
-            unit,
-            dimension,
-            coefficients,
-            workspace: &mut self.workspace.borrow_mut(),
-        });
+        self.force.series(Motion { flow: AT_REST, pedestrians: n, order, unit, dimension, coefficients });
         for k in 1..order {
             let (done, next) = coefficients[k * dimension..].split_at_mut(dimension);
             next[2 * n] = done[n] * (unit / (k + 1) as f64);
@@ -79,7 +65,7 @@ impl<L: Law> System for Gaps<L> {
     fn groups(&self) -> Vec<Group> {
         let n = self.pedestrians;
         // at a wall the smallest clearance decides, and the force on it needs its digits
-        let clearances = if L::SINGULAR {
+        let clearances = if self.force.is_singular() {
             Group { range: 0..n, measure: Measure::Smallest, floor: f64::MIN_POSITIVE }
         } else {
             Group { range: 0..n, measure: Measure::Largest, floor: 1.0 }
@@ -94,35 +80,11 @@ impl<L: Law> System for Gaps<L> {
     fn in_domain(&self, state: &[f64]) -> bool {
         let n = self.pedestrians;
         let (gaps, speeds) = (&state[..n], &state[n..2 * n]);
-        !L::SINGULAR || (0..n).all(|i| self.law.room(gaps[i], speeds[i], speeds[(i + 1) % n]) > 0.0)
+        self.force.is_open(AT_REST, gaps, speeds)
     }
 }
 
-/// The accelerations of all pedestrians.
-pub(super) struct Accelerations<'a, L: Law> {
-    pub(super) law: L,
-    pub(super) clearances: &'a [f64],
-    pub(super) speeds: &'a [f64],
-    pub(super) rates: &'a mut [f64],
-}
-
-impl<L: Law> Kernel for Accelerations<'_, L> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run(self) {
-        let last = self.clearances.len() - 1;
-        let ahead = &self.speeds[1..];
-        for (((rate, clearance), speed), ahead) in
-            self.rates.iter_mut().zip(self.clearances).zip(self.speeds).zip(ahead)
-        {
-            *rate = self.law.acceleration(*clearance, *speed, *ahead);
-        }
-        self.rates[last] = self.law.acceleration(self.clearances[last], self.speeds[last], self.speeds[0]);
-    }
-}
-
-impl<L: Law> Form for Gaps<L> {
+impl Form for Gaps {
     fn start(&self, start: Start) -> Vec<f64> {
         let n = self.pedestrians;
         let mut state = vec![0.0; self.dimension()];
@@ -136,7 +98,7 @@ impl<L: Law> Form for Gaps<L> {
     fn read(&self, state: &[f64], gaps: &mut [f64], speeds: &mut [f64]) {
         let n = self.pedestrians;
         for (gap, clearance) in gaps.iter_mut().zip(&state[..n]) {
-            *gap = clearance + L::CONTACT;
+            *gap = clearance + self.force.contact();
         }
         speeds.copy_from_slice(&state[n..2 * n]);
     }
@@ -152,7 +114,7 @@ impl<L: Law> Form for Gaps<L> {
         let (first, mut ahead) = (state[2 * self.pedestrians], 0.0);
         for (gap, own) in state.iter().zip(positions) {
             *own = first + ahead;
-            ahead += gap + L::CONTACT;
+            ahead += gap + self.force.contact();
         }
     }
 

@@ -8,16 +8,16 @@
 
 mod deviations;
 mod gaps;
-mod heun;
 mod positions;
 
+pub use crate::force::{Cut, heun_steps};
 pub use deviations::Deviations;
 pub use gaps::Gaps;
-pub use heun::{Cut, heun_steps};
 pub use positions::Positions;
 
-use crate::laws::{Law, Model, Visitor};
+use crate::laws::Model;
 use crate::ring::{Ring, Start};
+use math::simd::{Kernel, dispatch};
 
 /// A ring in one of the forms. Pedestrian `n` follows `n + 1`, the last follows the first.
 pub trait Form: ode::System {
@@ -51,7 +51,12 @@ pub enum FormKind {
 impl FormKind {
     /// The ring in this form, with the law reduced to the terms it names.
     pub fn build(self, model: &Model, ring: Ring) -> Box<dyn Form> {
-        model.visit(Build { kind: self, ring })
+        let force = model.force();
+        match self {
+            FormKind::Deviations => Box::new(Deviations::new(force, ring)),
+            FormKind::Gaps => Box::new(Gaps::new(force, ring)),
+            FormKind::Positions => Box::new(Positions::new(force, ring)),
+        }
     }
 }
 
@@ -61,27 +66,26 @@ pub fn gaps_state(model: &Model, gaps: &[f64], speeds: &[f64], first: f64) -> Ve
     gaps.iter().map(|gap| gap - contact).chain(speeds.iter().copied()).chain([first]).collect()
 }
 
-struct Build {
-    kind: FormKind,
-    ring: Ring,
-}
-
-impl Visitor for Build {
-    type Output = Box<dyn Form>;
-    fn visit<L: Law + 'static>(self, law: L) -> Box<dyn Form> {
-        match self.kind {
-            FormKind::Deviations => Box::new(Deviations::new(law, self.ring)),
-            FormKind::Gaps => Box::new(Gaps::new(law, self.ring)),
-            FormKind::Positions => Box::new(Positions::new(law, self.ring)),
-        }
-    }
-}
-
 /// Writes `rate[n] = speed[n + 1] - speed[n]` around the ring.
 fn closing_rates(speeds: &[f64], rates: &mut [f64]) {
-    let last = speeds.len() - 1;
-    for (rate, pair) in rates.iter_mut().zip(speeds.windows(2)) {
-        *rate = pair[1] - pair[0];
+    dispatch(ClosingRates { speeds, rates });
+}
+
+struct ClosingRates<'a> {
+    speeds: &'a [f64],
+    rates: &'a mut [f64],
+}
+
+impl Kernel for ClosingRates<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let ClosingRates { speeds, rates } = self;
+        let last = speeds.len() - 1;
+        for ((rate, own), ahead) in rates.iter_mut().zip(speeds).zip(&speeds[1..]) {
+            *rate = ahead - own;
+        }
+        rates[last] = speeds[0] - speeds[last];
     }
-    rates[last] = speeds[0] - speeds[last];
 }

@@ -1,29 +1,27 @@
 //! Unwrapped positions and speeds, as the paper writes its equations: `[x_0 .. x_{N-1}, v_0 .. v_{N-1}]`.
 
 use super::Form;
-use super::gaps::Accelerations;
-use super::heun::{Cut, Steps, burst};
-use crate::laws::Law;
+use crate::force::{Cut, Flow, Force, Steps};
 use crate::observe::spread;
 use crate::ring::{Ring, Start};
-use math::simd::{Width, dispatch};
+use math::simd::Width;
 use ode::{Burst, Group, Measure, System};
 use std::cell::RefCell;
 use std::ops::Range;
 
 /// The ring as positions and speeds.
-#[derive(Clone, Debug)]
-pub struct Positions<L> {
-    law: L,
+#[derive(Debug)]
+pub struct Positions {
+    force: Box<dyn Force>,
     ring: Ring,
     /// Room for the gaps of one evaluation, so that a step allocates nothing.
     gaps: RefCell<Vec<f64>>,
 }
 
-impl<L: Law> Positions<L> {
-    /// The ring under this law.
-    pub fn new(law: L, ring: Ring) -> Positions<L> {
-        Positions { law, ring, gaps: RefCell::new(vec![0.0; ring.pedestrians]) }
+impl Positions {
+    /// The ring under this force.
+    pub fn new(force: Box<dyn Force>, ring: Ring) -> Positions {
+        Positions { force, ring, gaps: RefCell::new(vec![0.0; ring.pedestrians]) }
     }
 
     /// Writes `x_{n+1} - x_n`; the last pedestrian follows the first, one length ahead.
@@ -34,9 +32,15 @@ impl<L: Law> Positions<L> {
         }
         gaps[last] = positions[0] + self.ring.length - positions[last];
     }
+
+    fn write_net_gaps(&self, positions: &[f64], gaps: &mut [f64]) {
+        self.write_gaps(positions, gaps);
+        let contact = self.force.contact();
+        gaps.iter_mut().for_each(|gap| *gap -= contact);
+    }
 }
 
-impl<L: Law> System for Positions<L> {
+impl System for Positions {
     fn dimension(&self) -> usize {
         2 * self.ring.pedestrians
     }
@@ -49,11 +53,8 @@ impl<L: Law> System for Positions<L> {
     fn dynamics(&self, state: &[f64], rates: &mut [f64]) {
         let n = self.ring.pedestrians;
         let mut gaps = self.gaps.borrow_mut();
-        self.write_gaps(&state[..n], &mut gaps);
-        for gap in gaps.iter_mut() {
-            *gap -= L::CONTACT;
-        }
-        dispatch(Accelerations { law: self.law, clearances: &gaps, speeds: &state[n..], rates: &mut rates[n..] });
+        self.write_net_gaps(&state[..n], &mut gaps);
+        self.force.accelerations(&gaps, &state[n..], &mut rates[n..]);
     }
 
     fn positions(&self) -> Vec<Range<usize>> {
@@ -65,19 +66,22 @@ impl<L: Law> System for Positions<L> {
     }
 
     fn heun(&self, state: &mut [f64], h: f64, count: u64) -> Burst {
-        let steps = Steps { law: self.law, length: self.ring.length, h, count, limit: Width::Eight };
-        burst(steps, Cut::of(self.ring.pedestrians), state)
+        let steps = Steps { length: self.ring.length, h, count, limit: Width::Eight };
+        self.force.heun(steps, Cut::of(self.ring.pedestrians), state)
     }
 
     fn in_domain(&self, state: &[f64]) -> bool {
         let n = self.ring.pedestrians;
+        if !self.force.is_singular() {
+            return true;
+        }
         let mut gaps = self.gaps.borrow_mut();
-        self.write_gaps(&state[..n], &mut gaps);
-        !L::SINGULAR || (0..n).all(|i| self.law.room(gaps[i] - L::CONTACT, state[n + i], state[n + (i + 1) % n]) > 0.0)
+        self.write_net_gaps(&state[..n], &mut gaps);
+        self.force.is_open(Flow { net_gap: 0.0, speed: 0.0 }, &gaps, &state[n..])
     }
 }
 
-impl<L: Law> Form for Positions<L> {
+impl Form for Positions {
     fn start(&self, start: Start) -> Vec<f64> {
         let n = self.ring.pedestrians;
         let mut state = vec![0.0; 2 * n];

@@ -1,6 +1,6 @@
 //! The laws written as differences from the uniform flow are the printed laws, and stay accurate for small deviations.
 
-use crate::sample::{Deviation, Random, algebraic, laws, variants};
+use crate::sample::{Random, algebraic, deviation, laws, variants};
 use jam::laws::{Algebraic, Model};
 use jam::ring::{Ring, Start};
 use jam::states::FormKind;
@@ -11,10 +11,6 @@ fn flow(model: &Model, random: &mut Random) -> (f64, f64, f64) {
     let speed = random.uniform(-0.3, 1.0) * model.desired_speed();
     let room = random.uniform(0.3, 3.0);
     (room + 2.0 * model.room_per_speed() * speed + model.contact(), speed, room)
-}
-
-fn deviation(model: &Model, gap: f64, speed: f64, from: [f64; 3]) -> f64 {
-    model.visit(Deviation { gap, speed, from })
 }
 
 /// How much the acceleration moves when each of its arguments is off by half a unit, by central differences.

@@ -186,7 +186,7 @@ fn widening_takes_room_from_both_speeds() {
         let a_v = model.room_per_speed();
         let expected = match model {
             Model::Logarithmic(_) => 3.0,
-            _ => 3.0 - a_v * (0.5 + 0.25) - 2.0,
+            _ => (3.0 - 2.0) - a_v * (0.5 + 0.25),
         };
         assert_eq!(model.room(3.0, 0.5, 0.25), expected);
     }

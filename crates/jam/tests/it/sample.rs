@@ -1,6 +1,7 @@
 //! Random numbers, the same in every run, and random laws of every combination of terms.
 
-use jam::laws::{Algebraic, Exponential, Law, Logarithmic, Model, Visitor};
+use jam::force::Flow;
+use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
 
 /// The generator splitmix64 (Steele, Lea, Flood 2014).
 pub struct Random(pub u64);
@@ -116,19 +117,11 @@ pub fn paper_laws() -> [Model; 3] {
 /// Headways that go with [`paper_laws`].
 pub const HEADWAYS: [f64; 3] = [200.0 / 67.0, 200.0 / 57.0, 200.0 / 133.0];
 
-/// The law as a difference from the uniform flow.
-pub struct Deviation {
-    /// Gap and speed of the uniform flow.
-    pub gap: f64,
-    pub speed: f64,
-    /// Deviations of gap, own speed and speed ahead.
-    pub from: [f64; 3],
-}
-
-impl Visitor for Deviation {
-    type Output = f64;
-    fn visit<L: Law + 'static>(self, law: L) -> f64 {
-        let base = law.base(self.gap - L::CONTACT, self.speed);
-        law.deviation(&base, self.from[0], self.from[1], self.from[2])
-    }
+/// The acceleration as a difference from that of the uniform flow with this gap and speed, for deviations of gap, own
+/// speed and speed ahead.
+pub fn deviation(model: &Model, gap: f64, speed: f64, from: [f64; 3]) -> f64 {
+    let flow = Flow { net_gap: gap - model.contact(), speed };
+    let mut accelerations = [0.0; 2];
+    model.force().deviations(flow, &[from[0], 0.0], &[from[1], from[2]], &mut accelerations);
+    accelerations[0]
 }

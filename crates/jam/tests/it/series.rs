@@ -95,16 +95,21 @@ fn series_of_deviations_keep_the_digits_of_a_small_perturbation() {
 }
 
 #[test]
-fn only_a_force_of_the_gap_alone_has_a_series() {
+fn deviations_have_a_series_where_the_force_depends_on_the_gap_alone() {
     for model in variants(&mut Random(19)) {
         let of_the_gap = match model {
             Model::Algebraic(law) => law.relative == 0.0 && law.widening == 0.0,
-            Model::Exponential(law) => law.contact == 0.0 && law.widening == 0.0,
+            Model::Exponential(law) => law.widening == 0.0,
             Model::Logarithmic(law) => law.widening == 0.0,
         };
         for kind in [FormKind::Deviations, FormKind::Gaps, FormKind::Positions] {
             let form = kind.build(&model, Ring { pedestrians: 5, length: 22.5 });
-            assert_eq!(form.has_series(), of_the_gap && kind != FormKind::Positions, "{model:?} {kind:?}");
+            let expected = match kind {
+                FormKind::Deviations => of_the_gap,
+                FormKind::Gaps => true,
+                FormKind::Positions => false,
+            };
+            assert_eq!(form.has_series(), expected, "{model:?} {kind:?}");
         }
     }
 }

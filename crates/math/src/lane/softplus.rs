@@ -68,6 +68,12 @@ impl SoftplusBase {
         share: 0.5,
     };
 
+    /// The point.
+    #[inline(always)]
+    pub fn point(&self) -> f64 {
+        self.point
+    }
+
     /// The base at a finite point.
     pub fn new(point: f64) -> SoftplusBase {
         let (sign, above, below) = if point >= 0.0 { (1.0, 1.0, 0.0) } else { (-1.0, 0.0, 1.0) };

@@ -9,33 +9,22 @@ mod road;
 
 pub use blocks::Cut;
 
-use crate::laws::{Law, Model, Visitor};
+use super::Steps;
+use crate::laws::{Law, Model};
 use crate::ring::Ring;
 use blocks::in_blocks;
-use math::row::LANES;
 use math::simd::{Kernel, Width, dispatch_up_to};
 use ode::Burst;
-use road::Road;
-
-/// Steps to be made: their law, the length of the ring, the length of a step, their number, and the widest registers to
-/// use, on which the bits do not depend.
-#[derive(Clone, Copy)]
-pub(crate) struct Steps<L> {
-    pub(crate) law: L,
-    pub(crate) length: f64,
-    pub(crate) h: f64,
-    pub(crate) count: u64,
-    pub(crate) limit: Width,
-}
+use road::{Road, W};
 
 /// Makes steps of the state `[x_0 .. x_{N-1}, v_0 .. v_{N-1}]`. An eventful burst leaves the state untouched.
-pub(crate) fn burst<L: Law>(steps: Steps<L>, cut: Option<Cut>, state: &mut [f64]) -> Burst {
+pub(super) fn burst<L: Law>(law: &L, steps: Steps, cut: Option<Cut>, state: &mut [f64]) -> Burst {
     let mut new = state.to_vec();
     let is_quiet_within = match cut {
-        Some(cut) => in_blocks(steps, cut, &mut new),
-        None => dispatch_up_to(steps.limit, InOne { steps, state: &mut new }),
+        Some(cut) => in_blocks(*law, steps, cut, &mut new),
+        None => dispatch_up_to(steps.limit, InOne { law: *law, steps, state: &mut new }),
     };
-    if is_quiet_within && is_quiet(&steps.law, steps.length, &new) {
+    if is_quiet_within && is_quiet(law, steps.length, &new) {
         state.copy_from_slice(&new);
         Burst::Quiet
     } else {
@@ -54,32 +43,16 @@ pub fn heun_steps(
     cut: Option<Cut>,
     limit: Width,
 ) -> Burst {
-    model.visit(Cutting { length: ring.length, h, count, state, cut, limit })
-}
-
-struct Cutting<'a> {
-    length: f64,
-    h: f64,
-    count: u64,
-    state: &'a mut [f64],
-    cut: Option<Cut>,
-    limit: Width,
-}
-
-impl Visitor for Cutting<'_> {
-    type Output = Burst;
-    fn visit<L: Law + 'static>(self, law: L) -> Burst {
-        let Cutting { length, h, count, state, cut, limit } = self;
-        burst(Steps { law, length, h, count, limit }, cut, state)
-    }
+    model.force().heun(Steps { length: ring.length, h, count, limit }, cut, state)
 }
 
 /// All pedestrians at once. Behind the last stand images of the first ones, one ring length ahead, so that the neighbour
 /// ahead is the next element, and the elements fill whole registers: the loops have no exception and no remainder.
 /// Before every evaluation two images are renewed: the one whom the last pedestrian follows, and the last one; those
 /// between follow that. They serve nobody, but are near enough to where they belong to raise no alarm.
-struct InOne<'a, L: Law> {
-    steps: Steps<L>,
+struct InOne<'a, L> {
+    law: L,
+    steps: Steps,
     state: &'a mut [f64],
 }
 
@@ -88,9 +61,20 @@ impl<L: Law> Kernel for InOne<'_, L> {
 
     #[inline(always)]
     fn run(self) -> bool {
-        let Steps { law, length, h, count, .. } = self.steps;
+        let law = self.law;
+        match law.plain() {
+            Some(plain) => self.steps(&plain),
+            None => self.steps(&law),
+        }
+    }
+}
+
+impl<L: Law> InOne<'_, L> {
+    #[inline(always)]
+    fn steps(self, law: &L) -> bool {
+        let Steps { length, h, count, .. } = self.steps;
         let n = self.state.len() / 2;
-        let size = n.next_multiple_of(LANES);
+        let size = n.next_multiple_of(W);
         let mut road = Road::new(size);
         let (positions, speeds) = self.state.split_at_mut(n);
         road.now.positions[..n].copy_from_slice(positions);
@@ -103,12 +87,12 @@ impl<L: Law> Kernel for InOne<'_, L> {
         for _ in 0..count {
             road.now.put_image(n, 0, length);
             road.now.put_image(size, last, turns);
-            if !road.predict(&law, h, 0..size) {
+            if !road.predict(law, h, 0..size) {
                 return false;
             }
             road.guess.put_image(n, 0, length);
             road.guess.put_image(size, last, turns);
-            road.correct(&law, h, 0..size);
+            road.correct(law, h, 0..size);
         }
         positions.copy_from_slice(&road.now.positions[..n]);
         speeds.copy_from_slice(&road.now.speeds[..n]);
@@ -121,7 +105,7 @@ fn is_quiet<L: Law>(law: &L, length: f64, state: &[f64]) -> bool {
     let (x, v) = state.split_at(state.len() / 2);
     let last = x.len() - 1;
     let is_quiet = |i: usize, ahead: f64, v_ahead: f64| {
-        let room = law.room(ahead - x[i] - L::CONTACT, v[i], v_ahead);
+        let room = law.effective_gap(ahead - x[i] - L::CONTACT, v[i], v_ahead);
         (room >= 0.0) & (v[i] >= 0.0)
     };
     (0..last).all(|i| is_quiet(i, x[i + 1], v[i + 1])) && is_quiet(last, x[0] + length, v[0])

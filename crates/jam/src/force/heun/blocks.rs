@@ -5,8 +5,8 @@
 //! become wrong with every step, the block itself never. Blocks are done in order, the foremost last, so that those
 //! ahead are still as they were. Every pedestrian is computed by the same operations as in one piece: the same bits, for any cut.
 
-use super::Steps;
 use super::road::Road;
+use crate::force::Steps;
 use crate::laws::Law;
 use math::simd::{Kernel, dispatch_up_to};
 use std::ops::Range;
@@ -39,11 +39,11 @@ impl Cut {
 }
 
 /// The steps of a burst; false if something happened in one of them.
-pub(super) fn in_blocks<L: Law>(steps: Steps<L>, cut: Cut, state: &mut [f64]) -> bool {
+pub(super) fn in_blocks<L: Law>(law: L, steps: Steps, cut: Cut, state: &mut [f64]) -> bool {
     let mut left = steps.count;
     while left > 0 {
         let count = left.min(cut.steps);
-        if !round(Steps { count, ..steps }, cut, state) {
+        if !round(law, Steps { count, ..steps }, cut, state) {
             return false;
         }
         left -= count;
@@ -52,13 +52,13 @@ pub(super) fn in_blocks<L: Law>(steps: Steps<L>, cut: Cut, state: &mut [f64]) ->
 }
 
 /// As many steps of everybody as a block makes at a time.
-fn round<L: Law>(steps: Steps<L>, cut: Cut, state: &mut [f64]) -> bool {
+fn round<L: Law>(law: L, steps: Steps, cut: Cut, state: &mut [f64]) -> bool {
     let parts = parts(steps.count, cut.threads, state);
     if parts.len() == 1 {
-        return parts.into_iter().all(|part| dispatch_up_to(steps.limit, Blocks { steps, size: cut.block, part }));
+        return parts.into_iter().all(|part| dispatch_up_to(steps.limit, Blocks { law, steps, size: cut.block, part }));
     }
     std::thread::scope(|scope| {
-        let work = |part| move || dispatch_up_to(steps.limit, Blocks { steps, size: cut.block, part });
+        let work = |part| move || dispatch_up_to(steps.limit, Blocks { law, steps, size: cut.block, part });
         let threads: Vec<_> = parts.into_iter().map(|part| scope.spawn(work(part))).collect();
         let quiet = threads.into_iter().map(|thread| thread.join().unwrap_or_else(|panic| resume_unwind(panic)));
         quiet.collect::<Vec<_>>().into_iter().all(|is_quiet| is_quiet)
@@ -96,7 +96,8 @@ fn parts(steps: u64, count: usize, state: &mut [f64]) -> Vec<Part<'_>> {
 
 /// The blocks of a part, one after the other.
 struct Blocks<'a, L> {
-    steps: Steps<L>,
+    law: L,
+    steps: Steps,
     size: usize,
     part: Part<'a>,
 }
@@ -106,14 +107,25 @@ impl<L: Law> Kernel for Blocks<'_, L> {
 
     #[inline(always)]
     fn run(self) -> bool {
-        let Blocks { steps, size, mut part } = self;
+        let law = self.law;
+        match law.plain() {
+            Some(plain) => self.all(&plain),
+            None => self.all(&law),
+        }
+    }
+}
+
+impl<L: Law> Blocks<'_, L> {
+    #[inline(always)]
+    fn all(self, law: &L) -> bool {
+        let Blocks { steps, size, mut part, .. } = self;
         // one place more for the image of pedestrian 0
         let mut road = Road::new(size + 2 * steps.count as usize + 1);
         let count = part.positions.len();
         let mut begin = 0;
         while begin < count {
             let end = count.min(begin + size);
-            if !block(&steps, &mut part, begin..end, &mut road) {
+            if !block(law, &steps, &mut part, begin..end, &mut road) {
                 return false;
             }
             begin = end;
@@ -124,8 +136,8 @@ impl<L: Law> Kernel for Blocks<'_, L> {
 
 /// The steps of one block.
 #[inline(always)]
-fn block<L: Law>(steps: &Steps<L>, part: &mut Part<'_>, range: Range<usize>, road: &mut Road) -> bool {
-    let Steps { law, length, h, count, .. } = *steps;
+fn block<L: Law>(law: &L, steps: &Steps, part: &mut Part<'_>, range: Range<usize>, road: &mut Road) -> bool {
+    let Steps { length, h, count, .. } = *steps;
     let own = range.len();
     let all = own + 2 * count as usize;
     let image = part.positions.len() - range.start;
@@ -140,14 +152,14 @@ fn block<L: Law>(steps: &Steps<L>, part: &mut Part<'_>, range: Range<usize>, roa
         }
         // those taken along become wrong, and so does what happens to them
         for (range, is_own) in [(0..own, true), (own..end, false)] {
-            if !road.predict(&law, h, range) && is_own {
+            if !road.predict(law, h, range) && is_own {
                 return false;
             }
         }
         if has_image {
             road.guess.put_image(image, image + 1, length);
         }
-        road.correct(&law, h, 0..end);
+        road.correct(law, h, 0..end);
     }
     part.positions[range.clone()].copy_from_slice(&road.now.positions[..own]);
     part.speeds[range].copy_from_slice(&road.now.speeds[..own]);

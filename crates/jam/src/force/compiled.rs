@@ -1,0 +1,184 @@
+//! The force of a law that is a Rust function: compiled for blocks of pedestrians.
+
+use super::blocks::{Block, around};
+use super::heun::{self, Cut};
+use super::series::{Memory, Motion};
+use super::{Flow, Force, Steps};
+use crate::laws::Law;
+use math::change::{Player, Recorder, Tape};
+use math::lanes::Lanes;
+use math::simd::{Kernel, dispatch};
+use ode::Burst;
+use std::cell::RefCell;
+
+/// The force of a law.
+#[derive(Clone, Debug)]
+pub struct Compiled<L: Law> {
+    law: L,
+    /// The uniform flow asked for last: once it is steady it is asked for again and again.
+    reference: RefCell<Reference>,
+    memory: RefCell<Memory>,
+}
+
+/// What the formula keeps of a uniform flow.
+#[derive(Clone, Debug)]
+struct Reference {
+    flow: Flow,
+    acceleration: f64,
+    tape: Tape,
+}
+
+impl Reference {
+    fn new<L: Law>(law: &L, flow: Flow) -> Reference {
+        let recorder = Recorder::new();
+        let speed = recorder.variable(flow.speed);
+        law.acceleration(recorder.variable(flow.net_gap), speed, speed);
+        let acceleration = law.acceleration(flow.net_gap, flow.speed, flow.speed);
+        Reference { flow, acceleration, tape: recorder.finish() }
+    }
+}
+
+impl<L: Law> Compiled<L> {
+    /// The force of this law.
+    pub fn new(law: L) -> Compiled<L> {
+        let reference = RefCell::new(Reference::new(&law, Flow { net_gap: 1.0, speed: 0.0 }));
+        Compiled { law, reference, memory: RefCell::default() }
+    }
+}
+
+impl<L: Law> Force for Compiled<L> {
+    fn contact(&self) -> f64 {
+        L::CONTACT
+    }
+
+    fn is_singular(&self) -> bool {
+        L::SINGULAR
+    }
+
+    fn accelerations(&self, net_gaps: &[f64], speeds: &[f64], accelerations: &mut [f64]) {
+        dispatch(Accelerations { law: self.law, net_gaps, speeds, accelerations });
+    }
+
+    fn deviations(&self, flow: Flow, spacings: &[f64], speeds: &[f64], accelerations: &mut [f64]) -> f64 {
+        let mut reference = self.reference.borrow_mut();
+        if reference.flow != flow {
+            *reference = Reference::new(&self.law, flow);
+        }
+        dispatch(Deviations { law: self.law, tape: &reference.tape, spacings, speeds, accelerations });
+        reference.acceleration
+    }
+
+    fn is_open(&self, flow: Flow, spacings: &[f64], speeds: &[f64]) -> bool {
+        !L::SINGULAR || dispatch(IsOpen { law: self.law, flow, spacings, speeds })
+    }
+
+    fn uses_speeds(&self) -> bool {
+        self.law.uses_speeds()
+    }
+
+    fn series(&self, motion: Motion<'_>) {
+        super::series::compiled(self.law, motion, &mut self.memory.borrow_mut());
+    }
+
+    fn heun(&self, steps: Steps, cut: Option<Cut>, state: &mut [f64]) -> Burst {
+        heun::burst(&self.law, steps, cut, state)
+    }
+}
+
+/// So many pedestrians at a time.
+const W: usize = 8;
+
+/// The accelerations of all pedestrians.
+struct Accelerations<'a, L> {
+    law: L,
+    net_gaps: &'a [f64],
+    speeds: &'a [f64],
+    accelerations: &'a mut [f64],
+}
+
+struct Values<L>(L);
+
+impl<L: Law> Block<W> for Values<L> {
+    const FILLER: [f64; 2] = [1.0, 0.0];
+
+    #[inline(always)]
+    fn value(&self, net_gap: Lanes<W>, speed: Lanes<W>, ahead: Lanes<W>) -> Lanes<W> {
+        self.0.acceleration(net_gap, speed, ahead)
+    }
+}
+
+impl<L: Law> Kernel for Accelerations<'_, L> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Accelerations { law, net_gaps, speeds, accelerations } = self;
+        match law.plain() {
+            Some(plain) => around(&Values(plain), net_gaps, speeds, accelerations),
+            None => around(&Values(law), net_gaps, speeds, accelerations),
+        }
+    }
+}
+
+/// The accelerations of all pedestrians less that of the uniform flow.
+struct Deviations<'a, L> {
+    law: L,
+    tape: &'a Tape,
+    spacings: &'a [f64],
+    speeds: &'a [f64],
+    accelerations: &'a mut [f64],
+}
+
+struct Changes<'a, L> {
+    law: L,
+    tape: &'a Tape,
+}
+
+impl<L: Law> Block<W> for Changes<'_, L> {
+    const FILLER: [f64; 2] = [0.0, 0.0];
+
+    #[inline(always)]
+    fn value(&self, spacing: Lanes<W>, speed: Lanes<W>, ahead: Lanes<W>) -> Lanes<W> {
+        let player = Player::new(self.tape);
+        self.law.acceleration(player.variable(spacing), player.variable(speed), player.variable(ahead)).change()
+    }
+}
+
+impl<L: Law> Kernel for Deviations<'_, L> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Deviations { law, tape, spacings, speeds, accelerations } = self;
+        match law.plain() {
+            Some(law) => around(&Changes { law, tape }, spacings, speeds, accelerations),
+            None => around(&Changes { law, tape }, spacings, speeds, accelerations),
+        }
+    }
+}
+
+/// Whether every effective gap is positive, for deviations from a uniform flow.
+struct IsOpen<'a, L> {
+    law: L,
+    flow: Flow,
+    spacings: &'a [f64],
+    speeds: &'a [f64],
+}
+
+impl<L: Law> Kernel for IsOpen<'_, L> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run(self) -> bool {
+        let IsOpen { law, flow, spacings, speeds } = self;
+        let open = law.effective_gap(flow.net_gap, flow.speed, flow.speed);
+        let last = spacings.len() - 1;
+        // the effective gap is linear: what the deviations add to that of the uniform flow
+        let closed = |s: f64, v: f64, w: f64| u64::from(open + law.effective_gap(s, v, w) <= 0.0);
+        let mut count = closed(spacings[last], speeds[last], speeds[0]);
+        for ((spacing, speed), ahead) in spacings.iter().zip(speeds).zip(&speeds[1..]) {
+            count += closed(*spacing, *speed, *ahead);
+        }
+        count == 0
+    }
+}

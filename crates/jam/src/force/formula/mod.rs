@@ -1,0 +1,192 @@
+//! The force of a law that is a formula in a scene: its graph, carried out by rows of pedestrians, with the bits that the
+//! same formula has as a Rust function.
+
+mod program;
+mod rows;
+mod series;
+
+use super::{Cut, Flow, Force, Motion, Steps};
+use formula::Bound;
+use math::change::rules::Kept;
+use math::simd::dispatch;
+use ode::Burst;
+pub use program::Source;
+use program::{Action, Function, Instruction, Program};
+use rows::{Machine, Neighbours, Reach, Rows};
+use std::cell::RefCell;
+use std::sync::Arc;
+
+/// A bound formula, ready to be carried out.
+#[derive(Clone, Debug)]
+pub struct Prepared {
+    contact: f64,
+    acceleration: Program,
+    reach: Reach,
+    /// How many operations keep something of earlier orders of a series.
+    operations: usize,
+    uses_speeds: bool,
+}
+
+impl Prepared {
+    /// Prepares a formula; `contact` is the spacing at which two touch.
+    pub fn new(bound: &Bound, contact: f64) -> Prepared {
+        let acceleration = Program::new(bound, bound.acceleration(), contact);
+        let reach = Reach::of(&acceleration);
+        let operations = acceleration.instructions.iter().map(|instruction| histories(&instruction.action)).sum();
+        let uses_speeds = !relaxes_only(&acceleration);
+        Prepared { contact, acceleration, reach, operations, uses_speeds }
+    }
+
+    /// The program of the acceleration.
+    pub fn acceleration(&self) -> &Program {
+        &self.acceleration
+    }
+
+    /// The spacing at which two touch.
+    pub fn contact(&self) -> f64 {
+        self.contact
+    }
+}
+
+/// How many histories an action takes ([`math::series`]).
+fn histories(action: &Action) -> usize {
+    match *action {
+        Action::Whole(n) if n > 1 => n as usize - 1,
+        Action::Whole(_) | Action::Power(_) | Action::Recip | Action::Function(_) => 1,
+        Action::Mul(_) | Action::Div(_) | Action::Min(_) | Action::Max(_) => 1,
+        _ => 0,
+    }
+}
+
+/// Whether speeds occur in no operation but linear ones with constants, so that a steady relaxation of the uniform flow
+/// is all that they do.
+fn relaxes_only(program: &Program) -> bool {
+    let mut depends = vec![false; program.registers];
+    let on_speed = |source: program::Source, depends: &[bool]| match source {
+        Source::Speed(_) => true,
+        Source::Register(register) => depends[register],
+        Source::Spacing { .. } => false,
+    };
+    for Instruction { action, of, into, .. } in &program.instructions {
+        let own = !matches!(action, Action::Constant(_)) && on_speed(*of, &depends);
+        let other = action.second().is_some_and(|source| on_speed(source, &depends));
+        if (own || other) && histories(action) > 0 {
+            return false;
+        }
+        depends[*into] = own || other;
+    }
+    true
+}
+
+/// The force of a formula.
+#[derive(Clone, Debug)]
+pub struct Interpreted {
+    prepared: Arc<Prepared>,
+    scratch: RefCell<Scratch>,
+}
+
+#[derive(Clone, Debug, Default)]
+struct Scratch {
+    neighbours: Neighbours,
+    machine: Machine,
+    reference: Option<(Flow, f64)>,
+    kept: Vec<Kept>,
+    memory: series::Memory,
+}
+
+impl Interpreted {
+    /// The force of this formula.
+    pub fn new(prepared: Arc<Prepared>) -> Interpreted {
+        let mut scratch = Scratch::default();
+        scratch.machine.resize(prepared.acceleration.registers);
+        Interpreted { prepared, scratch: RefCell::new(scratch) }
+    }
+}
+
+impl Force for Interpreted {
+    fn contact(&self) -> f64 {
+        self.prepared.contact
+    }
+
+    fn is_singular(&self) -> bool {
+        false
+    }
+
+    fn accelerations(&self, net_gaps: &[f64], speeds: &[f64], accelerations: &mut [f64]) {
+        let Scratch { neighbours, machine, .. } = &mut *self.scratch.borrow_mut();
+        let Prepared { acceleration: program, reach, contact, .. } = &*self.prepared;
+        neighbours.fill(*reach, net_gaps, speeds, *contact);
+        dispatch(Rows { program, kept: None, neighbours, machine, result: accelerations });
+    }
+
+    fn deviations(&self, flow: Flow, spacings: &[f64], speeds: &[f64], accelerations: &mut [f64]) -> f64 {
+        let Scratch { neighbours, machine, reference, kept, .. } = &mut *self.scratch.borrow_mut();
+        let Prepared { acceleration: program, reach, contact, .. } = &*self.prepared;
+        let uniform = match *reference {
+            Some((known, acceleration)) if known == flow => acceleration,
+            _ => keep(program, flow, *contact, kept),
+        };
+        *reference = Some((flow, uniform));
+        neighbours.fill(*reach, spacings, speeds, 0.0);
+        dispatch(Rows { program, kept: Some(kept), neighbours, machine, result: accelerations });
+        uniform
+    }
+
+    fn is_open(&self, _flow: Flow, _spacings: &[f64], _speeds: &[f64]) -> bool {
+        true
+    }
+
+    fn uses_speeds(&self) -> bool {
+        self.prepared.uses_speeds
+    }
+
+    fn series(&self, motion: Motion<'_>) {
+        let Prepared { acceleration: program, operations, contact, .. } = &*self.prepared;
+        let memory = &mut self.scratch.borrow_mut().memory;
+        dispatch(series::Coefficients { program, operations: *operations, contact: *contact, motion, memory });
+    }
+
+    fn heun(&self, _steps: Steps, _cut: Option<Cut>, _state: &mut [f64]) -> Burst {
+        Burst::NotOffered
+    }
+}
+
+/// Writes what each instruction keeps of a uniform flow, and returns the acceleration there.
+fn keep(program: &Program, flow: Flow, contact: f64, kept: &mut Vec<Kept>) -> f64 {
+    let mut registers = vec![0.0; program.registers];
+    let variable = |source: Source, registers: &[f64]| match source {
+        Source::Spacing { net, .. } => flow.net_gap + if net { 0.0 } else { contact },
+        Source::Speed(_) => flow.speed,
+        Source::Register(register) => registers[register],
+    };
+    kept.clear();
+    for Instruction { action, of, into, .. } in &program.instructions {
+        let x = variable(*of, &registers);
+        let y = action.second().map_or(0.0, |source| variable(source, &registers));
+        kept.push(kept_of(*action, x, y));
+        let value = action.act(x, |source| variable(source, &registers));
+        registers[*into] = value;
+    }
+    variable(program.result, &registers)
+}
+
+fn kept_of(action: Action, x: f64, y: f64) -> Kept {
+    match action {
+        Action::Recip => Kept::of_recip(x),
+        Action::Whole(n) => Kept::of_whole_power(x, n),
+        Action::Power(q) => Kept::of_power(x, q),
+        Action::Mul(_) => Kept::of_product(x, y),
+        Action::Div(_) => Kept::of_quotient(x, y),
+        Action::Min(_) | Action::Max(_) => Kept::of_pair(x, y),
+        Action::Function(function) => match function {
+            Function::Exp | Function::ExpM1 => Kept::of_exp(x),
+            Function::Ln => Kept::of_ln(x),
+            Function::Ln1p => Kept::of_ln_1p(x),
+            Function::Sqrt => Kept::of_sqrt(x),
+            Function::Tanh => Kept::of_tanh(x),
+            Function::Softplus => Kept::of_softplus(x),
+            Function::Abs => Kept::of_abs(x),
+        },
+        _ => Kept::default(),
+    }
+}

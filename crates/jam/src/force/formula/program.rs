@@ -1,0 +1,376 @@
+//! A formula as a list of instructions on registers, each of which holds a number for every pedestrian of a row.
+
+use formula::{Binary, Bound, Id, Operation, Unary, Variable};
+use math::number::Number;
+
+/// Where an instruction finds an operand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Source {
+    /// The spacing of pedestrian n + j, less the contact if `net`.
+    Spacing {
+        /// Whose.
+        j: i32,
+        /// Whether it is the net gap.
+        net: bool,
+    },
+    /// The speed of pedestrian n + j.
+    Speed(i32),
+    /// What an instruction left.
+    Register(usize),
+}
+
+/// What an instruction does with a number and a constant, with a number, or with two.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Action {
+    /// A number that is the same for everybody; the operand says nothing.
+    Constant(f64),
+    /// `x + c`
+    AddConstant(f64),
+    /// `x c`
+    MulConstant(f64),
+    /// `x / c`
+    DivConstant(f64),
+    /// `-x`
+    Neg,
+    /// `1 / x`
+    Recip,
+    /// `x^n`
+    Whole(i32),
+    /// `x^q`
+    Power(f64),
+    /// A function of one number.
+    Function(Function),
+    /// `x + y`
+    Add(Source),
+    /// `x - y`
+    Sub(Source),
+    /// `x y`
+    Mul(Source),
+    /// `x / y`
+    Div(Source),
+    /// The smaller one.
+    Min(Source),
+    /// The larger one.
+    Max(Source),
+}
+
+/// Functions of one number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Function {
+    /// e^x
+    Exp,
+    /// e^x - 1
+    ExpM1,
+    /// ln x
+    Ln,
+    /// ln(1 + x)
+    Ln1p,
+    /// The square root.
+    Sqrt,
+    /// tanh x
+    Tanh,
+    /// ln(1 + e^x)
+    Softplus,
+    /// |x|
+    Abs,
+}
+
+/// One instruction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Instruction {
+    /// What it does.
+    pub action: Action,
+    /// With what.
+    pub of: Source,
+    /// The register of its result, which is none of its operands.
+    pub into: usize,
+    /// The node of the graph that it belongs to, for messages.
+    pub node: Id,
+}
+
+/// The instructions for one root of a graph.
+#[derive(Clone, Debug)]
+pub struct Program {
+    /// In the order in which they are carried out.
+    pub instructions: Vec<Instruction>,
+    /// As many registers as they need.
+    pub registers: usize,
+    /// Where the result is.
+    pub result: Source,
+}
+
+/// Builds a program; every instruction has a register of its own at first.
+struct Builder<'a> {
+    bound: &'a Bound,
+    contact: f64,
+    instructions: Vec<Instruction>,
+    sources: Vec<Option<Source>>,
+}
+
+impl Program {
+    /// The program of a root. Where the graph takes the contact off a spacing, the net gap is there already.
+    pub fn new(bound: &Bound, root: Id, contact: f64) -> Program {
+        let needed = bound.needed(root);
+        let sources = vec![None; bound.nodes().len()];
+        let mut builder = Builder { bound, contact, instructions: Vec::new(), sources };
+        for node in (0..=root).filter(|&node| needed[node]) {
+            builder.node(node);
+        }
+        let result = builder.source(root, root);
+        let mut program = Program { registers: builder.instructions.len(), instructions: builder.instructions, result };
+        program.share_registers();
+        program
+    }
+
+    /// Carries the program out with any number; `variable` gives the variables.
+    pub fn carry_out<X: Number>(&self, variable: impl Fn(Source) -> X) -> X {
+        let anything = variable(Source::Speed(0));
+        let mut registers = vec![anything; self.registers];
+        for Instruction { action, of, into, .. } in &self.instructions {
+            let get = |source: Source| match source {
+                Source::Register(index) => registers[index],
+                other => variable(other),
+            };
+            registers[*into] = action.act(get(*of), get);
+        }
+        match self.result {
+            Source::Register(index) => registers[index],
+            other => variable(other),
+        }
+    }
+
+    /// The variables that occur.
+    pub fn variables(&self) -> Vec<Source> {
+        let operands = self.instructions.iter().flat_map(|instruction| {
+            let second = instruction.action.second();
+            std::iter::once(instruction.of).chain(second)
+        });
+        let mut variables: Vec<Source> = Vec::new();
+        for source in operands.chain([self.result]) {
+            if !matches!(source, Source::Register(_)) && !variables.contains(&source) {
+                variables.push(source);
+            }
+        }
+        variables
+    }
+
+    /// Gives registers whose contents nobody needs any more to later instructions.
+    fn share_registers(&mut self) {
+        let mut last_use = vec![0; self.instructions.len()];
+        for (index, instruction) in self.instructions.iter().enumerate() {
+            for source in std::iter::once(instruction.of).chain(instruction.action.second()) {
+                if let Source::Register(register) = source {
+                    last_use[register] = index;
+                }
+            }
+        }
+        if let Source::Register(register) = self.result {
+            last_use[register] = usize::MAX;
+        }
+        let (mut free, mut count): (Vec<usize>, usize) = (Vec::new(), 0);
+        let mut place = vec![0; self.instructions.len()];
+        for index in 0..self.instructions.len() {
+            let register = free.pop().unwrap_or_else(|| {
+                count += 1;
+                count - 1
+            });
+            place[index] = register;
+            let operands: Vec<usize> = {
+                let instruction = &self.instructions[index];
+                let sources = std::iter::once(instruction.of).chain(instruction.action.second());
+                sources.filter_map(|source| if let Source::Register(own) = source { Some(own) } else { None }).collect()
+            };
+            let moved = |source: Source| match source {
+                Source::Register(own) => Source::Register(place[own]),
+                other => other,
+            };
+            let instruction = &mut self.instructions[index];
+            instruction.of = moved(instruction.of);
+            instruction.action = instruction.action.map(moved);
+            instruction.into = register;
+            for (position, own) in operands.iter().enumerate() {
+                if last_use[*own] == index && !operands[..position].contains(own) {
+                    free.push(place[*own]);
+                }
+            }
+        }
+        if let Source::Register(own) = self.result {
+            self.result = Source::Register(place[own]);
+        }
+        self.registers = count;
+    }
+}
+
+impl Action {
+    /// Does it, with a number and, where there is a second operand, with what `get` finds.
+    #[inline(always)]
+    pub fn act<X: Number>(&self, x: X, get: impl Fn(Source) -> X) -> X {
+        match *self {
+            Action::Constant(c) => x * 0.0 + c,
+            Action::AddConstant(c) => x + c,
+            Action::MulConstant(c) => x * c,
+            Action::DivConstant(c) => x / c,
+            Action::Neg => -x,
+            Action::Recip => x.recip(),
+            Action::Whole(n) => x.powi(n),
+            Action::Power(q) => x.powf(q),
+            Action::Function(function) => function.of(x),
+            Action::Add(y) => x + get(y),
+            Action::Sub(y) => x - get(y),
+            Action::Mul(y) => x * get(y),
+            Action::Div(y) => x / get(y),
+            Action::Min(y) => x.min(get(y)),
+            Action::Max(y) => x.max(get(y)),
+        }
+    }
+
+    /// The second operand, if there is one.
+    pub fn second(&self) -> Option<Source> {
+        match *self {
+            Action::Add(y) | Action::Sub(y) | Action::Mul(y) | Action::Div(y) | Action::Min(y) | Action::Max(y) => {
+                Some(y)
+            }
+            _ => None,
+        }
+    }
+
+    fn map(self, moved: impl Fn(Source) -> Source) -> Action {
+        match self {
+            Action::Add(y) => Action::Add(moved(y)),
+            Action::Sub(y) => Action::Sub(moved(y)),
+            Action::Mul(y) => Action::Mul(moved(y)),
+            Action::Div(y) => Action::Div(moved(y)),
+            Action::Min(y) => Action::Min(moved(y)),
+            Action::Max(y) => Action::Max(moved(y)),
+            other => other,
+        }
+    }
+}
+
+impl Function {
+    /// Its value.
+    #[inline(always)]
+    fn of<X: Number>(self, x: X) -> X {
+        match self {
+            Function::Exp => x.exp(),
+            Function::ExpM1 => x.exp_m1(),
+            Function::Ln => x.ln(),
+            Function::Ln1p => x.ln_1p(),
+            Function::Sqrt => x.sqrt(),
+            Function::Tanh => x.tanh(),
+            Function::Softplus => x.softplus(),
+            Function::Abs => x.abs(),
+        }
+    }
+}
+
+impl Builder<'_> {
+    fn constant(&self, node: Id) -> Option<f64> {
+        match self.bound.nodes()[node] {
+            Operation::Constant(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// Where the value of a node is; a constant is put into a register for `user`.
+    fn source(&mut self, node: Id, user: Id) -> Source {
+        if let Some(source) = self.sources[node] {
+            return source;
+        }
+        let value = self.constant(node).unwrap_or(f64::NAN);
+        let source = self.push(Action::Constant(value), Source::Speed(0), user);
+        self.sources[node] = Some(source);
+        source
+    }
+
+    fn push(&mut self, action: Action, of: Source, node: Id) -> Source {
+        let into = self.instructions.len();
+        self.instructions.push(Instruction { action, of, into, node });
+        Source::Register(into)
+    }
+
+    fn node(&mut self, node: Id) {
+        let source = match self.bound.nodes()[node] {
+            // put where it is needed, as part of an instruction if possible
+            Operation::Constant(_) => return,
+            Operation::Variable(Variable::Spacing(j)) => Source::Spacing { j, net: false },
+            Operation::Variable(Variable::Speed(j)) => Source::Speed(j),
+            // a law has none
+            Operation::Variable(Variable::Free(_)) => return,
+            Operation::Unary(unary, a) => {
+                let of = self.source(a, node);
+                self.push(unary_action(unary), of, node)
+            }
+            Operation::Power(a, n) => {
+                let of = self.source(a, node);
+                self.push(if n == -1 { Action::Recip } else { Action::Whole(n) }, of, node)
+            }
+            Operation::Binary(binary, a, b) => self.binary(binary, a, b, node),
+        };
+        self.sources[node] = Some(source);
+    }
+
+    fn binary(&mut self, binary: Binary, a: Id, b: Id, node: Id) -> Source {
+        let net_gap = match (binary, self.bound.nodes()[a], self.constant(b)) {
+            (Binary::Sub, Operation::Variable(Variable::Spacing(j)), Some(c)) if c == self.contact => Some(j),
+            _ => None,
+        };
+        if let Some(j) = net_gap {
+            return Source::Spacing { j, net: true };
+        }
+        match (binary, self.constant(a), self.constant(b)) {
+            (Binary::Add, Some(c), _) => self.with_constant(Action::AddConstant(c), b, node),
+            (Binary::Add, _, Some(c)) => self.with_constant(Action::AddConstant(c), a, node),
+            (Binary::Sub, _, Some(c)) => self.with_constant(Action::AddConstant(-c), a, node),
+            (Binary::Sub, Some(c), _) => {
+                let minus = self.with_constant(Action::Neg, b, node);
+                self.push(Action::AddConstant(c), minus, node)
+            }
+            (Binary::Mul, Some(c), _) => self.with_constant(Action::MulConstant(c), b, node),
+            (Binary::Mul, _, Some(c)) => self.with_constant(Action::MulConstant(c), a, node),
+            (Binary::Div, _, Some(c)) => self.with_constant(Action::DivConstant(c), a, node),
+            (Binary::Pow, _, Some(q)) => self.with_constant(Action::Power(q), a, node),
+            (Binary::Pow, ..) => {
+                // a^b = exp(b ln a), as math::lane::pow has it
+                let (of, exponent) = (self.source(a, node), self.source(b, node));
+                let logarithm = match self.constant(a) {
+                    Some(c) => self.push(Action::Constant(math::lane::ln(c)), of, node),
+                    None => self.push(Action::Function(Function::Ln), of, node),
+                };
+                let product = self.push(Action::Mul(logarithm), exponent, node);
+                self.push(Action::Function(Function::Exp), product, node)
+            }
+            (_, _, _) => {
+                let (first, second) = (self.source(a, node), self.source(b, node));
+                let action = match binary {
+                    Binary::Add => Action::Add(second),
+                    Binary::Sub => Action::Sub(second),
+                    Binary::Mul => Action::Mul(second),
+                    Binary::Div | Binary::Pow => Action::Div(second),
+                    Binary::Min => Action::Min(second),
+                    Binary::Max => Action::Max(second),
+                };
+                self.push(action, first, node)
+            }
+        }
+    }
+
+    fn with_constant(&mut self, action: Action, of: Id, node: Id) -> Source {
+        let of = self.source(of, node);
+        self.push(action, of, node)
+    }
+}
+
+fn unary_action(unary: Unary) -> Action {
+    Action::Function(match unary {
+        Unary::Neg => return Action::Neg,
+        Unary::Exp => Function::Exp,
+        Unary::ExpM1 => Function::ExpM1,
+        Unary::Ln => Function::Ln,
+        Unary::Ln1p => Function::Ln1p,
+        Unary::Sqrt => Function::Sqrt,
+        Unary::Tanh => Function::Tanh,
+        Unary::Softplus => Function::Softplus,
+        Unary::Abs => Function::Abs,
+    })
+}

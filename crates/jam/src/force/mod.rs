@@ -1,0 +1,68 @@
+//! The force on all pedestrians of a ring at once: what the forms of a state ask of a law.
+
+mod blocks;
+mod compiled;
+mod formula;
+mod heun;
+mod series;
+
+pub use compiled::Compiled;
+pub use formula::{Interpreted, Prepared, Source};
+pub use heun::{Cut, heun_steps};
+pub use series::Motion;
+
+use math::simd::Width;
+use ode::Burst;
+
+/// The force on the pedestrians of a ring, of whom each follows the next and the last the first. Rows hold a number for
+/// each of them.
+pub trait Force: std::fmt::Debug + Send {
+    /// The spacing at which two standing pedestrians touch; the net gap is the spacing less this.
+    fn contact(&self) -> f64;
+
+    /// Whether the force is infinite where the effective gap closes.
+    fn is_singular(&self) -> bool;
+
+    /// Writes the accelerations at these net gaps and speeds.
+    fn accelerations(&self, net_gaps: &[f64], speeds: &[f64], accelerations: &mut [f64]);
+
+    /// Writes the accelerations less that of the uniform flow, for deviations of spacings and speeds from it, and returns
+    /// that of the uniform flow. Their error is relative to the deviations, however small these are.
+    fn deviations(&self, flow: Flow, spacings: &[f64], speeds: &[f64], accelerations: &mut [f64]) -> f64;
+
+    /// Whether every effective gap is open, for such deviations. At once true where the force is not singular.
+    fn is_open(&self, flow: Flow, spacings: &[f64], speeds: &[f64]) -> bool;
+
+    /// Whether the force, the relaxation of one's own speed apart, depends on speeds.
+    fn uses_speeds(&self) -> bool;
+
+    /// Writes the Taylor coefficients of a motion.
+    fn series(&self, motion: Motion<'_>);
+
+    /// Makes steps of Heun's scheme of the state `[x_0 .. x_{N-1}, v_0 .. v_{N-1}]`, in one piece or cut. A batch in which
+    /// something happens leaves the state untouched.
+    fn heun(&self, steps: Steps, cut: Option<Cut>, state: &mut [f64]) -> Burst;
+}
+
+/// A uniform flow: everybody with the same net gap and speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flow {
+    /// The net gap, headway less contact.
+    pub net_gap: f64,
+    /// The speed.
+    pub speed: f64,
+}
+
+/// Steps to be made: the length of the ring, the length of a step, their number, and the widest registers to use, on
+/// which the bits do not depend.
+#[derive(Clone, Copy, Debug)]
+pub struct Steps {
+    /// Length of the ring.
+    pub length: f64,
+    /// Length of a step.
+    pub h: f64,
+    /// Number of steps.
+    pub count: u64,
+    /// The widest registers.
+    pub limit: Width,
+}
