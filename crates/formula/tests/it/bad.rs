@@ -215,7 +215,7 @@ fn values_without_a_meaning_are_found_on_binding() {
             Err(error) => assert_error(&error, 2, column, found, valid),
             // division of a variable by 0 is found when it is carried out
             Ok(bound) => {
-                let error = bound.eval(bound.acceleration(), |_| 1.0_f64).expect_err(text);
+                let error = bound.eval(bound.acceleration(), |_| 1.0).expect_err(text);
                 assert_error(&error, 2, column - 1, "(1.0) / (0.0)", "divisor");
             }
         }
