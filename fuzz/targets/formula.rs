@@ -5,7 +5,7 @@ use formula::{Definition, Error, Expression, Given, Place, Variable, law};
 /// Tries one file: a law whose lines are `name = number` and `name = expression`, and the whole of it as one expression.
 pub fn read(bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
-    let definitions: Vec<Definition<'_>> = text.lines().enumerate().filter_map(|line| definition(line)).collect();
+    let definitions: Vec<Definition<'_>> = text.lines().enumerate().filter_map(definition).collect();
     let bound = law("scene.toml", Place { line: 1, column: 1 }, &definitions).and_then(|graph| {
         let stencil = graph.stencil();
         assert!(stencil.spacings.iter().chain(&stencil.speeds).all(|j| j.abs() <= formula::limits::FARTHEST));
