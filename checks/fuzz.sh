@@ -12,7 +12,7 @@ command -v c++ >/dev/null || { echo "skipped: a C++ compiler is missing (apt-get
 [ "$(uname -s)-$(uname -m)" = Linux-x86_64 ] || { echo "skipped: tried on Linux on x86-64 only"; exit 0; }
 count=${1:?inputs for each reader, or --regress}
 shift
-[ $# -gt 0 ] || set -- scene run checkpoint table claims sheet sums events manifest precision
+[ $# -gt 0 ] || set -- scene run checkpoint table claims sheet sums events manifest precision formula
 coverage="-Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=4"
 coverage+=" -Cllvm-args=-sanitizer-coverage-inline-8bit-counters -Cllvm-args=-sanitizer-coverage-pc-table"
 coverage+=" -Cllvm-args=-sanitizer-coverage-trace-compares -Ccodegen-units=1"

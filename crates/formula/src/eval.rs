@@ -1,68 +1,67 @@
-//! Evaluation by numbers of any kind.
+//! Evaluation: operations carried out in the order of the list, by numbers of any kind.
 
+use crate::Bound;
 use crate::operation::{Binary, Id, Operation, Unary, Variable};
 use crate::place::Error;
-use crate::{Bound, Number};
-
-/// The value of a node.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Value<T> {
-    /// It depends on no variable.
-    Constant(f64),
-    /// It depends on one.
-    Number(T),
-}
-
-impl<T: Number> Value<T> {
-    /// The nearest double.
-    pub fn nearest(&self) -> f64 {
-        match self {
-            Value::Constant(value) => *value,
-            Value::Number(number) => number.nearest(),
-        }
-    }
-
-    /// The number; `constant` makes one of a double.
-    pub fn number(self, constant: impl FnOnce(f64) -> T) -> T {
-        match self {
-            Value::Constant(value) => constant(value),
-            Value::Number(number) => number,
-        }
-    }
-}
+use math::number::Number;
 
 impl Bound {
-    /// The value of a root, by carrying out what it needs in the order of the list.
+    /// The value of a root in doubles, by carrying out what it needs in the order of the list.
     ///
     /// Infinite values on the way are allowed, as long as the result is finite.
     ///
     /// # Errors
     /// The result is not finite: the operation that is to blame, its operands, and where it stands.
-    pub fn eval<T: Number>(&self, root: Id, mut variable: impl FnMut(Variable) -> T) -> Result<Value<T>, Error> {
+    pub fn eval(&self, root: Id, variable: impl FnMut(Variable) -> f64) -> Result<f64, Error> {
+        let values = self.values(root, |constant| constant, variable);
+        let value = values[root];
+        if value.is_finite() { Ok(value) } else { Err(self.culprit(root, &values)) }
+    }
+
+    /// The value of a root in numbers of any kind, of which `constant` makes those that depend on nothing.
+    pub fn carry_out<T: Number>(
+        &self,
+        root: Id,
+        constant: impl Fn(f64) -> T,
+        variable: impl FnMut(Variable) -> T,
+    ) -> T {
+        self.values(root, constant, variable)[root]
+    }
+
+    /// The values of all nodes up to a root; 0 for those that it does not need.
+    fn values<T: Number>(
+        &self,
+        root: Id,
+        constant: impl Fn(f64) -> T,
+        mut variable: impl FnMut(Variable) -> T,
+    ) -> Vec<T> {
         let needed = self.needed(root);
-        let mut values: Vec<Value<T>> = Vec::with_capacity(root + 1);
+        let mut values: Vec<T> = Vec::with_capacity(root + 1);
         for (id, node) in self.nodes[..=root].iter().enumerate() {
-            let value = match node {
-                _ if !needed[id] => Value::Constant(0.0),
-                Operation::Constant(value) => Value::Constant(*value),
-                Operation::Variable(name) => Value::Number(variable(*name)),
-                Operation::Unary(unary, a) => apply(*unary, &values[*a]),
-                Operation::Binary(binary, a, b) => combine(*binary, &values[*a], &values[*b]),
-                Operation::Power(a, n) => power(&values[*a], *n),
+            let value = match *node {
+                _ if !needed[id] => constant(0.0),
+                Operation::Constant(value) => constant(value),
+                Operation::Variable(name) => variable(name),
+                Operation::Unary(unary, a) => apply(unary, values[a]),
+                Operation::Power(a, n) => values[a].powi(n),
+                Operation::Binary(binary, a, b) => match (binary, self.nodes[a], self.nodes[b]) {
+                    // where a constant can stand as it is, it costs less
+                    (Binary::Add, Operation::Constant(c), _) => values[b] + c,
+                    (Binary::Add, _, Operation::Constant(c)) => values[a] + c,
+                    (Binary::Sub, _, Operation::Constant(c)) => values[a] - c,
+                    (Binary::Mul, Operation::Constant(c), _) => values[b] * c,
+                    (Binary::Mul, _, Operation::Constant(c)) => values[a] * c,
+                    (Binary::Div, _, Operation::Constant(c)) => values[a] / c,
+                    (Binary::Pow, _, Operation::Constant(c)) => values[a].powf(c),
+                    _ => combine(binary, values[a], values[b]),
+                },
             };
             values.push(value);
         }
-        match values.pop() {
-            Some(value) if value.nearest().is_finite() => Ok(value),
-            last => {
-                values.extend(last);
-                let doubles: Vec<f64> = values.iter().map(Value::nearest).collect();
-                Err(self.culprit(root, &doubles))
-            }
-        }
+        values
     }
 
-    /// The message about the operation that made a root without a value what it is, from the values of all nodes.
+    /// The message about the operation that left a root without a finite value, from the values of all nodes.
     pub fn culprit(&self, root: Id, values: &[f64]) -> Error {
         let mut node = root;
         loop {
@@ -79,17 +78,10 @@ impl Bound {
     }
 }
 
-/// An operation on one value.
-pub(crate) fn apply<T: Number>(unary: Unary, a: &Value<T>) -> Value<T> {
-    match a {
-        Value::Constant(a) => Value::Constant(function(unary, a)),
-        Value::Number(a) => Value::Number(function(unary, a)),
-    }
-}
-
-fn function<T: Number>(unary: Unary, a: &T) -> T {
+/// An operation on one number.
+pub(crate) fn apply<T: Number>(unary: Unary, a: T) -> T {
     match unary {
-        Unary::Neg => a.neg(),
+        Unary::Neg => -a,
         Unary::Exp => a.exp(),
         Unary::ExpM1 => a.exp_m1(),
         Unary::Ln => a.ln(),
@@ -101,47 +93,15 @@ fn function<T: Number>(unary: Unary, a: &T) -> T {
     }
 }
 
-/// A whole power.
-pub(crate) fn power<T: Number>(a: &Value<T>, n: i32) -> Value<T> {
-    match a {
-        Value::Constant(a) => Value::Constant(Number::power(a, n)),
-        Value::Number(a) => Value::Number(a.power(n)),
-    }
-}
-
-/// An operation on two values.
-pub(crate) fn combine<T: Number>(binary: Binary, a: &Value<T>, b: &Value<T>) -> Value<T> {
-    match (a, b) {
-        (Value::Constant(a), Value::Constant(b)) => Value::Constant(of_numbers(binary, a, b)),
-        (Value::Number(a), Value::Number(b)) => Value::Number(of_numbers(binary, a, b)),
-        (Value::Number(a), Value::Constant(c)) => Value::Number(match binary {
-            Binary::Add => a.add_constant(*c),
-            Binary::Sub => a.sub_constant(*c),
-            Binary::Mul => a.mul_constant(*c),
-            Binary::Div => a.div_constant(*c),
-            Binary::Pow => a.pow_constant(*c),
-            Binary::Min => a.min(&a.constant(*c)),
-            Binary::Max => a.max(&a.constant(*c)),
-        }),
-        (Value::Constant(c), Value::Number(b)) => Value::Number(match binary {
-            Binary::Add => b.add_constant(*c),
-            Binary::Sub => b.constant_sub(*c),
-            Binary::Mul => b.mul_constant(*c),
-            Binary::Div => b.constant_div(*c),
-            Binary::Pow => b.constant_pow(*c),
-            Binary::Min => b.constant(*c).min(b),
-            Binary::Max => b.constant(*c).max(b),
-        }),
-    }
-}
-
-fn of_numbers<T: Number>(binary: Binary, a: &T, b: &T) -> T {
+/// An operation on two numbers.
+pub(crate) fn combine<T: Number>(binary: Binary, a: T, b: T) -> T {
     match binary {
-        Binary::Add => a.add(b),
-        Binary::Sub => a.sub(b),
-        Binary::Mul => a.mul(b),
-        Binary::Div => a.div(b),
-        Binary::Pow => a.pow(b),
+        Binary::Add => a + b,
+        Binary::Sub => a - b,
+        Binary::Mul => a * b,
+        Binary::Div => a / b,
+        // as math::lane::pow has it
+        Binary::Pow => (b * a.ln()).exp(),
         Binary::Min => a.min(b),
         Binary::Max => a.max(b),
     }

@@ -1,11 +1,12 @@
 //! One expression whose names are variables.
 
+use crate::Bound;
 use crate::build::Builder;
 use crate::graph::Graph;
 use crate::operation::{Operation, Variable};
 use crate::parse::{Vocabulary, parse};
 use crate::place::{Error, Place, Problem};
-use crate::{Bound, Number, Value};
+use math::number::Number;
 use std::collections::BTreeMap;
 
 /// An expression outside of a law: functions, constants and operators as there, but `s v x j sum` are names like all others,
@@ -31,15 +32,25 @@ impl Expression {
         &self.names
     }
 
-    /// The value, with `variable` giving that of each name, by its place in [`names`](Expression::names).
+    /// The value in doubles, with `variable` giving that of each name, by its place in [`names`](Expression::names).
     ///
     /// # Errors
-    /// The part that has no value, such as the logarithm of a negative number.
-    pub fn eval<T: Number>(&self, mut variable: impl FnMut(usize) -> T) -> Result<Value<T>, Error> {
-        self.bound.eval(self.bound.roots()[0], |free| match free {
-            Variable::Free(place) => variable(place),
-            Variable::Spacing(_) | Variable::Speed(_) => unreachable!("only a law has neighbours"),
-        })
+    /// The part that has no finite value, such as the logarithm of a negative number.
+    pub fn eval(&self, variable: impl FnMut(usize) -> f64) -> Result<f64, Error> {
+        self.bound.eval(self.bound.roots()[0], of_names(variable))
+    }
+
+    /// The value in numbers of any kind, of which `constant` makes those that depend on nothing.
+    pub fn carry_out<T: Number>(&self, constant: impl Fn(f64) -> T, variable: impl FnMut(usize) -> T) -> T {
+        self.bound.carry_out(self.bound.roots()[0], constant, of_names(variable))
+    }
+}
+
+/// The values of variables from those of names.
+fn of_names<T>(mut variable: impl FnMut(usize) -> T) -> impl FnMut(Variable) -> T {
+    move |free| match free {
+        Variable::Free(place) => variable(place),
+        Variable::Spacing(_) | Variable::Speed(_) => unreachable!("only a law has neighbours"),
     }
 }
 

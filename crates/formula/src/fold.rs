@@ -2,11 +2,11 @@
 
 use crate::Bound;
 use crate::arena::Arena;
-use crate::eval::{self, Value};
+use crate::eval;
 use crate::graph::{Graph, Symbol};
-use crate::limits::LARGEST_POWER;
 use crate::operation::{Binary, Id, Operation, Unary};
 use crate::place::{Place, Problem};
+use math::number::{Number, whole};
 use std::collections::BTreeMap;
 
 /// What became of a node.
@@ -159,7 +159,7 @@ impl Folder {
         match (unary, a, a.number()) {
             (Unary::Neg, Folded::Gone, _) => Folded::Gone,
             (_, _, Some(value)) => {
-                let value = eval::apply(unary, &Value::<f64>::Constant(value)).nearest();
+                let value = eval::apply(unary, value);
                 self.computed(Operation::Unary(unary, 0), &[a], value)
             }
             _ => {
@@ -184,7 +184,7 @@ impl Folder {
             return self.power(a, n);
         }
         if let (Some(left), Some(right)) = (a.number(), b.number()) {
-            let value = eval::combine(binary, &Value::<f64>::Constant(left), &Value::Constant(right)).nearest();
+            let value = eval::combine(binary, left, right);
             return self.computed(Operation::Binary(binary, 0, 0), &[a, b], value);
         }
         let (a, b) = (self.operand(a), self.operand(b));
@@ -196,7 +196,7 @@ impl Folder {
             (_, 0) => Folded::Number(1.0, None),
             (_, 1) => a,
             (Some(value), _) => {
-                let value = eval::power(&Value::<f64>::Constant(value), n).nearest();
+                let value = Number::powi(value, n);
                 self.computed(Operation::Power(0, n), &[a], value)
             }
             (None, _) => {
@@ -220,10 +220,4 @@ impl Folder {
         let softplus = self.unary(Unary::Softplus, argument);
         Ok(self.binary(Binary::Mul, Folded::Number(width, None), softplus))
     }
-}
-
-/// The whole number that a small exponent is.
-fn whole(exponent: f64) -> Option<i32> {
-    let is_whole = exponent.trunc() == exponent && exponent.abs() <= f64::from(LARGEST_POWER);
-    is_whole.then_some(exponent as i32)
 }

@@ -124,7 +124,8 @@ impl Graph {
     /// `values` has another length than the list of parameters.
     pub fn bind(&self, values: &[f64]) -> Result<Bound, Error> {
         assert_eq!(values.len(), self.parameters.len(), "one value for each parameter");
-        for (parameter, value) in self.parameters.iter().zip(values).filter(|(_, value)| !value.is_finite()) {
+        let mut pairs = self.parameters.iter().zip(values);
+        if let Some((parameter, value)) = pairs.find(|(_, value)| !value.is_finite()) {
             let problem = Problem::new(parameter.place, format!("{} = {value}", parameter.name), "a finite number");
             return Err(problem.within(&self.file));
         }

@@ -1,8 +1,8 @@
 //! Formulas: the language in which a scene file states a law, and expressions elsewhere.
 //!
 //! A text becomes a tree, the trees of a law one [`Graph`] whose parameters are symbols, and that, with numbers for
-//! parameters, a [`Bound`] list of operations. The list is carried out as it stands: by [`Bound::eval`] with any
-//! [`Number`], or by an interpreter of one's own that goes over [`Bound::nodes`].
+//! parameters, a [`Bound`] list of operations. The list is carried out as it stands: by [`Bound::eval`] in doubles, by
+//! [`Bound::carry_out`] with any [`Number`](math::number::Number), or by an interpreter that goes over [`Bound::nodes`].
 //!
 //! ```
 //! use formula::{Definition, Given, Place, Variable, law};
@@ -19,7 +19,7 @@
 //!     Variable::Spacing(_) => 2.0,
 //!     _ => 0.5,
 //! })?;
-//! assert!((value.nearest() - 1.5 * (0.9640275800758169 - 0.5)).abs() < 1e-15);
+//! assert!((value - 1.5 * (0.9640275800758169 - 0.5)).abs() < 1e-15);
 //! # Ok::<(), formula::Error>(())
 //! ```
 //!
@@ -43,7 +43,6 @@ mod graph;
 mod law;
 pub mod limits;
 mod names;
-mod number;
 mod operation;
 mod parse;
 mod place;
@@ -51,10 +50,8 @@ mod token;
 mod tree;
 
 pub use bound::{Bound, Kink};
-pub use eval::Value;
 pub use expression::Expression;
 pub use graph::{Graph, Parameter, Stencil};
 pub use law::{Definition, Given, law};
-pub use number::Number;
 pub use operation::{Binary, Id, Operation, Unary, Variable};
 pub use place::{Error, Place};

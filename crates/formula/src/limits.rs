@@ -8,5 +8,3 @@ pub const DEEPEST: usize = 100;
 pub const FARTHEST: i32 = 1000;
 /// Operations of a law, with sums written out and named expressions counted once.
 pub const MOST_OPERATIONS: usize = 100_000;
-/// Largest whole exponent that is carried out as repeated multiplication.
-pub const LARGEST_POWER: i32 = 16;

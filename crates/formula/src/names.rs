@@ -16,6 +16,9 @@ pub(crate) const UNARY: [(&str, Unary); 8] = [
 ];
 /// Functions of two or more arguments, of which the first two are taken first.
 pub(crate) const CHOICES: [(&str, Binary); 2] = [("min", Binary::Min), ("max", Binary::Max)];
+/// What functions are called elsewhere, and here.
+pub(crate) const ELSEWHERE: [(&str, &str); 4] =
+    [("log", "ln"), ("log1p", "ln_1p"), ("expm1", "exp_m1"), ("fabs", "abs")];
 /// The smooth ramp.
 pub(crate) const RAMP: &str = "ramp";
 /// The sum over neighbours, and its index.
@@ -37,10 +40,14 @@ pub(crate) const SCALE: &str = "scale";
 /// Which law it is.
 pub(crate) const KIND: &str = "kind";
 
+/// Functions.
+pub(crate) fn functions<'a>() -> impl Iterator<Item = &'a str> {
+    UNARY.iter().map(|(name, _)| *name).chain(CHOICES.iter().map(|(name, _)| *name)).chain([RAMP])
+}
+
 /// Functions and constants.
 pub(crate) fn common<'a>() -> impl Iterator<Item = &'a str> {
-    let functions = UNARY.iter().map(|(name, _)| *name).chain(CHOICES.iter().map(|(name, _)| *name));
-    functions.chain([RAMP]).chain(CONSTANTS.iter().map(|(name, _)| *name))
+    functions().chain(CONSTANTS.iter().map(|(name, _)| *name))
 }
 
 /// Words that a scene must not give another meaning: functions, constants, `s v x j sum kind`.

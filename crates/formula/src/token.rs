@@ -121,11 +121,13 @@ fn number(text: &str, place: Place) -> Result<(Token<'_>, usize), Problem> {
 
 /// A character that no formula has.
 fn foreign(c: char, place: Place) -> Problem {
+    let shown = if c.is_control() { '?' } else { c };
+    let shown = format!("`{shown}` (U+{:04X})", u32::from(c));
     match LOOKALIKES.iter().find(|(characters, ..)| characters.contains(c)) {
-        Some((_, what, instead)) => Problem::new(place, format!("{what} `{}`", c.escape_default()), *instead),
+        Some((_, what, instead)) => Problem::new(place, format!("{what} {shown}"), *instead),
         None => Problem::new(
             place,
-            format!("the character `{}`", c.escape_default()),
+            format!("the character {shown}"),
             "numbers, names of ASCII letters, digits and _ (a letter first), + - * / ^ ( ) [ ] and commas",
         ),
     }

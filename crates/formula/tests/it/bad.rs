@@ -27,7 +27,7 @@ const SYNTAX: [(&str, u32, &str, &str); 62] = [
     ("2 3", 2, "`3` behind `2`", "2*3"),
     ("2a", 1, "`a` behind `2`", "2*a"),
     ("2e", 1, "`e` behind `2`", "2*e"),
-    ("2(a + 1)", 1, "`(` behind `2`", "2*("),
+    ("2(a + 1)", 1, "`(` behind `2`", "2*(...)"),
     ("a b", 2, "`b` behind `a`", "a*b"),
     ("a (b)", 2, "`(` behind `a`", "a*("),
     ("(a)(b)", 3, "`(` behind `)`", ")*("),
@@ -41,7 +41,7 @@ const SYNTAX: [(&str, u32, &str, &str); 62] = [
     ("a]", 1, "`]`, which closes nothing", "end"),
     ("(a]", 2, "is not closed", ")"),
     ("a[1]", 1, "`[` behind `a`", "s[j]"),
-    ("a \u{2212} b", 2, "minus", "-"),
+    ("a \u{2212} b", 2, "minus or dash `\u{2212}` (U+2212)", "ASCII minus -"),
     ("a \u{2013} b", 2, "minus or dash", "-"),
     ("a \u{d7} b", 2, "multiplication", "*"),
     ("a\u{b7}b", 1, "multiplication", "*"),
@@ -51,7 +51,7 @@ const SYNTAX: [(&str, u32, &str, &str); 62] = [
     ("a\u{2074}", 1, "superscript", "^"),
     ("\u{221a}a", 0, "root", "sqrt"),
     ("2*\u{3c0}", 2, "Greek", "pi"),
-    ("\u{3ba}*a", 0, "3ba", "ASCII letters"),
+    ("\u{3ba}*a", 0, "`\u{3ba}` (U+03BA)", "ASCII letters"),
     ("a\u{a0}+ b", 1, "blank", "ordinary blank"),
     ("a**2", 1, "**", "^"),
     ("{a}", 0, "brace", "( )"),
@@ -72,7 +72,7 @@ const SYNTAX: [(&str, u32, &str, &str); 62] = [
     ("min(a)", 0, "`min` with 1 argument", "2 arguments or more"),
     ("max(a, )", 7, ")", "a number"),
     ("sin(a)", 0, "`sin(`", "functions exp"),
-    ("log(a)", 0, "`log(`", "ln"),
+    ("log(a)", 0, "`log(`", "ln(...)?"),
     ("sqr(a)", 0, "`sqr(`", "sqrt(...)?"),
     ("1e999", 0, "too large", "1.797"),
     ("1.2.3", 0, "two points", "0.5"),
@@ -215,7 +215,7 @@ fn values_without_a_meaning_are_found_on_binding() {
             Err(error) => assert_error(&error, 2, column, found, valid),
             // division of a variable by 0 is found when it is carried out
             Ok(bound) => {
-                let error = bound.eval(bound.acceleration(), |_| 1.0_f64).expect_err(text);
+                let error = bound.eval(bound.acceleration(), |_| 1.0).expect_err(text);
                 assert_error(&error, 2, column - 1, "(1.0) / (0.0)", "divisor");
             }
         }

@@ -1,6 +1,26 @@
-//! A value with its derivative in one direction: forward differentiation of any number.
+//! A value with its derivative in one direction, of any number: with derivatives in double-double, and with derivatives
+//! whose error is carried along.
 
-use formula::Number;
+use math::number::Number;
+use math::twofold::Twofold;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// The double nearest to a number: which side of a kink it is on.
+pub trait Nearest {
+    fn nearest(self) -> f64;
+}
+
+impl Nearest for f64 {
+    fn nearest(self) -> f64 {
+        self
+    }
+}
+
+impl Nearest for Twofold {
+    fn nearest(self) -> f64 {
+        self.hi
+    }
+}
 
 /// `value + slope t` for small t.
 #[derive(Clone, Copy, Debug)]
@@ -11,77 +31,120 @@ pub struct Dual<T> {
 
 impl<T: Number> Dual<T> {
     /// f(value), whose slope there is `slope`.
-    fn chain(&self, value: T, slope: T) -> Dual<T> {
-        Dual { value, slope: slope.mul(&self.slope) }
+    fn chain(self, value: T, slope: T) -> Dual<T> {
+        Dual { value, slope: slope * self.slope }
     }
 }
 
-impl<T: Number> Number for Dual<T> {
-    fn constant(&self, value: f64) -> Dual<T> {
-        Dual { value: self.value.constant(value), slope: self.value.constant(0.0) }
+impl<T: Number> Neg for Dual<T> {
+    type Output = Dual<T>;
+    fn neg(self) -> Dual<T> {
+        Dual { value: -self.value, slope: -self.slope }
     }
-    fn nearest(&self) -> f64 {
-        self.value.nearest()
+}
+
+impl<T: Number> Add for Dual<T> {
+    type Output = Dual<T>;
+    fn add(self, other: Dual<T>) -> Dual<T> {
+        Dual { value: self.value + other.value, slope: self.slope + other.slope }
     }
-    fn neg(&self) -> Dual<T> {
-        Dual { value: self.value.neg(), slope: self.slope.neg() }
+}
+
+impl<T: Number> Sub for Dual<T> {
+    type Output = Dual<T>;
+    fn sub(self, other: Dual<T>) -> Dual<T> {
+        Dual { value: self.value - other.value, slope: self.slope - other.slope }
     }
-    fn add(&self, other: &Dual<T>) -> Dual<T> {
-        Dual { value: self.value.add(&other.value), slope: self.slope.add(&other.slope) }
+}
+
+impl<T: Number> Mul for Dual<T> {
+    type Output = Dual<T>;
+    fn mul(self, other: Dual<T>) -> Dual<T> {
+        Dual { value: self.value * other.value, slope: self.slope * other.value + self.value * other.slope }
     }
-    fn sub(&self, other: &Dual<T>) -> Dual<T> {
-        Dual { value: self.value.sub(&other.value), slope: self.slope.sub(&other.slope) }
+}
+
+impl<T: Number> Div for Dual<T> {
+    type Output = Dual<T>;
+    fn div(self, other: Dual<T>) -> Dual<T> {
+        let value = self.value / other.value;
+        Dual { value, slope: (self.slope - value * other.slope) / other.value }
     }
-    fn mul(&self, other: &Dual<T>) -> Dual<T> {
-        let slope = self.slope.mul(&other.value).add(&self.value.mul(&other.slope));
-        Dual { value: self.value.mul(&other.value), slope }
+}
+
+impl<T: Number> Add<f64> for Dual<T> {
+    type Output = Dual<T>;
+    fn add(self, c: f64) -> Dual<T> {
+        Dual { value: self.value + c, ..self }
     }
-    fn div(&self, other: &Dual<T>) -> Dual<T> {
-        let value = self.value.div(&other.value);
-        let slope = self.slope.sub(&value.mul(&other.slope)).div(&other.value);
-        Dual { value, slope }
+}
+
+impl<T: Number> Sub<f64> for Dual<T> {
+    type Output = Dual<T>;
+    fn sub(self, c: f64) -> Dual<T> {
+        Dual { value: self.value - c, ..self }
     }
-    fn pow(&self, exponent: &Dual<T>) -> Dual<T> {
-        let value = self.value.pow(&exponent.value);
-        let of_base = exponent.value.mul(&self.slope).div(&self.value);
-        let slope = value.mul(&of_base.add(&self.value.ln().mul(&exponent.slope)));
-        Dual { value, slope }
+}
+
+impl<T: Number> Mul<f64> for Dual<T> {
+    type Output = Dual<T>;
+    fn mul(self, c: f64) -> Dual<T> {
+        Dual { value: self.value * c, slope: self.slope * c }
     }
-    fn min(&self, other: &Dual<T>) -> Dual<T> {
-        if other.nearest() < self.nearest() { other.clone() } else { self.clone() }
+}
+
+impl<T: Number> Div<f64> for Dual<T> {
+    type Output = Dual<T>;
+    fn div(self, c: f64) -> Dual<T> {
+        Dual { value: self.value / c, slope: self.slope / c }
     }
-    fn max(&self, other: &Dual<T>) -> Dual<T> {
-        if other.nearest() > self.nearest() { other.clone() } else { self.clone() }
+}
+
+impl<T: Number + Nearest> Number for Dual<T> {
+    fn recip(self) -> Dual<T> {
+        let inverse = self.value.recip();
+        // in this order the square of a small inverse does not underflow
+        Dual { value: inverse, slope: -(inverse * self.slope) * inverse }
     }
-    fn exp(&self) -> Dual<T> {
+    fn powi(self, n: i32) -> Dual<T> {
+        let product = (1..n.abs()).fold(self, |product, _| product * self);
+        if n < 0 { product.recip() } else { product }
+    }
+    fn powf(self, q: f64) -> Dual<T> {
+        let value = self.value.powf(q);
+        self.chain(value, value * q / self.value)
+    }
+    fn exp(self) -> Dual<T> {
         let value = self.value.exp();
-        self.chain(value.clone(), value)
+        self.chain(value, value)
     }
-    fn exp_m1(&self) -> Dual<T> {
+    fn exp_m1(self) -> Dual<T> {
         self.chain(self.value.exp_m1(), self.value.exp())
     }
-    fn ln(&self) -> Dual<T> {
-        self.chain(self.value.ln(), self.value.constant_div(1.0))
+    fn ln(self) -> Dual<T> {
+        self.chain(self.value.ln(), self.value.recip())
     }
-    fn ln_1p(&self) -> Dual<T> {
-        self.chain(self.value.ln_1p(), self.value.add_constant(1.0).constant_div(1.0))
+    fn ln_1p(self) -> Dual<T> {
+        self.chain(self.value.ln_1p(), (self.value + 1.0).recip())
     }
-    fn sqrt(&self) -> Dual<T> {
+    fn sqrt(self) -> Dual<T> {
         let value = self.value.sqrt();
-        self.chain(value.clone(), value.constant_div(0.5))
+        self.chain(value, (value * 2.0).recip())
     }
-    fn tanh(&self) -> Dual<T> {
+    fn tanh(self) -> Dual<T> {
         let value = self.value.tanh();
-        let slope = value.mul(&value).constant_sub(1.0);
-        self.chain(value, slope)
+        self.chain(value, -(value * value) + 1.0)
     }
-    fn softplus(&self) -> Dual<T> {
-        self.chain(self.value.softplus(), self.value.neg().exp().add_constant(1.0).constant_div(1.0))
+    fn softplus(self) -> Dual<T> {
+        self.chain(self.value.softplus(), ((-self.value).exp() + 1.0).recip())
     }
-    fn abs(&self) -> Dual<T> {
-        if self.nearest() < 0.0 { self.neg() } else { self.clone() }
+    fn abs(self) -> Dual<T> {
+        if self.value.nearest() < 0.0 { -self } else { self }
     }
-    fn mul_constant(&self, c: f64) -> Dual<T> {
-        Dual { value: self.value.mul_constant(c), slope: self.slope.mul_constant(c) }
+    fn min(self, other: Dual<T>) -> Dual<T> {
+        if other.value.nearest() < self.value.nearest() { other } else { self }
+    }
+    fn max(self, other: Dual<T>) -> Dual<T> {
+        if other.value.nearest() > self.value.nearest() { other } else { self }
     }
 }

@@ -91,7 +91,10 @@ fn text(random: &mut Random) -> String {
         match random.below(3) {
             0 => text.insert_str(from, random.pick(&WORDS)),
             1 => text.replace_range(from..to, random.pick(&WORDS)),
-            _ => text.insert_str(from, &text[from..to].to_owned()),
+            _ => {
+                let copy = text[from..to].to_owned();
+                text.insert_str(from, &copy);
+            }
         }
     }
     text
@@ -126,7 +129,7 @@ fn tried(seed: u64, count: usize) -> usize {
             Ok(bound) => {
                 for root in bound.roots() {
                     let value = bound.eval(*root, state);
-                    assert!(value.is_ok_and(|value| value.nearest().is_finite()) || bound.eval(*root, state).is_err());
+                    assert!(value.is_ok_and(|value| value.is_finite()) || bound.eval(*root, state).is_err());
                 }
                 good += 1;
             }
@@ -144,7 +147,7 @@ fn tried(seed: u64, count: usize) -> usize {
         match Expression::parse("claims.toml", start, &acceleration) {
             Ok(expression) => {
                 let value = expression.eval(|name| 0.5 + name as f64);
-                assert!(value.is_err() || value.is_ok_and(|value| value.nearest().is_finite()));
+                assert!(value.is_err() || value.is_ok_and(|value| value.is_finite()));
             }
             Err(error) => assert_points_into(&acceleration, start, &error),
         }

@@ -2,8 +2,10 @@
 
 mod bad;
 mod common;
+mod corpus;
 mod dual;
 mod fuzz;
+mod gallery;
 mod good;
 mod laws;
 mod random;

@@ -5,7 +5,7 @@ use crate::common::{Random, graph, state};
 use crate::dual::Dual;
 use crate::running::Running;
 use crate::trees::{PARAMETERS, tree};
-use formula::{Bound, Kink, Number, Value, Variable};
+use formula::{Bound, Kink, Variable};
 use math::twofold::Twofold;
 
 const COUNT: usize = 10_000;
@@ -24,13 +24,6 @@ fn formulas(seed: u64) -> impl Iterator<Item = (String, crate::trees::Tree, Boun
     })
 }
 
-fn number<T>(value: Value<T>, make: impl FnOnce(f64) -> T) -> T {
-    match value {
-        Value::Constant(value) => make(value),
-        Value::Number(number) => number,
-    }
-}
-
 #[test]
 fn bits_are_those_of_a_recursion_over_the_tree() {
     let (mut compared, mut undefined) = (0, 0);
@@ -39,7 +32,7 @@ fn bits_are_those_of_a_recursion_over_the_tree() {
         match bound.eval(bound.acceleration(), state) {
             Ok(value) => {
                 // the sum with a term that is gone can lose the sign of 0 only
-                assert_eq!(value.nearest() + 0.0, expected + 0.0, "{text}");
+                assert_eq!(value + 0.0, expected + 0.0, "{text}");
                 compared += 1;
             }
             Err(error) => {
@@ -57,15 +50,14 @@ fn errors_keep_within_the_running_bound() {
     let (mut checked, mut sharp, mut worst) = (0, 0, 0.0_f64);
     for (text, _, bound) in formulas(2) {
         let root = bound.acceleration();
-        let Ok(value) = bound.eval(root, |variable| Running::exact(state(variable))) else { continue };
-        let Running { value, bound: allowed } = number(value, Running::exact);
+        let running = |variable| Running::exact(state(variable));
+        let Running { value, bound: allowed } = bound.carry_out(root, Running::exact, running);
         if allowed.is_infinite() {
             continue;
         }
-        let plain = bound.eval(root, state).unwrap_or_else(|error| panic!("{text}: {error}")).nearest();
+        let plain = bound.eval(root, state).unwrap_or_else(|error| panic!("{text}: {error}"));
         assert_eq!(plain.to_bits(), value.to_bits(), "{text}");
-        let exact = bound.eval(root, |variable| Twofold::from(state(variable)));
-        let exact = number(exact.unwrap_or_else(|error| panic!("{text}: {error}")), Twofold::from);
+        let exact = bound.carry_out(root, Twofold::from, |variable| Twofold::from(state(variable)));
         let error = (exact - plain).hi.abs();
         assert!(error <= allowed, "{text}: {plain} is off by {error:e}, allowed are {allowed:e}");
         checked += 1;
@@ -94,26 +86,25 @@ fn derivatives_are_those_of_differences() {
     for (text, _, bound) in formulas(3) {
         let root = bound.acceleration();
         // next to a kink a difference is no derivative
-        let value = |node| bound.eval(node, state).map_or(f64::NAN, |value| value.nearest());
+        let value = |node| bound.eval(node, state).unwrap_or(f64::NAN);
         let is_near = |kink: &Kink| (value(kink.left) - kink.right.map_or(0.0, value)).abs() < 1e-4;
         if bound.kinks(root).iter().any(is_near) {
             continue;
         }
         let at = |t: f64| {
-            let value = bound.eval(root, |variable| Twofold::sum(state(variable), direction(variable) * t));
-            value.ok().map(|value| number(value, Twofold::from))
+            let moved = |variable| Twofold::sum(state(variable), direction(variable) * t);
+            bound.carry_out(root, Twofold::from, moved)
         };
-        let central = |h: f64| Some((at(h)? - at(-h)?) / (2.0 * h));
+        let central = |h: f64| (at(h) - at(-h)) / (2.0 * h);
         let dual = |variable| Dual { value: Twofold::from(state(variable)), slope: Twofold::from(direction(variable)) };
         let flat = |value| Dual { value: Twofold::from(value), slope: Twofold::ZERO };
-        let Ok(exact) = bound.eval(root, dual) else { continue };
-        let exact = number(exact, flat).slope;
+        let exact = bound.carry_out(root, flat, dual).slope;
         // errors h^2, h^4; their difference bounds that of the better one
         let h = 1.0 / (1u64 << 20) as f64;
-        let Some(d) = [h, h / 2.0, h / 4.0].into_iter().map(central).collect::<Option<Vec<_>>>() else { continue };
+        let d = [h, h / 2.0, h / 4.0].map(central);
         let better = |coarse: Twofold, fine: Twofold| fine + (fine - coarse) / 3.0;
         let (first, second) = (better(d[0], d[1]), better(d[1], d[2]));
-        let size = exact.hi.abs() + at(0.0).map_or(0.0, |value| value.hi.abs());
+        let size = exact.hi.abs() + at(0.0).hi.abs();
         // below 1e-250 tails of double-doubles underflow
         let allowed = 2.0 * (second - first).hi.abs() + 1e-18 * size + 1e-250;
         let error = (second - exact).hi.abs();
@@ -127,8 +118,7 @@ fn derivatives_are_those_of_differences() {
         let running =
             |variable| Dual { value: Running::exact(state(variable)), slope: Running::exact(direction(variable)) };
         let flat = |value| Dual { value: Running::exact(value), slope: Running::exact(0.0) };
-        let Ok(in_doubles) = bound.eval(root, running) else { continue };
-        let Running { value, bound: allowed } = number(in_doubles, flat).slope;
+        let Running { value, bound: allowed } = bound.carry_out(root, flat, running).slope;
         if allowed.is_finite() {
             let error = (exact - value).hi.abs();
             assert!(error <= allowed, "{text}: slope {value} is off by {error:e}, allowed are {allowed:e}");
@@ -137,79 +127,4 @@ fn derivatives_are_those_of_differences() {
     }
     println!("{checked} checked, of which {sharp} to 1e-12; {of_doubles} in doubles");
     assert!(sharp > COUNT * 3 / 4 && of_doubles > COUNT * 3 / 4, "{checked} {sharp} {of_doubles}");
-}
-
-#[test]
-fn numbers_may_take_their_context_from_their_neighbours() {
-    // a power series of an order that only its values know
-    #[derive(Clone, Debug, PartialEq)]
-    struct Ordered(f64, usize);
-    impl Number for Ordered {
-        fn constant(&self, value: f64) -> Ordered {
-            Ordered(value, self.1)
-        }
-        fn nearest(&self) -> f64 {
-            self.0
-        }
-        fn neg(&self) -> Ordered {
-            Ordered(-self.0, self.1)
-        }
-        fn add(&self, other: &Ordered) -> Ordered {
-            assert_eq!(self.1, other.1);
-            Ordered(self.0 + other.0, self.1)
-        }
-        fn sub(&self, other: &Ordered) -> Ordered {
-            assert_eq!(self.1, other.1);
-            Ordered(self.0 - other.0, self.1)
-        }
-        fn mul(&self, other: &Ordered) -> Ordered {
-            assert_eq!(self.1, other.1);
-            Ordered(self.0 * other.0, self.1)
-        }
-        fn div(&self, other: &Ordered) -> Ordered {
-            assert_eq!(self.1, other.1);
-            Ordered(self.0 / other.0, self.1)
-        }
-        fn min(&self, other: &Ordered) -> Ordered {
-            assert_eq!(self.1, other.1);
-            Ordered(Number::min(&self.0, &other.0), self.1)
-        }
-        fn max(&self, other: &Ordered) -> Ordered {
-            assert_eq!(self.1, other.1);
-            Ordered(Number::max(&self.0, &other.0), self.1)
-        }
-        fn pow(&self, other: &Ordered) -> Ordered {
-            assert_eq!(self.1, other.1);
-            Ordered(self.0.pow(&other.0), self.1)
-        }
-        fn exp(&self) -> Ordered {
-            unreachable!()
-        }
-        fn exp_m1(&self) -> Ordered {
-            unreachable!()
-        }
-        fn ln(&self) -> Ordered {
-            unreachable!()
-        }
-        fn ln_1p(&self) -> Ordered {
-            unreachable!()
-        }
-        fn sqrt(&self) -> Ordered {
-            unreachable!()
-        }
-        fn tanh(&self) -> Ordered {
-            unreachable!()
-        }
-        fn softplus(&self) -> Ordered {
-            unreachable!()
-        }
-        fn abs(&self) -> Ordered {
-            Ordered(self.0.abs(), self.1)
-        }
-    }
-    let text = "1 + s + 2 - v - 3 + (4 - s) + 5*v*6 + s/7 + 8/v + min(9, s) + max(s, 1) + max(2, v) + min(v, 3) + s^0.5 + 2^v + abs(s)^-2";
-    let bound = crate::common::bound(text, &[]);
-    let ordered = bound.eval(bound.acceleration(), |variable| Ordered(state(variable), 17)).expect("a value");
-    let plain = bound.eval(bound.acceleration(), state).expect("a value").nearest();
-    assert_eq!(ordered, Value::Number(Ordered(plain, 17)));
 }

@@ -1,8 +1,10 @@
 //! A double with a bound of its error, carried along: each operation passes on the errors of its operands through the
 //! steepest slope between them and adds its own rounding.
 
-use formula::Number;
+use crate::dual::Nearest;
 use math::lane;
+use math::number::Number;
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// The unit roundoff.
 const U: f64 = f64::EPSILON / 2.0;
@@ -35,29 +37,46 @@ impl Running {
     }
 }
 
-impl Number for Running {
-    fn constant(&self, value: f64) -> Running {
-        Running::exact(value)
-    }
-    fn nearest(&self) -> f64 {
+impl Nearest for Running {
+    fn nearest(self) -> f64 {
         self.value
     }
-    fn neg(&self) -> Running {
-        Running { value: -self.value, ..*self }
+}
+
+impl Neg for Running {
+    type Output = Running;
+    fn neg(self) -> Running {
+        Running { value: -self.value, ..self }
     }
-    fn add(&self, other: &Running) -> Running {
+}
+
+impl Add for Running {
+    type Output = Running;
+    fn add(self, other: Running) -> Running {
         Running::new(self.value + other.value, self.bound + other.bound, 0.5)
     }
-    fn sub(&self, other: &Running) -> Running {
+}
+
+impl Sub for Running {
+    type Output = Running;
+    fn sub(self, other: Running) -> Running {
         Running::new(self.value - other.value, self.bound + other.bound, 0.5)
     }
-    fn mul(&self, other: &Running) -> Running {
+}
+
+impl Mul for Running {
+    type Output = Running;
+    fn mul(self, other: Running) -> Running {
         let passed = self.value.abs() * other.bound + other.value.abs() * self.bound + self.bound * other.bound;
         let value = self.value * other.value;
         let underflow = if value.abs() < TINY && self.value != 0.0 && other.value != 0.0 { TINY } else { 0.0 };
         Running::new(value, passed + underflow, 0.5)
     }
-    fn div(&self, other: &Running) -> Running {
+}
+
+impl Div for Running {
+    type Output = Running;
+    fn div(self, other: Running) -> Running {
         let value = self.value / other.value;
         let least = other.value.abs() - other.bound;
         if least > 0.0 {
@@ -66,38 +85,75 @@ impl Number for Running {
             Running { value, bound: f64::INFINITY }
         }
     }
-    fn pow(&self, exponent: &Running) -> Running {
-        let value = lane::pow(self.value, exponent.value);
+}
+
+impl Add<f64> for Running {
+    type Output = Running;
+    fn add(self, c: f64) -> Running {
+        self + Running::exact(c)
+    }
+}
+
+impl Sub<f64> for Running {
+    type Output = Running;
+    fn sub(self, c: f64) -> Running {
+        self - Running::exact(c)
+    }
+}
+
+impl Mul<f64> for Running {
+    type Output = Running;
+    fn mul(self, c: f64) -> Running {
+        self * Running::exact(c)
+    }
+}
+
+impl Div<f64> for Running {
+    type Output = Running;
+    fn div(self, c: f64) -> Running {
+        self / Running::exact(c)
+    }
+}
+
+impl Number for Running {
+    fn recip(self) -> Running {
+        Running::exact(1.0) / self
+    }
+    fn powi(self, n: i32) -> Running {
+        let product = (1..n.abs()).fold(self, |product, _| product * self);
+        if n < 0 { product.recip() } else { product }
+    }
+    fn powf(self, q: f64) -> Running {
+        let value = lane::pow(self.value, q);
         let logarithm = lane::ln(self.value).abs();
-        let change = Running::of_logarithm(self.value, self.bound);
-        let passed = exponent.bound * (logarithm + change) + exponent.value.abs() * change;
-        Running::new(value, value * CARE * math::exp_m1(passed), 1.0 + 2.5 * logarithm * exponent.value.abs())
+        let passed = q.abs() * Running::of_logarithm(self.value, self.bound);
+        Running::new(value, value * CARE * math::exp_m1(passed), 1.0 + 2.5 * logarithm * q.abs())
     }
-    fn min(&self, other: &Running) -> Running {
-        let value = Number::min(&self.value, &other.value);
+    fn min(self, other: Running) -> Running {
+        let value = Number::min(self.value, other.value);
         Running { value, bound: if self.bound > other.bound { self.bound } else { other.bound } }
     }
-    fn max(&self, other: &Running) -> Running {
-        let value = Number::max(&self.value, &other.value);
+    fn max(self, other: Running) -> Running {
+        let value = Number::max(self.value, other.value);
         Running { value, bound: if self.bound > other.bound { self.bound } else { other.bound } }
     }
-    fn exp(&self) -> Running {
+    fn exp(self) -> Running {
         let value = lane::exp(self.value);
         // below -708 it is 0
         Running::new(value, (value + TINY) * CARE * math::exp_m1(self.bound), 0.7)
     }
-    fn exp_m1(&self) -> Running {
+    fn exp_m1(self) -> Running {
         let slope = (lane::exp(self.value) + TINY) * CARE;
         Running::new(lane::exp_m1(self.value), slope * math::exp_m1(self.bound), 1.3)
     }
-    fn ln(&self) -> Running {
+    fn ln(self) -> Running {
         Running::new(lane::ln(self.value), Running::of_logarithm(self.value, self.bound), 1.2)
     }
-    fn ln_1p(&self) -> Running {
+    fn ln_1p(self) -> Running {
         let passed = Running::of_logarithm(1.0 + self.value, self.bound);
         Running::new(lane::ln_1p(self.value), passed, 1.2)
     }
-    fn sqrt(&self) -> Running {
+    fn sqrt(self) -> Running {
         let (value, least) = (self.value.sqrt(), self.value - self.bound);
         let passed = match self.bound {
             0.0 => 0.0,
@@ -106,18 +162,18 @@ impl Number for Running {
         };
         Running::new(value, passed, 0.5)
     }
-    fn tanh(&self) -> Running {
+    fn tanh(self) -> Running {
         // the slope falls with the size
         let nearest = self.value.abs() - self.bound;
         let flattest = lane::tanh(if nearest > 0.0 { nearest } else { 0.0 });
         let slope = (1.0 - flattest) * (1.0 + flattest) + 8.0 * U;
         Running::new(lane::tanh(self.value), slope * self.bound, 3.0)
     }
-    fn softplus(&self) -> Running {
+    fn softplus(self) -> Running {
         let slope = lane::sigmoid(self.value + self.bound);
         Running::new(lane::softplus(self.value), slope * CARE * self.bound, 2.0)
     }
-    fn abs(&self) -> Running {
-        Running { value: self.value.abs(), ..*self }
+    fn abs(self) -> Running {
+        Running { value: self.value.abs(), ..self }
     }
 }

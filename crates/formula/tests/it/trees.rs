@@ -1,8 +1,9 @@
 //! Random formulas: trees that are written down with as few brackets as possible, and evaluated without the parser.
 
 use crate::common::{Random, state};
-use formula::{Number, Variable};
+use formula::Variable;
 use math::lane;
+use math::number::Number;
 
 /// A formula.
 #[derive(Clone, Debug)]
@@ -154,8 +155,8 @@ impl Tree {
                     "ln" => lane::ln(a),
                     "ln_1p" => lane::ln_1p(a),
                     "sqrt" => a.sqrt(),
-                    "min" => parts[1..].iter().fold(a, |least, part| Number::min(&least, &part.value())),
-                    _ => parts[1..].iter().fold(a, |most, part| Number::max(&most, &part.value())),
+                    "min" => parts[1..].iter().fold(a, |least, part| Number::min(least, part.value())),
+                    _ => parts[1..].iter().fold(a, |most, part| Number::max(most, part.value())),
                 }
             }
         }
