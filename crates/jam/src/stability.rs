@@ -160,6 +160,21 @@ impl Response {
 pub type Complex = (f64, f64);
 
 impl Linear {
+    /// Of a law without derivatives.
+    pub const NONE: Linear = Linear { phi: f64::NAN, beta: f64::NAN, kappa: f64::NAN };
+
+    /// The coefficients of a response to one predecessor; [`Linear::NONE`] of any other.
+    pub fn of(response: &Response) -> Linear {
+        let slope = |list: &[(i32, f64)], wanted: i32| list.iter().find(|(j, _)| *j == wanted).map_or(0.0, |(_, f)| *f);
+        let is_one =
+            response.spacings.iter().all(|(j, _)| *j == 0) && response.speeds.iter().all(|(j, _)| *j == 0 || *j == 1);
+        if !is_one {
+            return Linear::NONE;
+        }
+        let (own, ahead) = (slope(&response.speeds, 0), slope(&response.speeds, 1));
+        Linear { phi: slope(&response.spacings, 0), beta: -0.5 * (own + ahead + 1.0), kappa: 0.5 * (ahead - own - 1.0) }
+    }
+
     /// The root `z^+` with the larger real part, for the wave number `k` in (0, pi]. (At `k = 0` it is 0: a shift of
     /// all pedestrians, which is no perturbation.)
     pub fn root(&self, k: f64) -> Complex {

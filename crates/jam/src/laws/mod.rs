@@ -138,14 +138,14 @@ impl Model {
         each!(self, law => Some(response_of(law, headway, speed)), formula => formula.response(headway, speed))
     }
 
-    /// The coefficients of the linearised law about the uniform flow with this headway and speed; `None` for a formula,
-    /// whose stencil may be any other ([`Model::response`]).
-    pub fn linearise(&self, headway: f64, speed: f64) -> Option<Linear> {
+    /// The coefficients of the linearised law about the uniform flow with this headway and speed; of a formula too, if it
+    /// looks at one predecessor and has derivatives there, else NaN ([`Model::response`] is for all).
+    pub fn linearise(&self, headway: f64, speed: f64) -> Linear {
         match self {
-            Model::Algebraic(law) => Some(law.linearise(law.gap(headway, speed))),
-            Model::Exponential(law) => Some(law.linearise(law.gap(headway, speed))),
-            Model::Logarithmic(law) => Some(law.linearise(headway, speed)),
-            Model::Formula(_) => None,
+            Model::Algebraic(law) => law.linearise(law.gap(headway, speed)),
+            Model::Exponential(law) => law.linearise(law.gap(headway, speed)),
+            Model::Logarithmic(law) => law.linearise(headway, speed),
+            Model::Formula(law) => law.response(headway, speed).as_ref().map_or(Linear::NONE, Linear::of),
         }
     }
 }

@@ -248,7 +248,7 @@ fn a_faster_pedestrian_passes_at_the_time_of_the_formula() {
 fn a_watch_goes_on_in_another_form() {
     let (model, ring, gaps, speeds) = runner();
     let (first, second) = (FormKind::Gaps.build(&model, ring), FormKind::Positions.build(&model, ring));
-    let mut watch = Watch::new(model, &*first, 3);
+    let mut watch = Watch::new(model.clone(), &*first, 3);
     let start = gaps_state(&model, &gaps, &speeds, 0.0);
     let problem =
         Problem { system: &*first, start: &start, begin: 0.0, end: 0.5, method: Method::Dop853, control: ADAPTIVE };

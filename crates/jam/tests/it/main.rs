@@ -6,6 +6,7 @@ mod criteria;
 mod deviation;
 mod events;
 mod forms;
+mod formula;
 mod growth;
 mod heun;
 mod jams;

@@ -63,7 +63,7 @@ fn run(model: Model, ring: Ring, kind: FormKind, method: Method, step: f64, rand
     if !form.in_domain(&start) {
         return;
     }
-    let mut watch = Watch::new(model, form, count);
+    let mut watch = Watch::new(model.clone(), form, count);
     let (mut gaps, mut speeds) = (vec![0.0; count], vec![0.0; count]);
     let mut observer = |taken: &mut Step<'_>| {
         // before the interpolant, which asks beyond the wall where the step ends there, adds to it
@@ -116,7 +116,7 @@ fn no_step_that_ends_beyond_a_wall_goes_unreported() {
                 let headway = model.contact() + random.uniform(0.5, 1.5) + 4.0 * model.room_per_speed();
                 let ring = Ring { pedestrians: 5, length: 5.0 * headway };
                 for kind in [FormKind::Deviations, FormKind::Gaps, FormKind::Positions] {
-                    run(model, ring, kind, method, random.magnitude(-2.0, -0.3), &mut random, &mut counts);
+                    run(model.clone(), ring, kind, method, random.magnitude(-2.0, -0.3), &mut random, &mut counts);
                 }
             }
         }

@@ -162,6 +162,7 @@ impl<const W: usize, const START: bool> Number for Jet<'_, W, START> {
         match n {
             0 => self.with(if START { Lanes::splat(1.0) } else { Lanes::default() }),
             1 => self,
+            -1 => self.recip(),
             // products, because the number may pass through 0
             2.. => (1..n).fold(self, |product, _| product * self),
             _ => self.with(next::whole_power::<W, START>(self.place.history(), self.coefficient, n)),

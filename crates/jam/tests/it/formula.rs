@@ -1,0 +1,150 @@
+//! One suite for every law and every way to carry it out: the built-in laws compiled and as formulas give the same bits;
+//! differences, coefficients and derivatives are those of the formula.
+
+use crate::sample::{Random, variants};
+use formula::{Definition, Given, Place};
+use jam::force::{Flow, Motion};
+use jam::laws::{Formula, Model};
+
+/// A law from the lines of its section.
+pub fn law(lines: &[(&str, Given<'_>)]) -> Model {
+    let place = |line: usize, column| Place { line: line as u32 + 2, column };
+    let definitions: Vec<Definition<'_>> = lines
+        .iter()
+        .enumerate()
+        .map(|(line, (name, given))| Definition { name, key: place(line, 1), value: place(line, 20), given: *given })
+        .collect();
+    let graph = formula::law("scene.toml", Place { line: 1, column: 1 }, &definitions);
+    Model::Formula(graph.and_then(Formula::new).unwrap_or_else(|error| panic!("{error}")))
+}
+
+/// A built-in law, written as formulas.
+fn as_formula(model: &Model) -> Model {
+    let number = Given::Number;
+    match model {
+        Model::Algebraic(p) => law(&[
+            ("acceleration", Given::Text("v0 - v - (mu + delta*ramp(v[1] - v, epsilon))^2*d^(-q)")),
+            ("d", Given::Text("s - body - a_v*(v + v[1])")),
+            ("gap", Given::Text("d")),
+            ("mu", number(p.strength)),
+            ("delta", number(p.relative)),
+            ("q", number(p.power)),
+            ("a_v", number(p.widening)),
+            ("epsilon", number(p.epsilon)),
+            ("v0", number(p.desired_speed)),
+            ("body", number(2.0)),
+        ]),
+        Model::Exponential(p) => law(&[
+            ("acceleration", Given::Text("v0 - v - a*exp(-d/b) - c*ramp(d, epsilon)")),
+            ("d", Given::Text("s - body - a_v*(v + v[1])")),
+            ("gap", Given::Text("d")),
+            ("a", number(p.strength)),
+            ("b", number(p.range)),
+            ("c", number(p.contact)),
+            ("a_v", number(p.widening)),
+            ("epsilon", number(p.epsilon)),
+            ("v0", number(p.desired_speed)),
+            ("body", number(2.0)),
+        ]),
+        Model::Logarithmic(p) => law(&[
+            ("acceleration", Given::Text("v0*(1 - ln_1p((e - 1)*ramp(s/(2 + a_v*(v + v[1])) - 1, epsilon))) - v")),
+            ("a_v", number(p.widening)),
+            ("epsilon", number(p.epsilon)),
+            ("v0", number(p.desired_speed)),
+            ("body", number(0.0)),
+        ]),
+        Model::Formula(_) => model.clone(),
+    }
+}
+
+fn bits(values: &[f64]) -> Vec<u64> {
+    values.iter().map(|value| value.to_bits()).collect()
+}
+
+/// Net gaps that are open for every law, and speeds.
+fn ring(count: usize, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
+    let net_gaps = (0..count).map(|_| random.uniform(1.5, 3.0)).collect();
+    let speeds = (0..count).map(|_| random.uniform(0.0, 1.0)).collect();
+    (net_gaps, speeds)
+}
+
+#[test]
+fn accelerations_of_formulas_have_the_bits_of_compiled_laws() {
+    let mut random = Random(40);
+    for count in [2, 3, 7, 8, 9, 16, 17, 133, 255, 256, 257, 600] {
+        for model in variants(&mut random) {
+            let (net_gaps, speeds) = ring(count, &mut random);
+            let mut rates = [vec![0.0; count], vec![0.0; count]];
+            model.force().accelerations(&net_gaps, &speeds, &mut rates[0]);
+            as_formula(&model).force().accelerations(&net_gaps, &speeds, &mut rates[1]);
+            assert_eq!(bits(&rates[0]), bits(&rates[1]), "{model:?}, {count}");
+        }
+    }
+}
+
+#[test]
+fn deviations_of_formulas_have_the_bits_of_compiled_laws() {
+    let mut random = Random(41);
+    for count in [2, 9, 133, 300] {
+        for size in [1e-200, 1e-6, 0.1] {
+            for model in variants(&mut random) {
+                let flow = Flow { net_gap: random.uniform(1.5, 3.0), speed: random.uniform(0.0, 1.0) };
+                let row = |random: &mut Random| (0..count).map(|_| random.uniform(-size, size)).collect::<Vec<_>>();
+                let (spacings, speeds) = (row(&mut random), row(&mut random));
+                let mut rates = [vec![0.0; count], vec![0.0; count]];
+                let compiled = model.force().deviations(flow, &spacings, &speeds, &mut rates[0]);
+                let other = as_formula(&model).force().deviations(flow, &spacings, &speeds, &mut rates[1]);
+                assert_eq!(compiled.to_bits(), other.to_bits(), "{model:?}");
+                assert_eq!(bits(&rates[0]), bits(&rates[1]), "{model:?}, {count}, {size}");
+            }
+        }
+    }
+}
+
+#[test]
+fn series_of_formulas_have_the_bits_of_compiled_laws() {
+    const ORDER: usize = 18;
+    let mut random = Random(42);
+    for count in [2, 5, 16, 17, 67] {
+        for model in variants(&mut random) {
+            let (net_gaps, speeds) = ring(count, &mut random);
+            let dimension = 2 * count + 1;
+            let mut rows = vec![0.0; (ORDER + 1) * dimension];
+            rows[..count].copy_from_slice(&net_gaps);
+            rows[count..2 * count].copy_from_slice(&speeds);
+            let mut rates = vec![0.0; count];
+            model.force().accelerations(&net_gaps, &speeds, &mut rates);
+            for n in 0..count {
+                rows[dimension + n] = 0.25 * (speeds[(n + 1) % count] - speeds[n]);
+                rows[dimension + count + n] = 0.25 * rates[n];
+            }
+            let mut both = [rows.clone(), rows];
+            for (coefficients, model) in both.iter_mut().zip([model.clone(), as_formula(&model)]) {
+                let flow = Flow { net_gap: 0.0, speed: 0.0 };
+                let (pedestrians, order, unit) = (count, ORDER, 0.25);
+                model.force().series(Motion { flow, pedestrians, order, unit, dimension, coefficients });
+            }
+            assert_eq!(bits(&both[0]), bits(&both[1]), "{model:?}, {count}");
+            assert!(both[0].iter().all(|value| value.is_finite()), "{model:?}");
+        }
+    }
+}
+
+#[test]
+fn the_response_of_a_formula_is_that_of_the_compiled_law() {
+    let mut random = Random(43);
+    for model in (0..50).flat_map(|_| variants(&mut random)).collect::<Vec<_>>() {
+        let (headway, speed) = (model.contact() + random.uniform(1.5, 3.0), random.uniform(0.0, 1.0));
+        let linear = model.linearise(headway, speed);
+        for other in [&model, &as_formula(&model)] {
+            let Some(response) = other.response(headway, speed) else { panic!("{other:?}") };
+            let slope =
+                |list: &[(i32, f64)], j: i32| list.iter().filter(|(own, _)| *own == j).map(|(_, f)| f).sum::<f64>();
+            let expected = [linear.phi, -1.0 - linear.kappa - linear.beta, linear.kappa - linear.beta];
+            let found = [slope(&response.spacings, 0), slope(&response.speeds, 0), slope(&response.speeds, 1)];
+            for (expected, found) in expected.iter().zip(found) {
+                assert!((expected - found).abs() < 1e-13 * (1.0 + expected.abs()), "{other:?}: {expected} {found}");
+            }
+        }
+    }
+}
