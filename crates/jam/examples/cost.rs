@@ -62,7 +62,11 @@ fn variants() -> Vec<Variant> {
     for (name, pedestrians) in STEPS.into_iter().filter(|(name, _)| PLAIN.contains(name)) {
         let Some(model) = law(name) else { continue };
         variants.push(named(&format!("gaps/{name}"), pedestrians, rates(FormKind::Gaps, model.clone(), pedestrians)));
-        variants.push(named(&format!("positions/{name}"), pedestrians, rates(FormKind::Positions, model.clone(), pedestrians)));
+        variants.push(named(
+            &format!("positions/{name}"),
+            pedestrians,
+            rates(FormKind::Positions, model.clone(), pedestrians),
+        ));
         variants.push(named(&format!("series-{name}"), pedestrians, series(model, pedestrians)));
     }
     variants.push(named("lane/softplus", 133, lane(math::slice::softplus)));

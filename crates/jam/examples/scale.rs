@@ -26,7 +26,8 @@ fn main() {
     let algebraic = Algebraic { strength, relative: 0.0, power, widening: 0.0, epsilon, desired_speed: 3.0 };
     let logarithmic = Logarithmic { desired_speed: 1.0, widening: 0.0, epsilon: 0.01 };
     let laws = [(Model::Algebraic(algebraic), 200.0 / 67.0), (Model::Logarithmic(logarithmic), 200.0 / 133.0)];
-    let columns = laws.each_ref().map(|(model, _)| VARIANTS.map(|(name, _, _)| format!(",{}_{name}", model.name())).concat());
+    let columns =
+        laws.each_ref().map(|(model, _)| VARIANTS.map(|(name, _, _)| format!(",{}_{name}", model.name())).concat());
     println!("n{}", columns.concat());
     let sizes = (1..).flat_map(|power| [10_usize.pow(power), 3 * 10_usize.pow(power)]);
     for n in sizes.take_while(|&n| n <= largest) {

@@ -32,7 +32,7 @@ impl Prepared {
     pub fn new(bound: &Bound, root: Id, contact: f64) -> Prepared {
         let program = Program::new(bound, root, contact);
         let reach = Reach::of(&program);
-        let operations = program.instructions.iter().map(|instruction| histories(&instruction.action)).sum();
+        let operations = program.instructions.iter().map(|instruction| instruction.action.histories()).sum();
         let uses_speeds = !relaxes_only(&program);
         Prepared { contact, program, reach, operations, uses_speeds }
     }
@@ -48,16 +48,6 @@ impl Prepared {
     }
 }
 
-/// How many histories an action takes ([`math::series`]).
-fn histories(action: &Action) -> usize {
-    match *action {
-        Action::Whole(n) if n > 1 => n as usize - 1,
-        Action::Whole(_) | Action::Power(_) | Action::Recip | Action::Function(_) => 1,
-        Action::Mul(_) | Action::Div(_) | Action::Min(_) | Action::Max(_) => 1,
-        _ => 0,
-    }
-}
-
 /// Whether speeds occur in no operation but linear ones with constants, so that a steady relaxation of the uniform flow
 /// is all that they do.
 fn relaxes_only(program: &Program) -> bool {
@@ -70,7 +60,7 @@ fn relaxes_only(program: &Program) -> bool {
     for Instruction { action, of, into, .. } in &program.instructions {
         let own = !matches!(action, Action::Constant(_)) && on_speed(*of, &depends);
         let other = action.second().is_some_and(|source| on_speed(source, &depends));
-        if (own || other) && histories(action) > 0 {
+        if (own || other) && action.histories() > 0 {
             return false;
         }
         depends[*into] = own || other;
@@ -144,9 +134,10 @@ impl Force for Interpreted {
     }
 
     fn series(&self, motion: Motion<'_>) {
-        let Prepared { program, operations, contact, .. } = &*self.prepared;
+        let Prepared { program, reach, operations, contact, .. } = &*self.prepared;
         let memory = &mut self.scratch.borrow_mut().memory;
-        dispatch(series::Coefficients { program, operations: *operations, contact: *contact, motion, memory });
+        let (reach, operations, contact) = (*reach, *operations, *contact);
+        dispatch(series::Coefficients { program, reach, operations, contact, motion, memory });
     }
 
     fn heun(&self, _steps: Steps, _cut: Option<Cut>, _state: &mut [f64]) -> Burst {

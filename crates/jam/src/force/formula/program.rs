@@ -246,6 +246,16 @@ impl Action {
         }
     }
 
+    /// How many histories it takes in a series ([`math::series`]).
+    pub fn histories(&self) -> usize {
+        match *self {
+            Action::Whole(n) if n > 1 => n as usize - 1,
+            Action::Whole(_) | Action::Power(_) | Action::Recip | Action::Function(_) => 1,
+            Action::Mul(_) | Action::Div(_) | Action::Min(_) | Action::Max(_) => 1,
+            _ => 0,
+        }
+    }
+
     /// The second operand, if there is one.
     pub fn second(&self) -> Option<Source> {
         match *self {

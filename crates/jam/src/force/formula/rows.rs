@@ -64,7 +64,7 @@ impl Neighbours {
 
     /// A variable of the pedestrians `begin ..`.
     #[inline(always)]
-    fn row(&self, source: Source, begin: usize, size: usize) -> &[f64] {
+    pub fn row(&self, source: Source, begin: usize, size: usize) -> &[f64] {
         let (row, j) = match source {
             Source::Spacing { j, net: true } => (&self.net_gaps, j),
             Source::Spacing { j, net: false } => (&self.spacings, j),
@@ -76,14 +76,18 @@ impl Neighbours {
     }
 }
 
-/// The ring once around and so many places on, up to whole registers.
+/// The ring once around and so many places on, up to whole blocks. The reach is no larger than the ring.
 fn extend(reach: Reach, ring: &[f64], row: &mut Vec<f64>) {
     let n = ring.len();
-    let first = n - reach.behind % n;
     row.clear();
-    row.extend(ring[first % n..].iter().chain(ring.iter().cycle()).take(reach.behind + n));
-    let after = n.next_multiple_of(LANES) - n + reach.ahead;
-    row.extend(ring.iter().cycle().take(after));
+    row.extend_from_slice(&ring[n - reach.behind..]);
+    row.extend_from_slice(ring);
+    let mut after = n.next_multiple_of(super::series::W) - n + reach.ahead;
+    while after > 0 {
+        let part = after.min(n);
+        row.extend_from_slice(&ring[..part]);
+        after -= part;
+    }
 }
 
 /// The registers.

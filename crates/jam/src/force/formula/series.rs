@@ -1,21 +1,28 @@
-//! A program carried out for the coefficients of a series, order by order.
+//! A program carried out for the coefficients of a series: order by order, instruction by instruction, each a loop over
+//! blocks of pedestrians.
 
-use super::program::{Program, Source};
+use super::program::{Action, Function, Program, Source};
+use super::rows::{Neighbours, Reach};
 use crate::force::Motion;
 use math::lanes::Lanes;
-use math::series::{Jet, Place, ROWS};
+use math::series::ROWS;
+use math::series::recurrences::{self as next, History};
 use math::simd::Kernel;
 use std::cell::Cell;
 
 /// So many pedestrians at a time.
-const W: usize = 16;
+pub const W: usize = 16;
+
+/// A row of a block for each order.
+type Blocks = [[f64; W]];
 
 /// Memory that is kept from step to step.
 #[derive(Clone, Debug, Default)]
 pub struct Memory {
-    /// What the operations keep, one block of pedestrians after another.
+    /// What the operations keep: for each of them, for each block, [`ROWS`] rows of coefficients.
     histories: Vec<Cell<[f64; W]>>,
-    registers: Vec<[f64; W]>,
+    registers: Vec<Vec<[f64; W]>>,
+    neighbours: Neighbours,
     spacings: Vec<f64>,
     speeds: Vec<f64>,
 }
@@ -24,6 +31,8 @@ pub struct Memory {
 pub struct Coefficients<'a, 'b> {
     /// The program.
     pub program: &'a Program,
+    /// How far it looks.
+    pub reach: Reach,
     /// How many operations keep something, products of whole powers counted one by one.
     pub operations: usize,
     /// What is to be added to a net gap for a spacing.
@@ -39,91 +48,175 @@ impl Kernel for Coefficients<'_, '_> {
 
     #[inline(always)]
     fn run(self) {
-        let Coefficients { program, operations, contact, motion, memory } = self;
+        let Coefficients { program, reach, operations, contact, motion, memory } = self;
         let Motion { flow, pedestrians: n, order, unit, dimension, coefficients } = motion;
-        let size = operations * ROWS * order;
-        let Memory { histories, registers, spacings, speeds } = memory;
-        histories.resize(n.div_ceil(W) * size, Cell::new([0.0; W]));
-        registers.resize(program.registers, [0.0; W]);
+        let blocks = n.div_ceil(W);
+        let Memory { histories, registers, neighbours, spacings, speeds } = memory;
+        histories.resize(operations * blocks * ROWS * order, Cell::new([0.0; W]));
+        registers.resize(program.registers, Vec::new());
+        registers.iter_mut().for_each(|register| register.resize(blocks, [0.0; W]));
         for k in 0..order {
             let (rows, next) = coefficients.split_at_mut((k + 1) * dimension);
             let row = &rows[k * dimension..];
-            // the coefficients of this order, those of order 0 with the uniform flow
-            let add = |value: f64, flow: f64| if k == 0 { value + flow } else { value };
-            spacings.clear();
-            spacings.extend(row[..n].iter().map(|spacing| add(*spacing, flow.net_gap)));
-            speeds.clear();
-            speeds.extend(row[n..2 * n].iter().map(|speed| add(*speed, flow.speed)));
-            let share = unit / (k + 1) as f64;
-            for block in 0..n.div_ceil(W) {
-                let place = Place::new(&histories[block * size..(block + 1) * size], order, k);
-                let variable = |source: Source| Lanes(gather(source, spacings, speeds, block * W, contact, k));
-                let value = if k == 0 {
-                    carry_out::<true>(program, registers, &place, variable)
-                } else {
-                    carry_out::<false>(program, registers, &place, variable)
-                };
-                let from = block * W;
-                // row 1 is given
-                if k > 0 {
-                    let to = &mut next[n + from..n + n.min(from + W)];
-                    to.iter_mut().zip((value * share).0).for_each(|(to, value)| *to = value);
-                }
+            let mut carrying = Order { program, registers, histories, length: order, k, blocks };
+            if k == 0 {
+                // the coefficients of order 0 with the uniform flow; row 1 is given
+                spacings.clear();
+                spacings.extend(row[..n].iter().map(|spacing| spacing + flow.net_gap));
+                speeds.clear();
+                speeds.extend(row[n..2 * n].iter().map(|speed| speed + flow.speed));
+                neighbours.fill(reach, spacings, speeds, contact);
+                carrying.run::<true>(neighbours);
+                continue;
             }
-            if k > 0 {
-                for i in 0..n {
-                    next[i] = (speeds[if i + 1 == n { 0 } else { i + 1 }] - speeds[i]) * share;
-                }
-            }
-        }
-    }
-}
-
-/// One order of one block.
-#[inline(always)]
-fn carry_out<const START: bool>(
-    program: &Program,
-    registers: &mut [[f64; W]],
-    place: &Place<'_, W>,
-    variable: impl Fn(Source) -> Lanes<W>,
-) -> Lanes<W> {
-    for instruction in &program.instructions {
-        let value = {
-            let get = |source: Source| match source {
-                Source::Register(register) => place.variable::<START>(Lanes(registers[register])),
-                other => place.variable(variable(other)),
+            let (spacings, speeds) = (&row[..n], &row[n..2 * n]);
+            neighbours.fill(reach, spacings, speeds, 0.0);
+            carrying.run::<false>(neighbours);
+            let result = match program.result {
+                Source::Register(register) => registers[register].as_flattened(),
+                variable => neighbours.row(variable, 0, blocks * W),
             };
-            let of: Jet<'_, W, START> = get(instruction.of);
-            instruction.action.act(of, get).coefficient()
-        };
-        registers[instruction.into] = value.0;
-    }
-    match program.result {
-        Source::Register(register) => Lanes(registers[register]),
-        other => variable(other),
+            let share = unit / (k + 1) as f64;
+            for (to, acceleration) in next[n..2 * n].iter_mut().zip(result) {
+                *to = acceleration * share;
+            }
+            for (to, pair) in next.iter_mut().zip(speeds.windows(2)) {
+                *to = (pair[1] - pair[0]) * share;
+            }
+            next[n - 1] = (speeds[0] - speeds[n - 1]) * share;
+        }
     }
 }
 
-/// A variable of a block; behind the last pedestrian, the first again.
-#[inline(always)]
-fn gather(source: Source, spacings: &[f64], speeds: &[f64], from: usize, contact: f64, order: usize) -> [f64; W] {
-    let n = spacings.len();
-    let (row, j, more) = match source {
-        Source::Spacing { j, net } => (spacings, j, if net || order > 0 { 0.0 } else { contact }),
-        Source::Speed(j) => (speeds, j, 0.0),
-        Source::Register(_) => return [0.0; W],
-    };
-    let first = from as isize + j as isize;
-    let mut block = [0.0; W];
-    if first >= 0 && first as usize + W <= n {
-        block.copy_from_slice(&row[first as usize..first as usize + W]);
-    } else {
-        for (lane, value) in block.iter_mut().enumerate() {
-            *value = row[(first + lane as isize).rem_euclid(n as isize) as usize];
+/// One order.
+struct Order<'a> {
+    program: &'a Program,
+    registers: &'a mut Vec<Vec<[f64; W]>>,
+    histories: &'a [Cell<[f64; W]>],
+    /// Coefficients of a series.
+    length: usize,
+    /// The order.
+    k: usize,
+    blocks: usize,
+}
+
+impl Order<'_> {
+    #[inline(always)]
+    fn run<const START: bool>(&mut self, neighbours: &Neighbours) {
+        let mut used = 0;
+        for instruction in &self.program.instructions {
+            let mut target = std::mem::take(&mut self.registers[instruction.into]);
+            let registers = &self.registers;
+            let size = self.blocks * W;
+            let get = |source: Source| match source {
+                Source::Register(register) => &registers[register][..],
+                variable => neighbours.row(variable, 0, size).as_chunks::<W>().0,
+            };
+            let x = get(instruction.of);
+            let y = instruction.action.second().map_or(x, get);
+            let histories =
+                Histories { memory: self.histories, blocks: self.blocks, length: self.length, order: self.k };
+            used += next_order::<START>(instruction.action, histories.of(used), x, y, &mut target);
+            self.registers[instruction.into] = target;
         }
     }
-    if more != 0.0 {
-        block.iter_mut().for_each(|value| *value += more);
+}
+
+/// The histories of operations.
+#[derive(Clone, Copy)]
+struct Histories<'a> {
+    memory: &'a [Cell<[f64; W]>],
+    blocks: usize,
+    length: usize,
+    order: usize,
+}
+
+impl<'a> Histories<'a> {
+    /// Those of the operation with this number and the ones behind it.
+    #[inline(always)]
+    fn of(self, operation: usize) -> Histories<'a> {
+        Histories { memory: &self.memory[operation * self.blocks * ROWS * self.length..], ..self }
     }
-    block
+
+    /// The history of a block.
+    #[inline(always)]
+    fn block(self, block: usize) -> History<'a, W> {
+        let size = ROWS * self.length;
+        History::new(&self.memory[block * size..(block + 1) * size], self.length, self.order)
+    }
+}
+
+/// A loop over pedestrians, or over blocks with their histories.
+macro_rules! each {
+    ($target:ident, $x:ident => $value:expr) => {
+        for (target, $x) in $target.as_flattened_mut().iter_mut().zip($x.as_flattened()) {
+            *target = $value;
+        }
+    };
+    ($target:ident, $x:ident, $y:ident => $value:expr) => {
+        let pairs = $x.as_flattened().iter().zip($y.as_flattened());
+        for (target, ($x, $y)) in $target.as_flattened_mut().iter_mut().zip(pairs) {
+            *target = $value;
+        }
+    };
+    ($target:ident, $histories:ident, $h:ident, $x:ident => $value:expr) => {
+        for (block, (target, x)) in $target.iter_mut().zip($x).enumerate() {
+            let ($h, $x) = ($histories.block(block), Lanes(*x));
+            *target = $value.0;
+        }
+    };
+    ($target:ident, $histories:ident, $h:ident, $x:ident, $y:ident => $value:expr) => {
+        for (block, ((target, x), y)) in $target.iter_mut().zip($x).zip($y).enumerate() {
+            let ($h, $x, $y) = ($histories.block(block), Lanes(*x), Lanes(*y));
+            *target = $value.0;
+        }
+    };
+}
+
+/// One instruction; returns how many histories it used.
+#[inline(always)]
+fn next_order<const START: bool>(action: Action, hs: Histories<'_>, x: &Blocks, y: &Blocks, row: &mut Blocks) -> usize {
+    let constant = |c: f64| if START { c } else { 0.0 };
+    match action {
+        Action::Constant(c) => row.fill([constant(c); W]),
+        Action::AddConstant(c) if START => each!(row, x => x + c),
+        Action::AddConstant(_) => row.copy_from_slice(x),
+        Action::MulConstant(c) => each!(row, x => x * c),
+        Action::DivConstant(c) => each!(row, x => x / c),
+        Action::Neg => each!(row, x => -x),
+        Action::Add(_) => {
+            each!(row, x, y => x + y);
+        }
+        Action::Sub(_) => {
+            each!(row, x, y => x - y);
+        }
+        Action::Mul(_) => each!(row, hs, h, x, y => next::product::<W, START>(h, x, y)),
+        Action::Div(_) => each!(row, hs, h, x, y => next::quotient::<W, START>(h, x, y)),
+        Action::Min(_) => each!(row, hs, h, x, y => next::min::<W, START>(h, x, y)),
+        Action::Max(_) => each!(row, hs, h, x, y => next::max::<W, START>(h, x, y)),
+        Action::Recip => each!(row, hs, h, x => next::recip::<W, START>(h, x)),
+        Action::Power(q) => each!(row, hs, h, x => next::power::<W, START>(h, x, q)),
+        Action::Whole(n) if n < 0 => each!(row, hs, h, x => next::whole_power::<W, START>(h, x, n)),
+        Action::Whole(n) => {
+            // products, because the number may pass through 0
+            row.copy_from_slice(x);
+            for factor in 1..n as usize {
+                let hs = hs.of(factor - 1);
+                for (block, (row, x)) in row.iter_mut().zip(x).enumerate() {
+                    *row = next::product::<W, START>(hs.block(block), Lanes(*row), Lanes(*x)).0;
+                }
+            }
+        }
+        Action::Function(function) => match function {
+            Function::Exp => each!(row, hs, h, x => next::exp::<W, START>(h, x)),
+            Function::ExpM1 => each!(row, hs, h, x => next::exp_m1::<W, START>(h, x)),
+            Function::Ln => each!(row, hs, h, x => next::ln::<W, START>(h, x)),
+            Function::Ln1p => each!(row, hs, h, x => next::ln_1p::<W, START>(h, x)),
+            Function::Sqrt => each!(row, hs, h, x => next::sqrt::<W, START>(h, x)),
+            Function::Tanh => each!(row, hs, h, x => next::tanh::<W, START>(h, x)),
+            Function::Softplus => each!(row, hs, h, x => next::softplus::<W, START>(h, x)),
+            Function::Abs => each!(row, hs, h, x => next::abs::<W, START>(h, x)),
+        },
+    }
+    action.histories()
 }
