@@ -39,8 +39,18 @@ impl std::error::Error for RecipeError {}
 pub struct Entry {
     /// Line, counted from 1.
     pub line: usize,
+    /// Where the value stands: line and column in characters, both counted from 1; of a text its first character, behind
+    /// the quotation mark. `(0, 0)` for what stands in no file.
+    pub place: (usize, usize),
     /// The value.
     pub value: Value,
+}
+
+impl Entry {
+    /// A value that stands in no file, or on a line that is all that is known.
+    pub fn new(line: usize, value: Value) -> Entry {
+        Entry { line, place: (line, 0), value }
+    }
 }
 
 /// A value of a scene file.
@@ -117,6 +127,7 @@ fn section(text: &str, table: &DeTable<'_>, line: usize) -> Result<Section, (usi
     let mut entries = BTreeMap::new();
     for (key, value) in table {
         let line = line_of(text, key.span().start);
+        let place = place_of(text, value.span().start);
         let value = match value.get_ref() {
             DeValue::Integer(digits) => Value::Number(whole(digits.as_str(), digits.radix(), line)?),
             DeValue::Float(digits) => {
@@ -128,7 +139,7 @@ fn section(text: &str, table: &DeTable<'_>, line: usize) -> Result<Section, (usi
                 Value::Other(value.get_ref().type_str().to_owned())
             }
         };
-        entries.insert(key.get_ref().to_string(), Entry { line, value });
+        entries.insert(key.get_ref().to_string(), Entry { line, place, value });
     }
     Ok(Section { line, entries })
 }
@@ -139,6 +150,16 @@ fn whole(digits: &str, radix: u32, line: usize) -> Result<f64, (usize, String)> 
 
 fn not_a_number(digits: &str, line: usize) -> (usize, String) {
     (line, format!("{digits} is not a number that fits"))
+}
+
+/// Line and column of a value; a text begins behind its quotation marks.
+fn place_of(text: &str, offset: usize) -> (usize, usize) {
+    let rest = &text[offset.min(text.len())..];
+    let quotes = ["\"\"\"", "'''", "\"", "'"].iter().find(|quotes| rest.starts_with(**quotes));
+    let start = offset + quotes.map_or(0, |quotes| quotes.len());
+    let before = &text[..start.min(text.len())];
+    let column = before.rsplit('\n').next().map_or(0, |line| line.chars().count());
+    (line_of(text, start), column + 1)
 }
 
 fn line_of(text: &str, offset: usize) -> usize {
@@ -232,6 +253,30 @@ impl<'a> Reader<'a> {
                     .ok_or_else(|| self.wrong(key, entry, &wanted)),
                 _ => Err(self.wrong(key, entry, &wanted)),
             },
+        }
+    }
+
+    /// What the text under `key` names, which must be one of these names.
+    ///
+    /// # Errors
+    /// Missing, not a text, or none of the names.
+    pub fn one_of<T: Copy>(&mut self, key: &'static str, choices: &[(&'static str, T)]) -> Result<T, RecipeError> {
+        let names: Vec<&'static str> = choices.iter().map(|choice| choice.0).collect();
+        let name = self.choice(key, &names)?;
+        let named = choices.iter().find(|choice| choice.0 == name).map(|choice| choice.1);
+        named.ok_or_else(|| self.missing(key, &names.join(", ")))
+    }
+
+    /// The text under `key`, which the message calls `wanted`.
+    ///
+    /// # Errors
+    /// Missing, or not a text.
+    pub fn text(&mut self, key: &'static str, wanted: &str) -> Result<&'a str, RecipeError> {
+        self.asked.insert(key);
+        match self.section.entries.get(key) {
+            None => Err(self.missing(key, wanted)),
+            Some(Entry { value: Value::Text(text), .. }) => Ok(text),
+            Some(entry) => Err(self.wrong(key, entry, wanted)),
         }
     }
 

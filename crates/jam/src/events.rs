@@ -1,9 +1,10 @@
 //! Events of a run: overlap, negative speed, exchange of places, blow-up, each with its time and pedestrian.
 
+use crate::force::{Force, Rows};
 use crate::laws::Model;
 use crate::states::Form;
 use math::simd::{Kernel, dispatch};
-use ode::{Step, first_crossing};
+use ode::{Step, crossing_between, first_crossing};
 
 /// What can happen to a pedestrian.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -69,6 +70,7 @@ struct Instant {
     gap_rates: Vec<f64>,
     speed_rates: Vec<f64>,
     room_rates: Vec<f64>,
+    net_gaps: Vec<f64>,
 }
 
 impl Instant {
@@ -81,37 +83,26 @@ impl Instant {
             gap_rates: zeros(),
             speed_rates: zeros(),
             room_rates: zeros(),
+            net_gaps: zeros(),
         }
     }
 
-    fn read(&mut self, form: &dyn Form, model: &Model, state: &[f64], rates: &[f64]) {
+    fn read(&mut self, form: &dyn Form, force: &dyn Force, state: &[f64], rates: &[f64]) {
         form.read(state, &mut self.gaps, &mut self.speeds);
         form.read_rates(rates, &mut self.gap_rates, &mut self.speed_rates);
-        // the room is linear in gap and speeds, and so are its rates in theirs
-        let a_v = model.room_per_speed();
-        combine(&self.gaps, &self.speeds, a_v, model.contact(), &mut self.rooms);
-        combine(&self.gap_rates, &self.speed_rates, a_v, 0.0, &mut self.room_rates);
+        self.net_gaps.clear();
+        self.net_gaps.extend(self.gaps.iter().map(|gap| gap - force.contact()));
+        force.effective_gaps(&self.net_gaps, &self.speeds, &mut self.rooms);
+        let now = Rows { spacings: &self.net_gaps, speeds: &self.speeds };
+        let rates = Rows { spacings: &self.gap_rates, speeds: &self.speed_rates };
+        force.effective_gap_rates(now, rates, &mut self.room_rates);
     }
-}
-
-/// Writes `gap - a_v (speed + speed ahead) - offset`.
-fn combine(gaps: &[f64], speeds: &[f64], a_v: f64, offset: f64, rooms: &mut [f64]) {
-    for (room, gap) in rooms.iter_mut().zip(gaps) {
-        *room = gap - offset;
-    }
-    if a_v == 0.0 {
-        return;
-    }
-    let last = gaps.len() - 1;
-    for (room, pair) in rooms.iter_mut().zip(speeds.windows(2)) {
-        *room -= a_v * (pair[0] + pair[1]);
-    }
-    rooms[last] -= a_v * (speeds[last] + speeds[0]);
 }
 
 /// Watches the steps of a run for the first event of each kind.
 pub struct Watch<'a> {
     model: Model,
+    force: Box<dyn Force>,
     form: &'a dyn Form,
     found: Vec<Happening>,
     before: Instant,
@@ -120,6 +111,9 @@ pub struct Watch<'a> {
     seen: Option<f64>,
 }
 
+/// What happens to several pedestrians within this time happens at once.
+const AT_ONCE: f64 = 1e-9;
+
 /// A step in which an event may lie is searched in this many parts.
 const PARTS: u32 = 16;
 
@@ -127,13 +121,35 @@ impl<'a> Watch<'a> {
     /// A watch over a ring of `pedestrians` in this form.
     pub fn new(model: Model, form: &'a dyn Form, pedestrians: usize) -> Watch<'a> {
         let instant = Instant::new(pedestrians);
-        Watch { model, form, found: Vec::new(), before: instant.clone(), after: instant, seen: None }
+        let force = model.force();
+        Watch { model, force, form, found: Vec::new(), before: instant.clone(), after: instant, seen: None }
     }
 
     /// Goes on with the same ring in another form.
     pub fn change_form(&mut self, form: &'a dyn Form) {
         self.form = form;
         self.seen = None;
+    }
+
+    /// What happens at the start of a run, at time `t`: everybody to whom it does. A speed of 0 that falls is negative at once.
+    pub fn start(&mut self, t: f64, state: &[f64], rates: &[f64]) -> Vec<Happening> {
+        self.after.read(self.form, &*self.force, state, rates);
+        self.seen = Some(t);
+        let now = &self.after;
+        for event in Event::ALL {
+            for pedestrian in 0..now.gaps.len() {
+                let (value, rate) = match event {
+                    Event::Overlap => (now.rooms[pedestrian], now.room_rates[pedestrian]),
+                    Event::NegativeSpeed => (now.speeds[pedestrian], now.speed_rates[pedestrian]),
+                    Event::Exchange => (now.gaps[pedestrian], now.gap_rates[pedestrian]),
+                    Event::BlowUp => (self.bound() - now.speeds[pedestrian].abs(), 0.0),
+                };
+                if value < 0.0 || value == 0.0 && rate < 0.0 {
+                    self.found.push(Happening { event, time: t, pedestrian, gap: now.gaps[pedestrian], step: 0.0 });
+                }
+            }
+        }
+        self.found.clone()
     }
 
     /// Goes on where a watch stood that had found these.
@@ -151,7 +167,19 @@ impl<'a> Watch<'a> {
         &self.after.rooms
     }
 
-    /// The first event of each kind so far, in order of time.
+    /// The rooms in any state of the form.
+    pub fn rooms_of(&self, state: &[f64]) -> Vec<f64> {
+        let mut instant = self.before.clone();
+        instant.read(self.form, &*self.force, state, &vec![0.0; state.len()]);
+        instant.rooms
+    }
+
+    /// Adds an event that the steps do not show.
+    pub fn add(&mut self, happening: Happening) {
+        self.found.push(happening);
+    }
+
+    /// The first event of each kind so far, of everybody to whom it happened at once, in order of time.
     pub fn found(&self) -> &[Happening] {
         &self.found
     }
@@ -161,15 +189,17 @@ impl<'a> Watch<'a> {
         if self.seen == Some(step.start) {
             std::mem::swap(&mut self.before, &mut self.after);
         } else {
-            self.before.read(self.form, &self.model, step.before(), step.rates_before());
+            self.before.read(self.form, &*self.force, step.before(), step.rates_before());
         }
         self.seen = Some(step.end);
-        self.after.read(self.form, &self.model, step.after(), step.rates_after());
+        self.after.read(self.form, &*self.force, step.after(), step.rates_after());
         let mut new = Vec::new();
         for event in Event::ALL {
-            let is_known = self.found.iter().any(|happening| happening.event == event);
-            if !is_known && self.may_lie_within(event, step.length()) {
-                new.extend(self.locate(event, step));
+            let mut known = self.found.iter().filter(|happening| happening.event == event).peekable();
+            let first = known.peek().map(|happening| happening.time);
+            if first.is_none_or(|time| step.start <= time + AT_ONCE) && self.may_lie_within(event, step.length()) {
+                let known: Vec<usize> = known.map(|happening| happening.pedestrian).collect();
+                new.extend(self.locate(event, first, &known, step));
             }
         }
         let mut overlaps = self.found.iter().chain(&new);
@@ -196,21 +226,45 @@ impl<'a> Watch<'a> {
         }
     }
 
-    fn locate(&self, event: Event, step: &mut Step<'_>) -> Option<Happening> {
+    /// The first event of this kind in the step, of everybody but those `known` to whom it happens at once; none that is
+    /// not at once with the `first` of all.
+    fn locate(&self, event: Event, first: Option<f64>, known: &[usize], step: &mut Step<'_>) -> Vec<Happening> {
         let count = self.before.gaps.len();
         let (mut gaps, mut speeds) = (vec![0.0; count], vec![0.0; count]);
-        let mut lowest = |state: &[f64]| {
+        let mut values = |state: &[f64], values: &mut [f64]| {
             self.form.read(state, &mut gaps, &mut speeds);
-            let values = (0..count).map(|n| (self.value(event, gaps[n], speeds[n], speeds[(n + 1) % count]), n));
-            values.fold((f64::INFINITY, 0), |lowest, next| if next.0 < lowest.0 { next } else { lowest })
+            self.values(event, &mut gaps, &speeds, values);
+            known.iter().for_each(|&n| values[n] = f64::INFINITY);
         };
-        let theta = first_crossing(step, PARTS, &mut |state| lowest(state).0)?;
+        let mut all = vec![0.0; count];
+        let lowest = &mut |state: &[f64]| {
+            values(state, &mut all);
+            all.iter().fold(f64::INFINITY, |lowest, &next| if next < lowest { next } else { lowest })
+        };
+        let Some(theta) = first_crossing(step, PARTS, lowest) else { return Vec::new() };
+        let (start, length) = (step.start, step.length());
+        let last = first.map_or(theta * length, |first| first - start) + AT_ONCE;
+        let last = if last < length { last / length } else { 1.0 };
         let mut state = vec![0.0; step.before().len()];
+        let (mut at_first, mut at_last) = (vec![0.0; count], vec![0.0; count]);
         step.at_fraction(theta, &mut state);
-        let (_, pedestrian) = lowest(&state);
-        self.form.read(&state, &mut gaps, &mut speeds);
-        let (time, gap) = (step.start + theta * step.length(), gaps[pedestrian]);
-        Some(Happening { event, time, pedestrian, gap, step: step.length() })
+        values(&state, &mut at_first);
+        step.at_fraction(if theta < last { last } else { theta }, &mut state);
+        values(&state, &mut at_last);
+        let (mut found, mut spare) = (Vec::new(), vec![0.0; count]);
+        for pedestrian in (0..count).filter(|&n| theta <= last && (at_first[n] < 0.0 || at_last[n] < 0.0)) {
+            let mut own = |state: &[f64]| {
+                values(state, &mut all);
+                all[pedestrian]
+            };
+            let is_first = at_first[pedestrian] < 0.0;
+            let place = if is_first { theta } else { crossing_between(step, theta, last, &mut own) };
+            step.at_fraction(place, &mut state);
+            self.form.read(&state, &mut all, &mut spare);
+            let (time, gap) = (start + place * length, all[pedestrian]);
+            found.push(Happening { event, time, pedestrian, gap, step: length });
+        }
+        found
     }
 
     /// The overlap in a step that was beyond a wall at none but its stages: at its end, of the pedestrian with the least
@@ -223,13 +277,16 @@ impl<'a> Watch<'a> {
         Happening { event: Event::Overlap, time: step.end, pedestrian, gap, step: step.length() }
     }
 
-    /// Negative once the event has happened.
-    fn value(&self, event: Event, gap: f64, speed: f64, ahead: f64) -> f64 {
+    /// Negative once the event has happened; the gaps are spoilt.
+    fn values(&self, event: Event, gaps: &mut [f64], speeds: &[f64], values: &mut [f64]) {
         match event {
-            Event::Overlap => self.model.room(gap, speed, ahead),
-            Event::NegativeSpeed => speed,
-            Event::Exchange => gap,
-            Event::BlowUp => self.bound() - speed.abs(),
+            Event::Overlap => {
+                gaps.iter_mut().for_each(|gap| *gap -= self.force.contact());
+                self.force.effective_gaps(gaps, speeds, values);
+            }
+            Event::NegativeSpeed => values.copy_from_slice(speeds),
+            Event::Exchange => values.copy_from_slice(gaps),
+            Event::BlowUp => values.iter_mut().zip(speeds).for_each(|(value, v)| *value = self.bound() - v.abs()),
         }
     }
 

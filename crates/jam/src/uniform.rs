@@ -1,16 +1,26 @@
 //! The uniform flow: equal gaps, equal and constant speeds.
 
-use crate::laws::Model;
+use crate::laws::{Formula, Model};
 
 /// Why there is no uniform flow with open gaps.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct NoUniformFlow {
     /// The headway `Delta y` asked for.
     pub headway: f64,
+    /// All steady speeds, where a formula has several.
+    pub speeds: Vec<f64>,
 }
 
 impl std::fmt::Display for NoUniformFlow {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        if !self.speeds.is_empty() {
+            let speeds: Vec<String> = self.speeds.iter().map(|speed| format!("{speed:?}")).collect();
+            let (headway, speeds) = (self.headway, speeds.join(", "));
+            return write!(
+                f,
+                "several steady speeds at headway L/N = {headway:?}: {speeds}; [uniform] speed = x takes the nearest"
+            );
+        }
         write!(
             f,
             "no uniform flow at headway L/N = {:?}: at no speed from -1e12 v_0 to v_0 does the drive balance the force with room left; a longer ring, fewer pedestrians or a weaker force has a uniform flow",
@@ -28,6 +38,9 @@ impl std::error::Error for NoUniformFlow {}
 /// # Errors
 /// [`NoUniformFlow`] when at no speed from -1e12 times the desired one up to it the drive balances the force with room left.
 pub fn steady_speed(model: &Model, headway: f64) -> Result<f64, NoUniformFlow> {
+    if let Model::Formula(formula) = model {
+        return of_formula(formula, headway, None);
+    }
     let pushes = |speed: f64| {
         let has_room = !model.is_singular() || model.room(headway, speed, speed) > 0.0;
         has_room && model.acceleration(headway, speed, speed) > 0.0
@@ -40,14 +53,75 @@ pub fn steady_speed(model: &Model, headway: f64) -> Result<f64, NoUniformFlow> {
         slow *= 2.0;
     }
     if !has_room(slow) || !pushes(slow) {
-        return Err(NoUniformFlow { headway });
+        return Err(none(headway));
     }
     let mut fast = desired;
     loop {
         let middle = 0.5 * (slow + fast);
         if middle <= slow || middle >= fast {
-            return if has_room(slow) { Ok(slow) } else { Err(NoUniformFlow { headway }) };
+            return if has_room(slow) { Ok(slow) } else { Err(none(headway)) };
         }
         if pushes(middle) { slow = middle } else { fast = middle }
+    }
+}
+
+fn none(headway: f64) -> NoUniformFlow {
+    NoUniformFlow { headway, speeds: Vec::new() }
+}
+
+/// The steady speed of a formula: where the acceleration of the uniform flow falls through 0, from 0 to the largest speed
+/// at which the formula has a value; if there is none, the one next below 0; the one next to `wanted`, if that is given.
+///
+/// # Errors
+/// [`NoUniformFlow`]: none, or several from 0 on and none is `wanted`.
+pub fn of_formula(formula: &Formula, headway: f64, wanted: Option<f64>) -> Result<f64, NoUniformFlow> {
+    let scale = formula.speed_scale().map_or(1.0, f64::abs);
+    let scale = if scale > 0.0 { scale } else { 1.0 };
+    let falls = |speeds: &[f64]| -> Vec<f64> {
+        let acceleration = |speed: f64| formula.uniform(headway, speed);
+        let values: Vec<f64> = speeds.iter().map(|speed| acceleration(*speed)).collect();
+        let pairs = speeds.windows(2).zip(values.windows(2));
+        pairs
+            .filter(|(_, value)| value[0] > 0.0 && value[1] <= 0.0)
+            .map(|(at, _)| bisected(at[0], at[1], acceleration))
+            .collect()
+    };
+    let (ahead, behind) = (grid(scale), grid(scale).into_iter().rev().map(|speed| -speed).collect::<Vec<_>>());
+    // a flow that stands still: the acceleration falls through 0 at 0
+    let step = ahead[1];
+    let ahead: Vec<f64> = std::iter::once(-step * 1e-9).chain(ahead).collect();
+    let forwards = falls(&ahead);
+    let backwards = falls(&behind);
+    if let Some(wanted) = wanted {
+        let all = forwards.iter().chain(&backwards).copied();
+        return all.min_by(|a, b| (a - wanted).abs().total_cmp(&(b - wanted).abs())).ok_or_else(|| none(headway));
+    }
+    match forwards[..] {
+        [] => backwards.last().copied().ok_or_else(|| none(headway)),
+        [speed] => Ok(speed),
+        _ => Err(NoUniformFlow { headway, speeds: forwards }),
+    }
+}
+
+/// Speeds from 0 to a million times the size of speeds: a fine grid near that size, ever coarser above.
+fn grid(scale: f64) -> Vec<f64> {
+    let fine = (0..=4000).map(|i| scale * f64::from(i) * 1e-3);
+    let mut all: Vec<f64> = fine.collect();
+    let mut speed = 4.0 * scale;
+    while speed < 1e6 * scale {
+        speed *= 1.01;
+        all.push(speed);
+    }
+    all
+}
+
+/// Where a function falls through 0, to the last bit.
+fn bisected(mut low: f64, mut high: f64, value: impl Fn(f64) -> f64) -> f64 {
+    loop {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            return if value(high) == 0.0 { high } else { low };
+        }
+        if value(middle) > 0.0 { low = middle } else { high = middle }
     }
 }

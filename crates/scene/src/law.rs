@@ -1,62 +1,108 @@
 //! `[law]`: kind and parameters. A term whose parameter is not named is not computed.
 
-use files::reader::{NOT_NEGATIVE, POSITIVE, Reader, RecipeError, Section};
+use files::reader::{Entry, NOT_NEGATIVE, POSITIVE, Reader, RecipeError, Section, Value};
+use formula::{Definition, Given, Place};
 use jam::laws::presets::PRESETS;
-use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
-
-/// Width of the smooth ramp of the algebraic and exponential laws (text after eq:aTheta).
-const EPSILON: f64 = 0.1;
+use jam::laws::{Algebraic, Exponential, Formula, Law, Logarithmic, Model, Range};
 
 /// Reads `[law]`.
 ///
 /// # Errors
-/// An unknown kind, preset or key, or a parameter out of its range.
+/// An unknown kind, preset or key, or a parameter out of its range; of a formula whatever is wrong, with its column.
 pub fn read(file: &str, section: &Section) -> Result<Model, RecipeError> {
     let mut law = Reader::new(file, "law", section);
-    let model = match law.choice("kind", &["algebraic", "exponential", "logarithmic"])? {
-        "algebraic" => Model::Algebraic(algebraic(&mut law)?),
-        "exponential" => Model::Exponential(exponential(&mut law)?),
-        _ => Model::Logarithmic(Logarithmic {
-            desired_speed: law.number("v0", POSITIVE)?,
-            widening: law.optional_number("a_v", NOT_NEGATIVE)?.unwrap_or(0.0),
-            epsilon: law.number("epsilon", POSITIVE)?,
-        }),
+    let model = match law.one_of("kind", &KINDS)? {
+        Kind::Algebraic if law.has("preset") => preset(&mut law)?,
+        Kind::Algebraic => Model::Algebraic(parameters::<Algebraic>(&mut law)?),
+        Kind::Exponential => Model::Exponential(parameters::<Exponential>(&mut law)?),
+        Kind::Logarithmic => Model::Logarithmic(parameters::<Logarithmic>(&mut law)?),
+        Kind::Formula => return formula(file, section),
     };
     law.finish()?;
     Ok(model)
 }
 
-fn algebraic(law: &mut Reader<'_>) -> Result<Algebraic, RecipeError> {
-    if law.has("preset") {
-        return preset(law);
+/// The kinds of laws.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Algebraic,
+    Exponential,
+    Logarithmic,
+    Formula,
+}
+
+/// Their names.
+const KINDS: [(&str, Kind); 4] = [
+    ("algebraic", Kind::Algebraic),
+    ("exponential", Kind::Exponential),
+    ("logarithmic", Kind::Logarithmic),
+    ("formula", Kind::Formula),
+];
+
+/// The parameters of a law, as its file lists them.
+fn parameters<L: Law>(reader: &mut Reader<'_>) -> Result<L, RecipeError> {
+    let mut law = L::default();
+    for parameter in L::PARAMETERS {
+        let range = match parameter.range {
+            Range::Positive => POSITIVE,
+            Range::NotNegative => NOT_NEGATIVE,
+        };
+        *(parameter.place)(&mut law) = match parameter.default {
+            None => reader.number(parameter.name, range)?,
+            Some(default) => reader.optional_number(parameter.name, range)?.unwrap_or(default),
+        };
     }
-    Ok(Algebraic {
-        strength: law.number("mu", NOT_NEGATIVE)?,
-        relative: law.optional_number("delta", NOT_NEGATIVE)?.unwrap_or(0.0),
-        power: law.number("q", POSITIVE)?,
-        widening: law.optional_number("a_v", NOT_NEGATIVE)?.unwrap_or(0.0),
-        epsilon: law.optional_number("epsilon", POSITIVE)?.unwrap_or(EPSILON),
-        desired_speed: law.number("v0", POSITIVE)?,
-    })
+    Ok(law)
 }
 
 /// A model of tab:model; the parameters that it leaves open must be given, the others must not.
-fn preset(law: &mut Reader<'_>) -> Result<Algebraic, RecipeError> {
-    let name = law.choice("preset", &PRESETS.map(|preset| preset.name))?;
-    let preset = PRESETS.iter().find(|preset| preset.name == name).unwrap_or(&PRESETS[0]);
-    let strength = if preset.strength.is_none() { law.number("mu", NOT_NEGATIVE)? } else { 0.0 };
-    let widening = if preset.widening.is_none() { law.number("a_v", NOT_NEGATIVE)? } else { 0.0 };
-    let epsilon = law.optional_number("epsilon", POSITIVE)?.unwrap_or(EPSILON);
-    Ok(preset.law(strength, widening, epsilon, law.number("v0", POSITIVE)?))
+fn preset(law: &mut Reader<'_>) -> Result<Model, RecipeError> {
+    let preset = law.one_of("preset", &PRESETS.map(|preset| (preset.name, preset)))?;
+    let fixed = [
+        ("mu", preset.strength),
+        ("delta", Some(preset.relative)),
+        ("q", Some(preset.power)),
+        ("a_v", preset.widening),
+    ];
+    let mut own = Algebraic::default();
+    for parameter in Algebraic::PARAMETERS {
+        let range = if parameter.range == Range::Positive { POSITIVE } else { NOT_NEGATIVE };
+        *(parameter.place)(&mut own) = match (fixed.iter().find(|(name, _)| *name == parameter.name), parameter.default)
+        {
+            (Some((_, Some(value))), _) => *value,
+            (None, Some(default)) => law.optional_number(parameter.name, range)?.unwrap_or(default),
+            _ => law.number(parameter.name, range)?,
+        };
+    }
+    Ok(Model::Algebraic(own))
 }
 
-fn exponential(law: &mut Reader<'_>) -> Result<Exponential, RecipeError> {
-    Ok(Exponential {
-        strength: law.number("a", NOT_NEGATIVE)?,
-        range: law.number("b", POSITIVE)?,
-        contact: law.optional_number("c", NOT_NEGATIVE)?.unwrap_or(0.0),
-        widening: law.optional_number("a_v", NOT_NEGATIVE)?.unwrap_or(0.0),
-        epsilon: law.optional_number("epsilon", POSITIVE)?.unwrap_or(EPSILON),
-        desired_speed: law.number("v0", POSITIVE)?,
-    })
+/// A law as formulas: every key but `kind` is a parameter or an expression.
+fn formula(file: &str, section: &Section) -> Result<Model, RecipeError> {
+    let mut lines: Vec<(&String, &Entry)> = section.entries.iter().filter(|(name, _)| *name != "kind").collect();
+    lines.sort_by_key(|(_, entry)| entry.place);
+    let mut definitions = Vec::new();
+    for (name, entry) in lines {
+        let given = match &entry.value {
+            Value::Number(number) => Given::Number(*number),
+            Value::Text(text) => Given::Text(text),
+            Value::Section(_) | Value::Other(_) => {
+                let law = Reader::new(file, "law", section);
+                return Err(law.complaint(name, "must be a number or an expression in quotation marks"));
+            }
+        };
+        let (key, value) = (place(entry.line, 1), place(entry.place.0, entry.place.1));
+        definitions.push(Definition { name, key, value, given });
+    }
+    let graph = formula::law(file, place(section.line, 1), &definitions);
+    let law = graph.and_then(Formula::new).map_err(|error| RecipeError {
+        file: file.to_owned(),
+        line: error.place.line as usize,
+        problem: format!("column {}: {}; valid: {}", error.place.column, error.found, error.valid),
+    })?;
+    Ok(Model::Formula(law))
+}
+
+fn place(line: usize, column: usize) -> Place {
+    Place { line: line as u32, column: column as u32 }
 }

@@ -2,20 +2,17 @@
 
 use crate::law;
 use files::reader::{FINITE, POSITIVE, Reader, RecipeError, Section};
-use files::table::Table;
+use files::table::{Table, push_number};
 use jam::criteria;
-use jam::laws::Model;
-use jam::stability::Linear;
-use jam::uniform::steady_speed;
-
-/// What an axis can run over.
-const PARAMETERS: [&str; 11] = ["mu", "delta", "q", "a", "b", "c", "a_v", "v0", "d_gap", "headway", "k"];
+use jam::laws::{Algebraic, Exponential, Formula, Logarithmic, Model};
+use jam::stability::{Linear, Waves};
+use jam::uniform::{self, steady_speed};
 
 /// One axis: cells of equal width, values at their centres.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     /// The parameter it runs over.
-    pub parameter: &'static str,
+    pub parameter: String,
     /// Its lower end.
     pub from: f64,
     /// Its upper end.
@@ -34,7 +31,11 @@ impl Axis {
 /// Which number a map shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Value {
-    /// The paper's criterion, negative where the uniform flow is stable.
+    /// How far the uniform flow is from stability, exactly, for the waves of all lengths: negative where it is stable (see
+    /// [`Linear::long_wave_margin`]).
+    Margin,
+    /// The paper's criterion, negative where the uniform flow is stable; only where the assumptions hold that it was
+    /// derived with.
     Criterion,
     /// `Re z^+`.
     GrowthRate,
@@ -60,15 +61,65 @@ struct Point {
     headway: Option<f64>,
     gap: Option<f64>,
     wave_number: Option<f64>,
+    /// The steady speed next to this one is taken, where a formula has several.
+    speed: Option<f64>,
 }
+
+/// The names of the values in scene files.
+const VALUES: [(&str, Value); 3] =
+    [("margin", Value::Margin), ("criterion", Value::Criterion), ("growth_rate", Value::GrowthRate)];
+
+/// The criterion is left out where it differs by more than this from the exact one, relative to values above 1.
+pub const CRITERION_HOLDS: f64 = 1e-3;
 
 /// The numbers of a map and how exact they are.
 #[derive(Clone, Debug)]
 pub struct Computed {
-    /// One row a cell: the two parameters and the value.
+    /// One row for each cell that has a value: the two parameters and the value.
     pub table: Table,
+    /// The cells without a value, by their number in the order of the table with all of them: those in which the paper's
+    /// criterion differs from the exact one by more than [`CRITERION_HOLDS`].
+    pub blank: Vec<usize>,
     /// The largest difference from the same value found another way; relative to values above 1.
     pub error: f64,
+}
+
+impl Computed {
+    /// The values of all cells, NaN for blank ones, as a picture takes them.
+    pub fn values(&self) -> Vec<f64> {
+        let (mut rows, mut blank) = (self.table.rows(), self.blank.iter().peekable());
+        let cells = self.table.len() + self.blank.len();
+        let mut value = |cell: usize| match blank.next_if_eq(&&cell) {
+            Some(_) => f64::NAN,
+            None => rows.next().map_or(f64::NAN, |row| row[2]),
+        };
+        (0..cells).map(&mut value).collect()
+    }
+
+    /// The part of the cells that are blank.
+    pub fn blank_share(&self) -> f64 {
+        self.blank.len() as f64 / (self.table.len() + self.blank.len()) as f64
+    }
+
+    /// The table of this map as CSV, the value of blank cells empty.
+    pub fn to_csv(&self, map: &Map) -> Vec<u8> {
+        if self.blank.is_empty() {
+            return self.table.to_csv();
+        }
+        let mut text = self.table.columns.join(",") + "\n";
+        for (cell, value) in self.values().into_iter().enumerate() {
+            let (x, y) = (map.x.centre(cell / map.y.cells), map.y.centre(cell % map.y.cells));
+            for (number, end) in [(x, ","), (y, ",")] {
+                push_number(&mut text, number);
+                text += end;
+            }
+            if !value.is_nan() {
+                push_number(&mut text, value);
+            }
+            text += "\n";
+        }
+        text.into_bytes()
+    }
 }
 
 /// Reads a map from the tables of a panel.
@@ -78,25 +129,22 @@ pub struct Computed {
 pub fn read(file: &str, tables: &Section) -> Result<Map, RecipeError> {
     let mut top = Reader::new(file, "scene", tables);
     let mut map = Reader::new(file, "map", top.section("map")?);
-    let value = match map.choice("value", &["criterion", "growth_rate"])? {
-        "criterion" => Value::Criterion,
-        _ => Value::GrowthRate,
-    };
+    let value = if map.has("value") { map.one_of("value", &VALUES)? } else { Value::Margin };
     let (x, y) = (axis(file, "map.x", map.section("x")?)?, axis(file, "map.y", map.section("y")?)?);
     let mut law_tables = top.section("law")?.clone();
     let [x_section, y_section] = [map.section("x")?, map.section("y")?];
     for (name, section, axis) in [("map.x", x_section, &x), ("map.y", y_section, &y)] {
-        if axis.parameter == x.parameter && name == "map.y" {
+        if name == "map.y" && axis.parameter == x.parameter {
             return Err(Reader::new(file, name, section).complaint("parameter", "is the other axis as well"));
         }
-        if law_tables.entries.contains_key(axis.parameter) {
+        if law_tables.entries.contains_key(&axis.parameter) {
             let problem = format!("is an axis of the map ({name}): leave it out here");
-            return Err(Reader::new(file, "law", top.section("law")?).complaint(axis.parameter, &problem));
+            return Err(Reader::new(file, "law", top.section("law")?).complaint(&axis.parameter, &problem));
         }
         if let Some(problem) = unfit(&law_tables, axis) {
             return Err(Reader::new(file, name, section).complaint("parameter", &problem));
         }
-        place_holder(&mut law_tables, axis);
+        place_holder(&mut law_tables, axis, section);
     }
     map.finish()?;
     let model = law::read(file, &law_tables)?;
@@ -109,7 +157,7 @@ pub fn read(file: &str, tables: &Section) -> Result<Map, RecipeError> {
     }
 }
 
-const EMPTY: Point = Point { headway: None, gap: None, wave_number: None };
+const EMPTY: Point = Point { headway: None, gap: None, wave_number: None, speed: None };
 
 fn uniform(file: &str, section: &Section) -> Result<Point, RecipeError> {
     let mut reader = Reader::new(file, "uniform", section);
@@ -117,6 +165,7 @@ fn uniform(file: &str, section: &Section) -> Result<Point, RecipeError> {
         headway: reader.optional_number("headway", POSITIVE)?,
         gap: reader.optional_number("d_gap", POSITIVE)?,
         wave_number: reader.optional_number("k", POSITIVE)?,
+        speed: reader.optional_number("speed", FINITE)?,
     };
     reader.finish()?;
     Ok(point)
@@ -125,8 +174,8 @@ fn uniform(file: &str, section: &Section) -> Result<Point, RecipeError> {
 fn axis(file: &str, name: &'static str, section: &Section) -> Result<Axis, RecipeError> {
     let mut reader = Reader::new(file, name, section);
     let axis = Axis {
-        parameter: reader.choice("parameter", &PARAMETERS)?,
-        from: reader.number("from", 0.0..)?,
+        parameter: reader.text("parameter", "a parameter of the law, d_gap, headway or k")?.to_owned(),
+        from: reader.number("from", FINITE)?,
         to: reader.number("to", FINITE)?,
         cells: reader.count("cells", 1, 2_000)?,
     };
@@ -137,30 +186,33 @@ fn axis(file: &str, name: &'static str, section: &Section) -> Result<Axis, Recip
     Ok(axis)
 }
 
-/// Why this axis does not fit the law, if it does not.
+/// Why this axis does not fit the law, if it does not. Of a formula every name is a parameter, if the formulas use it.
 fn unfit(law: &Section, axis: &Axis) -> Option<String> {
     use files::reader::Value;
     let Value::Text(kind) = &law.entries.get("kind")?.value else { return None };
-    let own: &[&str] = match kind.as_str() {
-        "algebraic" => &["mu", "delta", "q", "a_v", "v0"],
-        "exponential" => &["a", "b", "c", "a_v", "v0"],
-        "logarithmic" => &["a_v", "v0"],
+    let own = match kind.as_str() {
+        "algebraic" => Model::Algebraic(Algebraic::default()).parameters(),
+        "exponential" => Model::Exponential(Exponential::default()).parameters(),
+        "logarithmic" => Model::Logarithmic(Logarithmic::default()).parameters(),
         _ => return None,
     };
-    let fits = OF_THE_FLOW.contains(&axis.parameter) || own.contains(&axis.parameter);
-    let valid = [own, &OF_THE_FLOW[..]].concat().join(", ");
-    (!fits).then(|| format!("the {kind} law has no parameter {}; an axis can be {valid}", axis.parameter))
+    let name = axis.parameter.as_str();
+    if !OF_THE_FLOW.contains(&name) && !own.iter().any(|parameter| parameter == name) {
+        let valid = [own.join(", "), OF_THE_FLOW.join(", ")].join(", ");
+        return Some(format!("the {kind} law has no parameter {name}; an axis can be {valid}"));
+    }
+    (axis.from < 0.0).then(|| format!("{name} begins at {:?}, below 0; from must be at least 0", axis.from))
 }
 
 /// Axes that are no parameters of a law.
 const OF_THE_FLOW: [&str; 3] = ["d_gap", "headway", "k"];
 
 /// A parameter of the law that is an axis need not be named: any value stands for it until the cells set it.
-fn place_holder(law: &mut Section, axis: &Axis) {
+fn place_holder(law: &mut Section, axis: &Axis, section: &Section) {
     use files::reader::{Entry, Value};
-    if !OF_THE_FLOW.contains(&axis.parameter) {
-        let entry = Entry { line: law.line, value: Value::Number(axis.centre(0)) };
-        law.entries.insert(axis.parameter.to_owned(), entry);
+    if !OF_THE_FLOW.contains(&axis.parameter.as_str()) {
+        let line = section.entries.get("parameter").map_or(law.line, |entry| entry.line);
+        law.entries.insert(axis.parameter.clone(), Entry::new(line, Value::Number(axis.centre(0))));
     }
 }
 
@@ -171,8 +223,9 @@ impl Map {
         if self.value == Value::GrowthRate && !has("k") && self.point.wave_number.is_none() {
             return Some("growth_rate needs a wave number: an axis k, or uniform.k".to_owned());
         }
-        if self.value == Value::Criterion && (has("k") || self.point.wave_number.is_some()) {
-            return Some("the criterion is one for all waves: leave out k, or choose growth_rate".to_owned());
+        if self.value != Value::GrowthRate && (has("k") || self.point.wave_number.is_some()) {
+            let name = if self.value == Value::Margin { "margin" } else { "criterion" };
+            return Some(format!("the {name} is one for all waves: leave out k, or choose growth_rate"));
         }
         let gaps = [has("d_gap") || self.point.gap.is_some(), has("headway") || self.point.headway.is_some()];
         match (gaps, &self.model) {
@@ -180,18 +233,21 @@ impl Map {
                 Some("needs the uniform flow: uniform.headway or uniform.d_gap, or an axis of it".to_owned())
             }
             ([true, true], _) => Some("headway and d_gap determine each other: give one of them".to_owned()),
-            ([true, _], Model::Logarithmic(_)) => Some("the logarithmic law needs the headway, not d_gap".to_owned()),
+            ([true, _], model) if !model.has_effective_gap() => {
+                Some(format!("the {} law needs the headway, not d_gap", model.name()))
+            }
             _ => None,
         }
     }
 
     /// The columns of its table.
-    pub fn columns(&self) -> [&'static str; 3] {
+    pub fn columns(&self) -> [&str; 3] {
         let value = match self.value {
+            Value::Margin => "margin",
             Value::Criterion => "phi",
             Value::GrowthRate => "re_z",
         };
-        [self.x.parameter, self.y.parameter, value]
+        [&self.x.parameter, &self.y.parameter, value]
     }
 
     /// Computes the map, column of cells by column of cells.
@@ -200,43 +256,65 @@ impl Map {
     /// A cell without a uniform flow or a finite value: its parameters.
     pub fn compute(&self) -> Result<Computed, String> {
         let mut table = Table::new(&self.columns());
-        let mut error: f64 = 0.0;
-        for i in 0..self.x.cells {
-            for j in 0..self.y.cells {
-                let (x, y) = (self.x.centre(i), self.y.centre(j));
-                let (value, other) = self
-                    .cell(x, y)
-                    .and_then(finite)
-                    .map_err(|why| format!("at {} = {x:?}, {} = {y:?}: {why}", self.x.parameter, self.y.parameter))?;
-                // relative where the value is large: there it lies far beyond the colours
-                let size = if value.abs() > 1.0 { value.abs() } else { 1.0 };
-                let difference = (value - other).abs() / size;
-                error = if difference > error || difference.is_nan() { difference } else { error };
-                table.push(&[x, y, value]);
+        let (mut error, mut blank) = (0.0, Vec::new());
+        for cell in 0..self.x.cells * self.y.cells {
+            let (x, y) = (self.x.centre(cell / self.y.cells), self.y.centre(cell % self.y.cells));
+            let (value, other) = self
+                .cell(x, y)
+                .and_then(finite)
+                .map_err(|why| format!("at {} = {x:?}, {} = {y:?}: {why}", self.x.parameter, self.y.parameter))?;
+            // relative where the value is large: there it lies far beyond the colours
+            let size = if other.abs() > 1.0 { other.abs() } else { 1.0 };
+            let difference = (value - other).abs() / size;
+            if self.value == Value::Criterion && difference > CRITERION_HOLDS {
+                blank.push(cell);
+                continue;
             }
+            error = if difference > error || difference.is_nan() { difference } else { error };
+            table.push(&[x, y, value]);
         }
-        Ok(Computed { table, error })
+        Ok(Computed { table, blank, error })
     }
 
     /// The value of a cell, and the same found another way.
     fn cell(&self, x: f64, y: f64) -> Result<(f64, f64), String> {
-        let (mut model, mut point) = (self.model, self.point);
-        for (parameter, value) in [(self.x.parameter, x), (self.y.parameter, y)] {
-            match parameter {
+        let (mut model, mut point) = (self.model.clone(), self.point);
+        for (parameter, value) in [(&self.x.parameter, x), (&self.y.parameter, y)] {
+            match parameter.as_str() {
                 "d_gap" => point.gap = Some(value),
                 "headway" => point.headway = Some(value),
                 "k" => point.wave_number = Some(value),
-                _ => set(&mut model, parameter, value)?,
+                _ => model = model.with(parameter, value)?,
             }
+        }
+        if let Model::Formula(formula) = &model {
+            return self.of_formula(formula, &point);
         }
         let (criterion, linear) = stability(&model, &point)?;
         Ok(match self.value {
+            Value::Margin => (linear.long_wave_margin(), linear.refined_margin()),
             Value::Criterion => (criterion, criterion_of(&model, &linear)),
             Value::GrowthRate => {
                 let k = point.wave_number.ok_or("needs a wave number")?;
                 (linear.growth_rate(k), linear.refined_growth_rate(k))
             }
         })
+    }
+
+    /// The value of a cell of a formula, whose stencil may be any.
+    fn of_formula(&self, formula: &Formula, point: &Point) -> Result<(f64, f64), String> {
+        let headway = point.headway.ok_or("needs the headway")?;
+        let speed = uniform::of_formula(formula, headway, point.speed).map_err(|error| error.to_string())?;
+        let response =
+            formula.response(headway, speed).ok_or("the uniform flow lies on a kink, or has no derivative")?;
+        match self.value {
+            Value::Margin => Ok((response.margin(Waves::All).0, response.refined_margin())),
+            Value::GrowthRate => {
+                let k = point.wave_number.ok_or("needs a wave number")?;
+                Ok((response.growth_rate(k), response.refined_growth_rate(k)))
+            }
+            Value::Criterion => Err("the paper's criterion is one of its three laws: use margin".to_owned()),
+        }
     }
 }
 
@@ -246,27 +324,6 @@ fn finite(values: (f64, f64)) -> Result<(f64, f64), String> {
         true => Ok(values),
         false => Err(format!("the value is {:?}: a number is too large or too small here", values.0)),
     }
-}
-
-/// Replaces one parameter of a law.
-fn set(model: &mut Model, parameter: &str, value: f64) -> Result<(), String> {
-    let place = match (&mut *model, parameter) {
-        (Model::Algebraic(law), "mu") => &mut law.strength,
-        (Model::Algebraic(law), "delta") => &mut law.relative,
-        (Model::Algebraic(law), "q") => &mut law.power,
-        (Model::Algebraic(law), "a_v") => &mut law.widening,
-        (Model::Algebraic(law), "v0") => &mut law.desired_speed,
-        (Model::Exponential(law), "a") => &mut law.strength,
-        (Model::Exponential(law), "b") => &mut law.range,
-        (Model::Exponential(law), "c") => &mut law.contact,
-        (Model::Exponential(law), "a_v") => &mut law.widening,
-        (Model::Exponential(law), "v0") => &mut law.desired_speed,
-        (Model::Logarithmic(law), "a_v") => &mut law.widening,
-        (Model::Logarithmic(law), "v0") => &mut law.desired_speed,
-        _ => return Err(format!("the {} law has no parameter {parameter}", model.name())),
-    };
-    *place = value;
-    Ok(())
 }
 
 /// The paper's criterion and the linearised law at a point.
@@ -289,10 +346,11 @@ fn stability(model: &Model, point: &Point) -> Result<(f64, Linear), String> {
             let (headway, speed) = steady()?;
             (criteria::logarithmic(law, headway, speed), law.linearise(headway, speed))
         }
+        Model::Formula(_) => return Err("the paper's criterion is one of its three laws".to_owned()),
     })
 }
 
-/// The criterion through the coefficients of the linearised law: `phi / (1 + 2 beta) - kappa - 1/2`, which for the
+/// The exact criterion, normalised like the paper's, through the coefficients of the linearised law: `phi / (1 + 2 beta) - kappa - 1/2`, which for the
 /// logarithmic law the paper divides once more by `1 + 2 beta`.
 fn criterion_of(model: &Model, linear: &Linear) -> f64 {
     let Linear { phi, beta, kappa } = *linear;

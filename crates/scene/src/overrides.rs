@@ -46,7 +46,7 @@ impl Overrides {
         let mut run = Section::default();
         let mut set = |key: &str, value: Option<Value>| {
             if let Some(value) = value {
-                run.entries.insert(key.to_owned(), Entry { line: 0, value });
+                run.entries.insert(key.to_owned(), Entry::new(0, value));
             }
         };
         set("method", self.method.clone().map(Value::Text));
@@ -65,7 +65,7 @@ impl Overrides {
             }
         }
         let mut over = Section::default();
-        over.entries.insert("run".to_owned(), Entry { line: 0, value: Value::Section(run) });
+        over.entries.insert("run".to_owned(), Entry::new(0, Value::Section(run)));
         tables.overlay(&over);
         tables
     }

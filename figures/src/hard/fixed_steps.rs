@@ -26,7 +26,7 @@ pub fn tables(quick: bool) -> Result<Tables, Failure> {
         for &step in &STEPS[..if method.order() > 4 { 2 } else { few }] {
             for kind in [FormKind::Deviations, FormKind::Positions] {
                 let case = case(kind);
-                push(&mut rows, case, &case.form().start(jam::ring::Start { shift: SHIFT }), method, step, 0.0);
+                push(&mut rows, case.clone(), &case.form().start(jam::ring::Start { shift: SHIFT }), method, step, 0.0);
             }
         }
         for &step in &STEPS_NEAR[..few_near] {

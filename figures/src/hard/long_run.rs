@@ -44,7 +44,7 @@ pub fn tables(quick: bool) -> Result<Tables, Failure> {
     let end = if quick { 1e3 } else { END };
     for (law, model, ring) in rings() {
         for kind in [FormKind::Deviations, FormKind::Gaps, FormKind::Positions] {
-            let case = Case { model, ring, kind };
+            let case = Case { model: model.clone(), ring, kind };
             let run = |(method, control)| case.run(0.1, Leg { method, control, begin: 0.0, end }).whole();
             let [(first, control), (second, _)] = two_methods(1e-9);
             let (one, two) = (run((first, control))?, run((second, control))?);

@@ -5,11 +5,11 @@ use jam::events::{Happening, Watch};
 use jam::laws::{Algebraic, Model};
 use jam::ring::{Ring, Start};
 use jam::states::{Form, FormKind};
-use ode::{Control, Method, Observer, Problem, Step, integrate};
+use ode::{Control, Method, Observer, Problem, Statistics, Step, integrate};
 use std::ops::ControlFlow;
 
 /// A law on a ring, in a form of the state.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Case {
     /// The law.
     pub model: Model,
@@ -80,8 +80,8 @@ impl Observer for Looking<'_> {
         if is_stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
-    fn stuck(&mut self, state: &[f64]) {
-        self.last = state.to_vec();
+    fn stuck(&mut self, reached: &Statistics) {
+        self.last = reached.state.clone();
     }
 }
 
@@ -112,7 +112,7 @@ impl Case {
     pub fn run_from(&self, start: &[f64], leg: Leg) -> Ended {
         let form = self.form();
         let count = self.ring.pedestrians;
-        let mut looking = Looking { watch: Watch::new(self.model, &*form, count), steps: 0, last: Vec::new() };
+        let mut looking = Looking { watch: Watch::new(self.model.clone(), &*form, count), steps: 0, last: Vec::new() };
         let Leg { method, control, begin, end } = leg;
         let result = integrate(&Problem { system: &*form, start, begin, end, method, control }, &mut looking);
         let events = looking.watch.found().to_vec();

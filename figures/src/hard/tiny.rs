@@ -31,7 +31,7 @@ pub fn tables(quick: bool) -> Result<Tables, Failure> {
     let mut rows = Rows::new(&["law", "state", "method", "shift", "gap_range", "speed_range", "deviation_per_shift"]);
     for (model, length) in models() {
         for kind in [FormKind::Deviations, FormKind::Gaps, FormKind::Positions] {
-            let case = Case { model, ring: Ring { pedestrians: COUNT, length }, kind };
+            let case = Case { model: model.clone(), ring: Ring { pedestrians: COUNT, length }, kind };
             for method in case.methods() {
                 let control = if method.is_adaptive() {
                     Control::Adaptive { tolerance: 1e-12 }

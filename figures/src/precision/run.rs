@@ -53,7 +53,7 @@ pub fn measure(scene: &Scene, method: Method, control: Control, solution: &[Inst
     let mut judge = Judge {
         solution,
         pedestrians,
-        watch: Watch::new(scene.model, &*form, pedestrians),
+        watch: Watch::new(scene.model.clone(), &*form, pedestrians),
         sampler: Sampler::new(scene.sample, form.dimension()),
         passed: 0,
         worst: (0.0, 0.0),

@@ -18,7 +18,7 @@ pub fn table(maps: &[(&str, Map)]) -> Result<Rows, Failure> {
         let values = computed.column(map.columns()[2])?;
         let (columns, lines) = (map.x.cells, map.y.cells);
         let value = |i: usize, j: usize| values[i * lines + j];
-        for (axis, along_x) in [(map.x.parameter, true), (map.y.parameter, false)] {
+        for (axis, along_x) in [(map.x.parameter.as_str(), true), (map.y.parameter.as_str(), false)] {
             let [mut pairs, mut rising, mut falling, mut lost, mut regained] = [0_usize; 5];
             let (last_i, last_j) = if along_x { (columns - 1, lines) } else { (columns, lines - 1) };
             for (i, j) in (0..last_i).flat_map(|i| (0..last_j).map(move |j| (i, j))) {

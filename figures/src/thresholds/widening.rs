@@ -50,6 +50,7 @@ pub fn table() -> Result<Rows, Failure> {
                 Model::Algebraic(law) => push("gap", gap, &law.linearise(gap)),
                 Model::Exponential(law) => push("gap", gap, &law.linearise(gap)),
                 Model::Logarithmic(_) => {}
+                Model::Formula(_) => (),
             }
         }
     }
@@ -135,7 +136,8 @@ fn follow(model: &Model, ring: Ring, (method, control): (Method, Control)) -> Re
     let form = FormKind::Gaps.build(model, ring);
     let start = form.start(Start { shift: 1e-4 });
     let followed = Followed { stop: None, negative: None, least: f64::INFINITY };
-    let (watch, sampler) = (Watch::new(*model, &*form, ring.pedestrians), Sampler::new(SAMPLE, form.dimension()));
+    let (watch, sampler) =
+        (Watch::new(model.clone(), &*form, ring.pedestrians), Sampler::new(SAMPLE, form.dimension()));
     let mut following = Following { watch, form: &*form, sampler, followed };
     let problem = Problem { system: &*form, start: &start, begin: 0.0, end: END, method, control };
     integrate(&problem, &mut following).map_err(Failure::work)?;

@@ -3,7 +3,7 @@
 use super::blocks::{Block, around};
 use super::heun::{self, Cut};
 use super::series::{Memory, Motion};
-use super::{Flow, Force, Steps};
+use super::{Flow, Force, Rows, Steps};
 use crate::laws::Law;
 use crate::ramp::Bend;
 use math::change::{Player, Recorder, Tape};
@@ -67,6 +67,15 @@ impl<L: Law> Force for Compiled<L> {
         }
         dispatch(Deviations { law: self.law, tape: &reference.tape, spacings, speeds, accelerations });
         reference.acceleration
+    }
+
+    fn effective_gaps(&self, net_gaps: &[f64], speeds: &[f64], gaps: &mut [f64]) {
+        dispatch(EffectiveGaps { law: self.law, net_gaps, speeds, gaps });
+    }
+
+    /// The effective gap is linear, and nothing where net gap and speeds are nothing.
+    fn effective_gap_rates(&self, _now: Rows<'_>, rates: Rows<'_>, gap_rates: &mut [f64]) {
+        self.effective_gaps(rates.spacings, rates.speeds, gap_rates);
     }
 
     fn is_open(&self, flow: Flow, spacings: &[f64], speeds: &[f64]) -> bool {
@@ -159,6 +168,29 @@ impl<L: Law> Kernel for Deviations<'_, L> {
             Some(law) => around(&Changes { law, tape }, spacings, speeds, accelerations),
             None => around(&Changes { law, tape }, spacings, speeds, accelerations),
         }
+    }
+}
+
+/// The effective gaps of all pedestrians.
+struct EffectiveGaps<'a, L> {
+    law: L,
+    net_gaps: &'a [f64],
+    speeds: &'a [f64],
+    gaps: &'a mut [f64],
+}
+
+impl<L: Law> Kernel for EffectiveGaps<'_, L> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let EffectiveGaps { law, net_gaps, speeds, gaps } = self;
+        let last = net_gaps.len() - 1;
+        let pairs = net_gaps.iter().zip(speeds).zip(&speeds[1..]);
+        for (gap, ((net_gap, speed), ahead)) in gaps.iter_mut().zip(pairs) {
+            *gap = law.effective_gap(*net_gap, *speed, *ahead);
+        }
+        gaps[last] = law.effective_gap(net_gaps[last], speeds[last], speeds[0]);
     }
 }
 

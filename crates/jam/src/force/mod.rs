@@ -31,6 +31,12 @@ pub trait Force: std::fmt::Debug + Send {
     /// that of the uniform flow. Their error is relative to the deviations, however small these are.
     fn deviations(&self, flow: Flow, spacings: &[f64], speeds: &[f64], accelerations: &mut [f64]) -> f64;
 
+    /// Writes the effective gaps at these net gaps and speeds.
+    fn effective_gaps(&self, net_gaps: &[f64], speeds: &[f64], gaps: &mut [f64]);
+
+    /// Writes the rates of the effective gaps, for these rates of net gaps and speeds.
+    fn effective_gap_rates(&self, now: Rows<'_>, rates: Rows<'_>, gap_rates: &mut [f64]);
+
     /// Whether every effective gap is open, for such deviations. At once true where the force is not singular.
     fn is_open(&self, flow: Flow, spacings: &[f64], speeds: &[f64]) -> bool;
 
@@ -48,6 +54,15 @@ pub trait Force: std::fmt::Debug + Send {
     /// Makes steps of Heun's scheme of the state `[x_0 .. x_{N-1}, v_0 .. v_{N-1}]`, in one piece or cut. A batch in which
     /// something happens leaves the state untouched.
     fn heun(&self, steps: Steps, cut: Option<Cut>, state: &mut [f64]) -> Burst;
+}
+
+/// A number for each spacing and each speed.
+#[derive(Clone, Copy, Debug)]
+pub struct Rows<'a> {
+    /// Of spacings: net gaps, or their rates.
+    pub spacings: &'a [f64],
+    /// Of speeds.
+    pub speeds: &'a [f64],
 }
 
 /// A uniform flow: everybody with the same net gap and speed.

@@ -1,13 +1,13 @@
 //! The algebraically decaying force, Eq. (8), eq:invd.
 
-use super::Law;
+use super::{Law, Parameter, RAMP_WIDTH, Range};
 use crate::ramp::Bend;
 use crate::stability::Linear;
 use math::number::Number;
 use std::f64::consts::LN_2;
 
 /// Parameters `<mu, delta, q, a_v>` and `v_0'`, `eps`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Algebraic {
     /// `mu >= 0`: strength of the force.
     pub strength: f64,
@@ -24,6 +24,15 @@ pub struct Algebraic {
 }
 
 impl Law for Algebraic {
+    const PARAMETERS: &'static [Parameter<Algebraic>] = &[
+        Parameter { name: "mu", range: Range::NotNegative, default: None, place: |law| &mut law.strength },
+        Parameter { name: "delta", range: Range::NotNegative, default: Some(0.0), place: |law| &mut law.relative },
+        Parameter { name: "q", range: Range::Positive, default: None, place: |law| &mut law.power },
+        Parameter { name: "a_v", range: Range::NotNegative, default: Some(0.0), place: |law| &mut law.widening },
+        Parameter { name: "epsilon", range: Range::Positive, default: Some(RAMP_WIDTH), place: |law| &mut law.epsilon },
+        Parameter { name: "v0", range: Range::Positive, default: None, place: |law| &mut law.desired_speed },
+    ];
+
     const CONTACT: f64 = 2.0;
 
     const SINGULAR: bool = true;

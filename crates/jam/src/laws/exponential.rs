@@ -1,13 +1,13 @@
 //! The exponential force, eq:sfm.
 
-use super::Law;
+use super::{Law, Parameter, RAMP_WIDTH, Range};
 use crate::ramp::Bend;
 use crate::stability::Linear;
 use math::lane;
 use math::number::Number;
 
 /// Parameters `<a, b, c, a_v>` and `v_0'`, `eps`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Exponential {
     /// `a >= 0`: strength of the force.
     pub strength: f64,
@@ -24,6 +24,15 @@ pub struct Exponential {
 }
 
 impl Law for Exponential {
+    const PARAMETERS: &'static [Parameter<Exponential>] = &[
+        Parameter { name: "a", range: Range::NotNegative, default: None, place: |law| &mut law.strength },
+        Parameter { name: "b", range: Range::Positive, default: None, place: |law| &mut law.range },
+        Parameter { name: "c", range: Range::NotNegative, default: Some(0.0), place: |law| &mut law.contact },
+        Parameter { name: "a_v", range: Range::NotNegative, default: Some(0.0), place: |law| &mut law.widening },
+        Parameter { name: "epsilon", range: Range::Positive, default: Some(RAMP_WIDTH), place: |law| &mut law.epsilon },
+        Parameter { name: "v0", range: Range::Positive, default: None, place: |law| &mut law.desired_speed },
+    ];
+
     const CONTACT: f64 = 2.0;
 
     const SINGULAR: bool = false;

@@ -1,6 +1,6 @@
 //! The logarithmic force, eq:modlog.
 
-use super::Law;
+use super::{Law, Parameter, Range};
 use crate::ramp::{Bend, smooth_ramp};
 use crate::stability::Linear;
 use math::lane;
@@ -11,7 +11,7 @@ use std::f64::consts::E;
 pub const C: f64 = E - 1.0;
 
 /// Parameters `(v_0', a_v)` and `eps`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Logarithmic {
     /// `v_0' > 0`: desired speed.
     pub desired_speed: f64,
@@ -22,6 +22,12 @@ pub struct Logarithmic {
 }
 
 impl Law for Logarithmic {
+    const PARAMETERS: &'static [Parameter<Logarithmic>] = &[
+        Parameter { name: "a_v", range: Range::NotNegative, default: Some(0.0), place: |law| &mut law.widening },
+        Parameter { name: "epsilon", range: Range::Positive, default: None, place: |law| &mut law.epsilon },
+        Parameter { name: "v0", range: Range::Positive, default: None, place: |law| &mut law.desired_speed },
+    ];
+
     const CONTACT: f64 = 0.0;
 
     const SINGULAR: bool = false;

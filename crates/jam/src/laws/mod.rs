@@ -20,8 +20,36 @@ use crate::stability::{Linear, Response};
 use math::dual::Dual;
 use math::number::Number;
 
+/// What a parameter may be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Range {
+    /// Greater than 0.
+    Positive,
+    /// 0 or greater.
+    NotNegative,
+}
+
+/// A parameter of a law: its name in scenes and on axes, and what it may be.
+#[derive(Debug)]
+pub struct Parameter<L> {
+    /// The name.
+    pub name: &'static str,
+    /// What it may be.
+    pub range: Range,
+    /// Its value where a scene does not name it; `None`: a scene must.
+    pub default: Option<f64>,
+    /// Where it is kept.
+    pub place: fn(&mut L) -> &mut f64,
+}
+
+/// Width of the smooth ramp of the algebraic and exponential laws, where a scene names none (text after eq:aTheta).
+const RAMP_WIDTH: f64 = 0.1;
+
 /// A law of motion as a formula.
-pub trait Law: Copy + Send + Sync + std::fmt::Debug + 'static {
+pub trait Law: Copy + Default + Send + Sync + std::fmt::Debug + 'static {
+    /// Its parameters.
+    const PARAMETERS: &'static [Parameter<Self>];
+
     /// The spacing at which two standing pedestrians touch; the *net gap* is the spacing less this.
     const CONTACT: f64;
 
@@ -75,6 +103,22 @@ fn contact_of<L: Law>(_law: &L) -> f64 {
     L::CONTACT
 }
 
+/// Replaces a parameter; false if there is none of this name.
+fn set<L: Law>(law: &mut L, name: &str, value: f64) -> bool {
+    match L::PARAMETERS.iter().find(|parameter| parameter.name == name) {
+        Some(parameter) => {
+            *(parameter.place)(law) = value;
+            true
+        }
+        None => false,
+    }
+}
+
+/// The names of the parameters.
+fn names<L: Law>(_law: &L) -> Vec<String> {
+    L::PARAMETERS.iter().map(|parameter| parameter.name.to_owned()).collect()
+}
+
 /// Whether the force is infinite at a wall.
 fn is_singular<L: Law>(_law: &L) -> bool {
     L::SINGULAR
@@ -99,6 +143,38 @@ impl Model {
     /// The size of speeds, if the law has one.
     pub fn speed_scale(&self) -> Option<f64> {
         each!(self, law => Some(law.desired_speed), formula => formula.speed_scale())
+    }
+
+    /// The names of the parameters.
+    pub fn parameters(&self) -> Vec<String> {
+        each!(self, law => names(law), formula => formula.parameters().map(|(name, _)| name.to_owned()).collect())
+    }
+
+    /// The law with another value of a parameter.
+    ///
+    /// # Errors
+    /// No parameter of this name; or a formula without a value.
+    pub fn with(&self, name: &str, value: f64) -> Result<Model, String> {
+        let mut model = self.clone();
+        let is_known = each!(&mut model, law => set(law, name, value), formula => match formula.with(name, value) {
+            Some(changed) => {
+                *formula = changed.map_err(|error| error.to_string())?;
+                true
+            }
+            None => false,
+        });
+        let known = || self.parameters().join(", ");
+        if is_known {
+            Ok(model)
+        } else {
+            Err(format!("the {} law has no parameter {name}; it has {}", self.name(), known()))
+        }
+    }
+
+    /// Whether the spacing is what the law measures contact by, so that there is no effective gap `d'` of the uniform flow
+    /// to start from.
+    pub fn has_effective_gap(&self) -> bool {
+        matches!(self, Model::Algebraic(_) | Model::Exponential(_))
     }
 
     /// The force on all pedestrians of a ring.

@@ -8,6 +8,7 @@ mod series;
 use super::{Cut, Flow, Force, Motion, Steps};
 use formula::{Bound, Id};
 use math::change::rules::Kept;
+use math::dual::Dual;
 use math::simd::dispatch;
 use ode::Burst;
 pub use program::Source;
@@ -123,6 +124,33 @@ impl Force for Interpreted {
         neighbours.fill(*reach, spacings, speeds, 0.0);
         dispatch(Rows { program, kept: Some(kept), neighbours, machine, result: accelerations });
         uniform
+    }
+
+    fn effective_gaps(&self, net_gaps: &[f64], speeds: &[f64], gaps: &mut [f64]) {
+        let Some(prepared) = &self.gap else { return gaps.copy_from_slice(net_gaps) };
+        let Scratch { neighbours, machine, .. } = &mut *self.scratch.borrow_mut();
+        let Prepared { program, reach, contact, .. } = &**prepared;
+        neighbours.fill(*reach, net_gaps, speeds, *contact);
+        dispatch(Rows { program, kept: None, neighbours, machine, result: gaps });
+    }
+
+    fn effective_gap_rates(&self, now: super::Rows<'_>, rates: super::Rows<'_>, gap_rates: &mut [f64]) {
+        let Some(prepared) = &self.gap else { return gap_rates.copy_from_slice(rates.spacings) };
+        let (contact, count) = (prepared.contact, gap_rates.len() as i64);
+        for (n, rate) in (0..).zip(gap_rates) {
+            let at = |j: i32| (n + i64::from(j)).rem_euclid(count) as usize;
+            *rate = prepared
+                .program
+                .carry_out(|source| match source {
+                    Source::Spacing { j, net } => {
+                        let more = if net { 0.0 } else { contact };
+                        Dual { value: now.spacings[at(j)] + more, slope: rates.spacings[at(j)] }
+                    }
+                    Source::Speed(j) => Dual { value: now.speeds[at(j)], slope: rates.speeds[at(j)] },
+                    Source::Register(_) => Dual::constant(0.0),
+                })
+                .slope;
+        }
     }
 
     fn is_open(&self, _flow: Flow, _spacings: &[f64], _speeds: &[f64]) -> bool {
