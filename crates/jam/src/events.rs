@@ -16,6 +16,8 @@ pub enum Event {
     NegativeSpeed,
     /// `s_n < 0`: the pedestrian has passed the one ahead.
     Exchange,
+    /// The formula of the law has no value for the pedestrian: the logarithm of something negative, say.
+    Undefined,
     /// `|v_n|` exceeds [`BLOW_UP`] times the desired speed (or 1): nothing stops it from growing without bound.
     BlowUp,
 }
@@ -28,7 +30,11 @@ pub const BLOW_UP: f64 = 1e12;
 
 impl Event {
     /// All events.
-    pub const ALL: [Event; 4] = [Event::Overlap, Event::NegativeSpeed, Event::Exchange, Event::BlowUp];
+    pub const ALL: [Event; 5] =
+        [Event::Overlap, Event::NegativeSpeed, Event::Exchange, Event::Undefined, Event::BlowUp];
+
+    /// The events that a step can show: those with a number that falls through 0.
+    const WITHIN_STEPS: [Event; 4] = [Event::Overlap, Event::NegativeSpeed, Event::Exchange, Event::BlowUp];
 
     /// The name in tables.
     pub fn name(self) -> &'static str {
@@ -36,13 +42,14 @@ impl Event {
             Event::Overlap => "overlap",
             Event::NegativeSpeed => "negative_speed",
             Event::Exchange => "exchange",
+            Event::Undefined => "undefined",
             Event::BlowUp => "blow_up",
         }
     }
 
     /// Whether the law has no meaning, or no solution, after it.
     pub fn is_stop(self) -> bool {
-        matches!(self, Event::Overlap | Event::BlowUp)
+        matches!(self, Event::Overlap | Event::Undefined | Event::BlowUp)
     }
 }
 
@@ -136,13 +143,14 @@ impl<'a> Watch<'a> {
         self.after.read(self.form, &*self.force, state, rates);
         self.seen = Some(t);
         let now = &self.after;
-        for event in Event::ALL {
+        for event in Event::WITHIN_STEPS {
             for pedestrian in 0..now.gaps.len() {
                 let (value, rate) = match event {
                     Event::Overlap => (now.rooms[pedestrian], now.room_rates[pedestrian]),
                     Event::NegativeSpeed => (now.speeds[pedestrian], now.speed_rates[pedestrian]),
                     Event::Exchange => (now.gaps[pedestrian], now.gap_rates[pedestrian]),
                     Event::BlowUp => (self.bound() - now.speeds[pedestrian].abs(), 0.0),
+                    Event::Undefined => continue,
                 };
                 if value < 0.0 || value == 0.0 && rate < 0.0 {
                     self.found.push(Happening { event, time: t, pedestrian, gap: now.gaps[pedestrian], step: 0.0 });
@@ -194,7 +202,7 @@ impl<'a> Watch<'a> {
         self.seen = Some(step.end);
         self.after.read(self.form, &*self.force, step.after(), step.rates_after());
         let mut new = Vec::new();
-        for event in Event::ALL {
+        for event in Event::WITHIN_STEPS {
             let mut known = self.found.iter().filter(|happening| happening.event == event).peekable();
             let first = known.peek().map(|happening| happening.time);
             if first.is_none_or(|time| step.start <= time + AT_ONCE) && self.may_lie_within(event, step.length()) {
@@ -223,6 +231,7 @@ impl<'a> Watch<'a> {
             }
             Event::Exchange => may_be_negative((&before.gaps, &before.gap_rates), (&after.gaps, &after.gap_rates), h),
             Event::BlowUp => after.speeds.iter().any(|speed| speed.abs() > self.bound()),
+            Event::Undefined => false,
         }
     }
 
@@ -286,6 +295,7 @@ impl<'a> Watch<'a> {
             }
             Event::NegativeSpeed => values.copy_from_slice(speeds),
             Event::Exchange => values.copy_from_slice(gaps),
+            Event::Undefined => values.fill(f64::INFINITY),
             Event::BlowUp => values.iter_mut().zip(speeds).for_each(|(value, v)| *value = self.bound() - v.abs()),
         }
     }

@@ -4,7 +4,7 @@ use crate::law;
 use files::reader::{FINITE, POSITIVE, Reader, RecipeError, Section};
 use jam::laws::{Formula, Model};
 use jam::ring::{Ring, Start};
-use jam::states::FormKind;
+use jam::states::{Form, FormKind};
 use jam::uniform::{self, steady_speed};
 use ode::{Control, Method};
 
@@ -59,7 +59,8 @@ const MOST_FIXED_STEPS: u64 = 100_000_000_000;
 pub fn read(file: &str, tables: &Section) -> Result<Scene, RecipeError> {
     let mut top = Reader::new(file, "scene", tables);
     let model = law::read(file, top.section("law")?)?;
-    let (ring, start) = ring(file, top.section("ring")?, top.section("start")?, &model)?;
+    let top_start = top.section("start")?;
+    let (ring, start) = ring(file, top.section("ring")?, top_start, &model)?;
     let mut ring_reader = Reader::new(file, "ring", top.section("ring")?);
     ring_reader.number("length", POSITIVE)?;
     let steady_speed = match &model {
@@ -95,6 +96,12 @@ pub fn read(file: &str, tables: &Section) -> Result<Scene, RecipeError> {
         (model, Some(speed)) => model.linearise(ring.headway(), speed).phi < LEAST_RESPONSE,
     };
     let form = if form == FormKind::Deviations && is_lost { FormKind::Gaps } else { form };
+    if let Some((pedestrian, value)) = without_value(&*form.build(&model, ring), start, ring) {
+        let problem = format!(
+            "the formula has no value at the start: the acceleration of pedestrian {pedestrian} is {value:?}; must leave one to everybody"
+        );
+        return Err(Reader::new(file, "start", top_start).complaint("shift", &problem));
+    }
     if !method.suits(&*form.build(&model, ring)) {
         let problem = format!(
             "{} needs a force that depends on the gap alone (a_v, delta and c are not named), and gaps or deviations as state",
@@ -155,6 +162,16 @@ fn at_overlap(run: &mut Reader<'_>, model: &Model) -> Result<AtOverlap, RecipeEr
         return Err(run.complaint("at_overlap", &problem));
     }
     Ok(choice)
+}
+
+/// The first pedestrian whose acceleration is not finite at the start, and that.
+fn without_value(form: &dyn Form, start: Start, ring: Ring) -> Option<(usize, f64)> {
+    let state = form.start(start);
+    let mut rates = vec![0.0; state.len()];
+    form.rates(&state, &mut rates);
+    let (mut gaps, mut accelerations) = (vec![0.0; ring.pedestrians], vec![0.0; ring.pedestrians]);
+    form.read_rates(&rates, &mut gaps, &mut accelerations);
+    accelerations.iter().position(|a| !a.is_finite()).map(|n| (n, accelerations[n]))
 }
 
 /// The steady speed that is meant, where a formula has several.

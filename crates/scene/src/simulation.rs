@@ -5,6 +5,7 @@ use crate::run::{AtOverlap, Scene};
 use files::table::Table;
 use jam::events::{Event, Happening, Watch};
 use jam::jams;
+use jam::laws::Model;
 use jam::states::{Form, FormKind, gaps_state};
 use ode::{Control, Mark, Observer, Problem, Sampler, Statistics, Step, integrate, resume};
 use std::ops::ControlFlow;
@@ -264,7 +265,9 @@ impl<'a> Recorder<'a> {
         if !self.is_stopped {
             self.record.follow(statistics.time, &statistics.state);
         }
-        let broken = failure.filter(|failure| !self.is_at_wall(failure, &statistics));
+        let broken = failure
+            .filter(|failure| !self.is_at_wall(failure, &statistics))
+            .filter(|_| !self.is_undefined(&statistics));
         let Record { form, std, trajectories, mut positions, mut gaps, mut speeds, drift, .. } = self.record;
         form.write_positions(&statistics.state, &mut positions);
         form.read(&statistics.state, &mut gaps, &mut speeds);
@@ -291,6 +294,30 @@ impl<'a> Recorder<'a> {
             self.watch.add(Happening { event: Event::BlowUp, time, pedestrian, gap, step: 0.0 });
         }
         is_at_wall
+    }
+
+    /// Whether a run ends since the formula of its law has no value a little further on; then that is an event.
+    fn is_undefined(&mut self, reached: &Statistics) -> bool {
+        if !matches!(self.scene.model, Model::Formula(_)) {
+            return false;
+        }
+        let form = self.record.form;
+        let mut rates = vec![0.0; form.dimension()];
+        form.rates(&reached.state, &mut rates);
+        // as far as a step that fails would go at least
+        let further = 1e-9 * if reached.time > 1.0 { reached.time } else { 1.0 };
+        let next: Vec<f64> = reached.state.iter().zip(&rates).map(|(x, rate)| x + further * rate).collect();
+        let (mut gaps, mut accelerations) = (self.record.gaps.clone(), self.record.speeds.clone());
+        for state in [&reached.state, &next] {
+            form.rates(state, &mut rates);
+            form.read_rates(&rates, &mut gaps, &mut accelerations);
+            let Some(pedestrian) = accelerations.iter().position(|a| !a.is_finite()) else { continue };
+            form.read(&reached.state, &mut gaps, &mut accelerations);
+            let (time, gap) = (reached.time, gaps[pedestrian]);
+            self.watch.add(Happening { event: Event::Undefined, time, pedestrian, gap, step: 0.0 });
+            return true;
+        }
+        false
     }
 
     /// The rooms, with all the digits that the form has.

@@ -17,6 +17,8 @@ pub struct Formula {
     gap: Option<Arc<Prepared>>,
     /// Whether abs, min, max or a sharp ramp occur.
     has_kinks: bool,
+    /// Whether the acceleration has no value where two touch.
+    is_singular: bool,
 }
 
 impl PartialEq for Formula {
@@ -41,7 +43,9 @@ impl Formula {
         let acceleration = Arc::new(Prepared::new(&bound, bound.acceleration(), contact));
         let gap = bound.gap().map(|root| Arc::new(Prepared::new(&bound, root, contact)));
         let has_kinks = !bound.kinks(bound.acceleration()).is_empty();
-        Ok(Formula { graph, values, contact, acceleration, gap, has_kinks })
+        let mut law = Formula { graph, values, contact, acceleration, gap, has_kinks, is_singular: false };
+        law.is_singular = !law.uniform(contact, 0.0).is_finite();
+        Ok(law)
     }
 
     /// The law with another value of a parameter; `None` if it has no such parameter.
@@ -80,6 +84,11 @@ impl Formula {
         self.has_kinks
     }
 
+    /// Whether the acceleration has no value where two touch.
+    pub fn is_singular(&self) -> bool {
+        self.is_singular
+    }
+
     /// How far the formulas look behind and ahead, in pedestrians.
     pub fn reach(&self) -> (usize, usize) {
         let own = self.acceleration.reach();
@@ -89,7 +98,7 @@ impl Formula {
 
     /// The force on a ring.
     pub fn force(&self) -> Box<dyn Force> {
-        Box::new(Interpreted::new(Arc::clone(&self.acceleration), self.gap.clone()))
+        Box::new(Interpreted::new(Arc::clone(&self.acceleration), self.gap.clone(), self.is_singular))
     }
 
     /// The acceleration in the uniform flow; NaN where the formula has no value.

@@ -195,7 +195,7 @@ impl Model {
 
     /// Whether the force is infinite where the room ends (see [`Law::SINGULAR`]).
     pub fn is_singular(&self) -> bool {
-        each!(self, law => is_singular(law), _formula => false)
+        each!(self, law => is_singular(law), formula => formula.is_singular())
     }
 
     /// The room of a pedestrian (see [`Law::effective_gap`]).

@@ -75,6 +75,7 @@ pub struct Interpreted {
     prepared: Arc<Prepared>,
     /// The effective gap, where it is not the net gap.
     gap: Option<Arc<Prepared>>,
+    is_singular: bool,
     scratch: RefCell<Scratch>,
 }
 
@@ -88,12 +89,13 @@ struct Scratch {
 }
 
 impl Interpreted {
-    /// The force of this formula.
-    pub fn new(prepared: Arc<Prepared>, gap: Option<Arc<Prepared>>) -> Interpreted {
+    /// The force of this formula, with the formula of the effective gap where that is not the net gap; `is_singular` says
+    /// whether it has no value where two touch.
+    pub fn new(prepared: Arc<Prepared>, gap: Option<Arc<Prepared>>, is_singular: bool) -> Interpreted {
         let mut scratch = Scratch::default();
         let own = prepared.program.registers;
         scratch.machine.resize(gap.as_ref().map_or(own, |gap| own.max(gap.program.registers)));
-        Interpreted { prepared, gap, scratch: RefCell::new(scratch) }
+        Interpreted { prepared, gap, is_singular, scratch: RefCell::new(scratch) }
     }
 }
 
@@ -103,7 +105,7 @@ impl Force for Interpreted {
     }
 
     fn is_singular(&self) -> bool {
-        false
+        self.is_singular
     }
 
     fn accelerations(&self, net_gaps: &[f64], speeds: &[f64], accelerations: &mut [f64]) {
@@ -153,8 +155,15 @@ impl Force for Interpreted {
         }
     }
 
-    fn is_open(&self, _flow: Flow, _spacings: &[f64], _speeds: &[f64]) -> bool {
-        true
+    fn is_open(&self, flow: Flow, spacings: &[f64], speeds: &[f64]) -> bool {
+        if !self.is_singular {
+            return true;
+        }
+        let net_gaps: Vec<f64> = spacings.iter().map(|spacing| flow.net_gap + spacing).collect();
+        let speeds: Vec<f64> = speeds.iter().map(|speed| flow.speed + speed).collect();
+        let mut gaps = vec![0.0; net_gaps.len()];
+        self.effective_gaps(&net_gaps, &speeds, &mut gaps);
+        net_gaps.iter().chain(&gaps).all(|gap| *gap > 0.0)
     }
 
     fn uses_speeds(&self) -> bool {
