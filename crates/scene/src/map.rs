@@ -264,12 +264,12 @@ impl Map {
                 .and_then(finite)
                 .map_err(|why| format!("at {} = {x:?}, {} = {y:?}: {why}", self.x.parameter, self.y.parameter))?;
             // relative where the value is large: there it lies far beyond the colours
-            let size = if other.abs() > 1.0 { other.abs() } else { 1.0 };
-            let difference = (value - other).abs() / size;
-            if self.value == Value::Criterion && difference > CRITERION_HOLDS {
+            let size = |value: f64| if value.abs() > 1.0 { value.abs() } else { 1.0 };
+            if self.value == Value::Criterion && (value - other).abs() > CRITERION_HOLDS * size(other) {
                 blank.push(cell);
                 continue;
             }
+            let difference = (value - other).abs() / size(value);
             error = if difference > error || difference.is_nan() { difference } else { error };
             table.push(&[x, y, value]);
         }
