@@ -141,8 +141,8 @@ pub fn read(file: &str, tables: &Section) -> Result<Map, RecipeError> {
             let problem = format!("is an axis of the map ({name}): leave it out here");
             return Err(Reader::new(file, "law", top.section("law")?).complaint(&axis.parameter, &problem));
         }
-        if let Some(problem) = unfit(&law_tables, axis) {
-            return Err(Reader::new(file, name, section).complaint("parameter", &problem));
+        if let Some((key, problem)) = unfit(&law_tables, axis) {
+            return Err(Reader::new(file, name, section).complaint(key, &problem));
         }
         place_holder(&mut law_tables, axis, section);
     }
@@ -186,8 +186,8 @@ fn axis(file: &str, name: &'static str, section: &Section) -> Result<Axis, Recip
     Ok(axis)
 }
 
-/// Why this axis does not fit the law, if it does not. Of a formula every name is a parameter, if the formulas use it.
-fn unfit(law: &Section, axis: &Axis) -> Option<String> {
+/// Which key of this axis does not fit the law, and why, if one does not. Of a formula every name is a parameter, if the formulas use it.
+fn unfit(law: &Section, axis: &Axis) -> Option<(&'static str, String)> {
     use files::reader::Value;
     let Value::Text(kind) = &law.entries.get("kind")?.value else { return None };
     let own = match kind.as_str() {
@@ -199,9 +199,9 @@ fn unfit(law: &Section, axis: &Axis) -> Option<String> {
     let name = axis.parameter.as_str();
     if !OF_THE_FLOW.contains(&name) && !own.iter().any(|parameter| parameter == name) {
         let valid = [own.join(", "), OF_THE_FLOW.join(", ")].join(", ");
-        return Some(format!("the {kind} law has no parameter {name}; an axis can be {valid}"));
+        return Some(("parameter", format!("the {kind} law has no parameter {name}; an axis can be {valid}")));
     }
-    (axis.from < 0.0).then(|| format!("{name} begins at {:?}, below 0; from must be at least 0", axis.from))
+    (axis.from < 0.0).then(|| ("from", format!("{name} cannot be negative; must be a number >= 0.0")))
 }
 
 /// Axes that are no parameters of a law.

@@ -228,7 +228,10 @@ fn blow_up_is_a_speed_beyond_the_bound() {
 #[test]
 fn stops_and_names() {
     let known: Vec<(&str, bool)> = Event::ALL.iter().map(|event| (event.name(), event.is_stop())).collect();
-    assert_eq!(known, [("overlap", true), ("negative_speed", false), ("exchange", false), ("blow_up", true)]);
+    assert_eq!(
+        known,
+        [("overlap", true), ("negative_speed", false), ("exchange", false), ("undefined", true), ("blow_up", true)]
+    );
 }
 
 /// `dv/dt = 1 - v`: pedestrian 0 runs into 1, `s_0 = 3 - 4 (1 - exp(-t))`.

@@ -78,13 +78,13 @@ fn complaints_about_laws() {
             (
                 "\"logarithmic\"",
                 "\"loud\"",
-                ":2: law.kind = \"loud\": must be one of algebraic, exponential, logarithmic",
+                ":2: law.kind = \"loud\": must be one of algebraic, exponential, logarithmic, formula",
             ),
-            ("\"logarithmic\"", "3", ":2: law.kind = 3: must be one of algebraic, exponential, logarithmic"),
+            ("\"logarithmic\"", "3", ":2: law.kind = 3: must be one of algebraic, exponential, logarithmic, formula"),
             (
                 "kind = \"logarithmic\"\n",
                 "",
-                ":1: law.kind is missing; it must be one of algebraic, exponential, logarithmic; found here: epsilon, v0",
+                ":1: law.kind is missing; it must be one of algebraic, exponential, logarithmic, formula; found here: epsilon, v0",
             ),
             ("v0 = 1.0", "v0 = \"fast\"", ":3: law.v0 = \"fast\": must be a number > 0.0"),
             ("v0 = 1.0", "v0 = true", ":3: law.v0 = a value of type boolean: must be a number > 0.0"),
@@ -361,13 +361,23 @@ fn complaints_about_the_whole_file() {
 
 #[test]
 fn complaints_about_maps() {
-    let parameters = "mu, delta, q, a, b, c, a_v, v0, d_gap, headway, k";
+    let parameters = "mu, delta, q, a_v, epsilon, v0, d_gap, headway, k";
     assert_complaints(
         MAP,
         &[
-            ("\"growth_rate\"", "\"speed\"", ":8: map.value = \"speed\": must be one of margin, criterion, growth_rate"),
-            ("\"mu\"", "\"nu\"", &format!(":9: map.x.parameter = \"nu\": must be one of {parameters}")),
-            ("from = 0.1", "from = -0.1", ":9: map.x.from = -0.1: must be a number >= 0.0"),
+            (
+                "\"growth_rate\"",
+                "\"speed\"",
+                ":8: map.value = \"speed\": must be one of margin, criterion, growth_rate",
+            ),
+            (
+                "\"mu\"",
+                "\"nu\"",
+                &format!(
+                    ":9: map.x.parameter = \"nu\": the algebraic law has no parameter nu; an axis can be {parameters}"
+                ),
+            ),
+            ("from = 0.1", "from = -0.1", ":9: map.x.from = -0.1: mu cannot be negative; must be a number >= 0.0"),
             ("to = 1.5", "to = 0.1", ":9: map.x.to = 0.1: must be above from = 0.1"),
             ("cells = 20", "cells = 0", ":9: map.x.cells = 0: must be a whole number from 1 to 2000"),
             (
@@ -401,21 +411,25 @@ fn complaints_about_maps() {
             ),
             ("headway = 3.0", "headway = -3.0", ":6: uniform.headway = -3: must be a number > 0.0"),
             ("headway = 3.0", "headway = 3.0\nk = 0", ":7: uniform.k = 0: must be a number > 0.0"),
-            ("headway = 3.0", "distance = 3.0", ":6: uniform.distance: unknown key; known here: d_gap, headway, k"),
+            (
+                "headway = 3.0",
+                "distance = 3.0",
+                ":6: uniform.distance: unknown key; known here: d_gap, headway, k, speed",
+            ),
             (
                 "\"mu\"",
                 "\"a\"",
-                ":9: map.x.parameter = \"a\": the algebraic law has no parameter a; an axis can be mu, delta, q, a_v, v0, d_gap, headway, k",
+                ":9: map.x.parameter = \"a\": the algebraic law has no parameter a; an axis can be mu, delta, q, a_v, epsilon, v0, d_gap, headway, k",
             ),
             (
                 "kind = \"algebraic\"\nq = 2.0",
                 "kind = \"logarithmic\"\nepsilon = 0.01",
-                ":9: map.x.parameter = \"mu\": the logarithmic law has no parameter mu; an axis can be a_v, v0, d_gap, headway, k",
+                ":9: map.x.parameter = \"mu\": the logarithmic law has no parameter mu; an axis can be a_v, epsilon, v0, d_gap, headway, k",
             ),
             (
                 "kind = \"algebraic\"\nq = 2.0",
                 "kind = \"exponential\"\na = 3.0\nb = 1.5",
-                ":10: map.x.parameter = \"mu\": the exponential law has no parameter mu; an axis can be a, b, c, a_v, v0, d_gap, headway, k",
+                ":10: map.x.parameter = \"mu\": the exponential law has no parameter mu; an axis can be a, b, c, a_v, epsilon, v0, d_gap, headway, k",
             ),
         ],
     );

@@ -28,8 +28,13 @@ fn all_scenes_can_be_read() {
     }
     let examples = std::fs::read_dir(root("scenes")).expect("the folder of the examples");
     let mut kinds = Vec::new();
-    for entry in examples {
-        let recipe = recipe::read(&entry.expect("a readable entry").path()).unwrap_or_else(|error| panic!("{error}"));
+    let gallery = std::fs::read_dir(root("scenes/gallery")).expect("the folder of published laws");
+    for entry in examples.chain(gallery) {
+        let path = entry.expect("a readable entry").path();
+        if path.is_dir() {
+            continue;
+        }
+        let recipe = recipe::read(&path).unwrap_or_else(|error| panic!("{error}"));
         read(&recipe);
         kinds.extend(recipe.panels.iter().map(|panel| panel.kind));
     }

@@ -7,6 +7,7 @@ mod contours;
 mod corpus;
 mod errors;
 mod figures;
+mod formulas;
 mod hard;
 mod maps;
 mod overrides;
