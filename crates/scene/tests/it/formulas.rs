@@ -63,8 +63,8 @@ fn a_formula_says_where_it_is_wrong() {
         ("acceleration = \"U - v\"\nU = \"W\"\nW = \"U\"\nbody = 0.0", "5:", ["U", "W"]),
         ("acceleration = \"1 - v\"\nkappa = 2.0\nbody = 0.0", "4:", ["kappa", "valid"]),
         ("acceleration = \"1 - v\"", "1:", ["body", "valid"]),
-        ("acceleration = \"1 - v + s[40]\"\nbody = 0.0", "7:", ["40", "41"]),
-        ("acceleration = \"ln(s - 5) - v\"\nbody = 0.0", "8:", ["no value at the start", "pedestrian 0"]),
+        ("acceleration = \"1 - v + s[40]\"\nbody = 0.0", "6:", ["40", "41"]),
+        ("acceleration = \"ln(s - 5) - v\"\nbody = 0.0", "9:", ["no value at the start", "pedestrian 0"]),
     ] {
         let message = read(&optimal_velocity(law, "")).expect_err(law);
         assert!(message.starts_with(&format!("my.toml:{line}")), "{message}");
