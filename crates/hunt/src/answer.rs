@@ -1,0 +1,68 @@
+//! The second integration, twice, so that it tells its own error.
+
+use math::twofold::Twofold;
+use reference::solution::{End, Kind, Question, Sample, Solution, solve};
+use reference::solver::Care;
+
+/// Two solutions that differ in the nodes of their steps.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// The one that counts.
+    pub solution: Solution,
+    /// The other.
+    pub second: Solution,
+}
+
+/// The kind of numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Digits {
+    /// Doubles.
+    Sixteen,
+    /// Unevaluated sums of two.
+    ThirtyTwo,
+}
+
+impl Answer {
+    /// Answers the question.
+    pub fn new(question: &Question, digits: Digits) -> Answer {
+        let care = |nodes, tolerance, most_work| Care { nodes, tolerance, most_work };
+        match digits {
+            Digits::Sixteen => Answer {
+                solution: solve::<f64>(question, care(12, 1e-13, 40_000_000), 1e4),
+                second: solve::<f64>(question, care(9, 1e-13, 60_000_000), 1e4),
+            },
+            Digits::ThirtyTwo => Answer {
+                solution: solve::<Twofold>(question, care(20, 1e-20, 10_000_000), 1e7),
+                second: solve::<Twofold>(question, care(16, 1e-19, 10_000_000), 1e7),
+            },
+        }
+    }
+
+    /// The sample at this time, and its twin.
+    pub fn at(&self, time: f64) -> Option<(&Sample, &Sample)> {
+        let find = |solution: &Solution| solution.samples.iter().position(|sample| sample.time == time);
+        Some((&self.solution.samples[find(&self.solution)?], &self.second.samples[find(&self.second)?]))
+    }
+
+    /// Whether both end alike.
+    pub fn is_settled(&self) -> bool {
+        self.solution.end == self.second.end && self.solution.end != End::Unfinished
+    }
+
+    /// The first crossings of a kind: for each pedestrian the time, its uncertainty, and the rate.
+    pub fn crossings(&self, kind: Kind) -> Vec<(usize, f64, f64, f64)> {
+        let of = |solution: &Solution| {
+            let first = solution.events.iter().find(|first| first.kind == kind);
+            first.map_or(Vec::new(), |first| first.crossings.clone())
+        };
+        let others = of(&self.second);
+        of(&self.solution)
+            .iter()
+            .map(|crossing| {
+                let other = others.iter().find(|other| other.pedestrian == crossing.pedestrian);
+                let uncertainty = other.map_or(f64::INFINITY, |other| (other.time - crossing.time).abs());
+                (crossing.pedestrian, crossing.time, uncertainty, crossing.rate)
+            })
+            .collect()
+    }
+}

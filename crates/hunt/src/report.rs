@@ -1,0 +1,79 @@
+//! Many scenes, and what came of them.
+
+use crate::judge::{Verdict, scene};
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// A scene and what became of its panels.
+#[derive(Clone, Debug)]
+pub struct Hunted {
+    /// What it was drawn from.
+    pub seed: u64,
+    /// Of each panel.
+    pub verdicts: Vec<Verdict>,
+}
+
+/// Hunts through the scenes of seeds `from .. from + count`, with so many threads; the order of results is that of seeds.
+pub fn hunt(from: u64, count: u64, threads: usize) -> Vec<Hunted> {
+    let next = AtomicU64::new(from);
+    let work = || {
+        let mut done = Vec::new();
+        loop {
+            let seed = next.fetch_add(1, Ordering::Relaxed);
+            if seed >= from + count {
+                return done;
+            }
+            done.push(Hunted { seed, verdicts: scene(&crate::draw::scene(seed)) });
+        }
+    };
+    let mut all: Vec<Hunted> = std::thread::scope(|scope| {
+        let threads: Vec<_> = (0..threads.max(1)).map(|_| scope.spawn(work)).collect();
+        threads.into_iter().flat_map(|thread| thread.join().expect("verdicts, not panics")).collect()
+    });
+    all.sort_by_key(|hunted| hunted.seed);
+    all
+}
+
+/// The table: endings with counts, ratios by quantity, findings and what is undecided with seeds.
+pub fn table(all: &[Hunted]) -> String {
+    let mut endings: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut ratios: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
+    let (mut findings, mut undecided) = (String::new(), String::new());
+    let mut runs = 0;
+    for hunted in all {
+        for verdict in &hunted.verdicts {
+            runs += 1;
+            *endings.entry(&verdict.ending).or_default() += 1;
+            for ratio in &verdict.ratios {
+                ratios.entry(ratio.what).or_default().push(ratio.value());
+            }
+            let label = format!("{} {} [{}] {}", hunted.seed, verdict.panel, verdict.method, verdict.ending);
+            // writing to a string cannot fail
+            if let Some(first) = verdict.findings.first() {
+                let _ = writeln!(findings, "  {label}: {} of which the first: {first}", verdict.findings.len());
+            } else if let Some(first) = verdict.undecided.first() {
+                let _ = writeln!(undecided, "  {label}: {} of which the first: {first}", verdict.undecided.len());
+            }
+        }
+    }
+    let mut text = format!("{} scenes, {runs} runs\n", all.len());
+    for (ending, count) in endings {
+        let _ = writeln!(text, "{count:7}  {ending}");
+    }
+    for (what, mut values) in ratios {
+        values.sort_by(f64::total_cmp);
+        let quantile = |q: f64| values[((values.len() - 1) as f64 * q) as usize];
+        let _ = writeln!(
+            text,
+            "error / allowed of {what}: {} numbers, median {:.2e}, 90 % {:.2e}, 99 % {:.2e}, worst {:.2e}",
+            values.len(),
+            quantile(0.5),
+            quantile(0.9),
+            quantile(0.99),
+            quantile(1.0)
+        );
+    }
+    let _ = write!(text, "findings: {}\n{findings}undecided: {}\n{undecided}", findings.lines().count(), undecided.lines().count());
+    text
+}
