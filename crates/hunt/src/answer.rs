@@ -1,8 +1,12 @@
 //! The second integration, twice, so that it tells its own error.
 
 use math::twofold::Twofold;
+use reference::flow::Form;
 use reference::solution::{End, Kind, Question, Sample, Solution, solve};
 use reference::solver::Care;
+
+/// Speeds beyond so many desired speeds are a blow-up.
+const FASTEST: f64 = 1e6;
 
 /// Two solutions that differ in the nodes of their steps.
 #[derive(Clone, Debug)]
@@ -13,28 +17,36 @@ pub struct Answer {
     pub second: Solution,
 }
 
-/// The kind of numbers.
+/// The numbers of the second integration, the fastest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Digits {
-    /// Doubles.
-    Sixteen,
-    /// Unevaluated sums of two.
-    ThirtyTwo,
+pub enum Numbers {
+    /// Doubles, differences from the uniform flow.
+    Differences,
+    /// Doubles, clearances.
+    Clearances,
+    /// Unevaluated sums of two doubles, differences from the uniform flow.
+    LongDifferences,
+    /// Unevaluated sums of two doubles, clearances.
+    LongClearances,
 }
 
 impl Answer {
     /// Answers the question.
-    pub fn new(question: &Question, digits: Digits) -> Answer {
+    pub fn new(question: &Question, numbers: Numbers) -> Answer {
         let care = |nodes, tolerance, most_work| Care { nodes, tolerance, most_work };
-        match digits {
-            Digits::Sixteen => Answer {
-                solution: solve::<f64>(question, care(12, 1e-13, 40_000_000), 1e4),
-                second: solve::<f64>(question, care(9, 1e-13, 60_000_000), 1e4),
-            },
-            Digits::ThirtyTwo => Answer {
-                solution: solve::<Twofold>(question, care(20, 1e-20, 10_000_000), 1e7),
-                second: solve::<Twofold>(question, care(16, 1e-19, 10_000_000), 1e7),
-            },
+        let short = |form| Answer {
+            solution: solve::<f64>(question, form, care(12, 1e-13, 10_000_000), FASTEST),
+            second: solve::<f64>(question, form, care(9, 1e-13, 15_000_000), FASTEST),
+        };
+        let long = |form| Answer {
+            solution: solve::<Twofold>(question, form, care(20, 1e-20, 1_000_000), FASTEST),
+            second: solve::<Twofold>(question, form, care(16, 1e-19, 1_000_000), FASTEST),
+        };
+        match numbers {
+            Numbers::Differences => short(Form::Differences),
+            Numbers::Clearances => short(Form::Clearances),
+            Numbers::LongDifferences => long(Form::Differences),
+            Numbers::LongClearances => long(Form::Clearances),
         }
     }
 
@@ -46,7 +58,7 @@ impl Answer {
 
     /// Whether both end alike.
     pub fn is_settled(&self) -> bool {
-        self.solution.end == self.second.end && self.solution.end != End::Unfinished
+        self.solution.end == self.second.end && !matches!(self.solution.end, End::Unfinished | End::NearWall)
     }
 
     /// The first crossings of a kind: for each pedestrian the time, its uncertainty, and the rate.

@@ -52,7 +52,10 @@ impl Bound {
                 };
                 let column = |outcome: &Outcome| outcome.std.rows().map(|row| row[1]).collect::<Vec<f64>>();
                 let std = pairs(&column(outcome), &column(&finer));
-                let state = pairs(&outcome.positions, &finer.positions).max(pairs(&outcome.speeds, &finer.speeds));
+                let cells = |outcome: &Outcome| outcome.trajectories.rows().flatten().copied().collect::<Vec<f64>>();
+                let state = pairs(&outcome.positions, &finer.positions)
+                    .max(pairs(&outcome.speeds, &finer.speeds))
+                    .max(pairs(&cells(outcome), &cells(&finer)));
                 let rounding = 1e-15 * (steps + 10.0);
                 Bound {
                     perturbation: GROWTH * (std + rounding * perturbation) + if scene.form == FormKind::Deviations { 0.0 } else { rounding * size },

@@ -12,17 +12,39 @@ struct Law {
     contact: f64,
     /// Whether the force depends on the spacing alone.
     has_series: bool,
-    /// How fast, about, the fastest motion is where the force balances the drive.
-    rate: f64,
+    /// How steep the force is: against the spacing, at the start and where it balances the drive; against speeds, as a
+    /// multiple of that and as a number.
+    steepness: Steepness,
+}
+
+/// How steep a force is.
+struct Steepness {
+    /// Against the room.
+    by_room: Box<dyn Fn(f64) -> f64>,
+    /// Where the force balances the drive.
+    balanced: f64,
+    /// `a_v`.
+    widening: f64,
+    /// Against speeds besides.
+    by_speed: f64,
+}
+
+impl Law {
+    /// How fast, about, the fastest motion is.
+    fn rate(&self, room: f64) -> f64 {
+        let Steepness { by_room, balanced, widening, by_speed } = &self.steepness;
+        let phi = by_room(room).max(*balanced);
+        1.0 + phi.sqrt() + widening * phi + by_speed
+    }
 }
 
 /// The scene of this seed.
 pub fn scene(seed: u64) -> String {
     let mut random = Random::new(seed);
     let law = law(&mut random);
-    let (ring, pedestrians, headway, room) = ring(&mut random, &law);
+    let (ring, pedestrians, room) = ring(&mut random, &law);
     let shift = shift(&mut random, room);
-    let run = run(&mut random, &law, pedestrians, headway);
+    let run = run(&mut random, &law, pedestrians, law.rate(room));
     let panels = if random.chance(0.1) { panels(&mut random, &law) } else { String::new() };
     format!(
         "title = \"Random scene {seed}\"\n\n[law]\n{}\n[ring]\n{ring}\n[start]\nshift = {shift}\n\n[run]\n{run}{panels}",
@@ -57,7 +79,7 @@ fn law(random: &mut Random) -> Law {
             v0,
             contact: 0.0,
             has_series: a_v == 0.0,
-            rate: 1.0 + v0.sqrt() + a_v * v0,
+            steepness: Steepness { by_room: Box::new(|_| 0.0), balanced: v0, widening: a_v, by_speed: 0.0 },
         },
     };
     push(&mut law.text, "v0", v0);
@@ -76,10 +98,13 @@ fn algebraic(random: &mut Random, v0: f64, epsilon: f64, a_v: f64) -> Law {
     if delta > 0.0 {
         push(&mut text, "epsilon", epsilon);
     }
-    // where mu^2 / d^q balances v0
-    let phi = q * v0 / math::pow(mu * mu / v0, 1.0 / q);
-    let rate = 1.0 + phi.sqrt() + a_v * phi + 2.0 * delta * v0 / mu;
-    Law { text, v0, contact: 2.0, has_series: delta == 0.0 && a_v == 0.0, rate }
+    let steepness = Steepness {
+        by_room: Box::new(move |room| q * mu * mu / math::pow(room, q + 1.0)),
+        balanced: q * v0 / math::pow(mu * mu / v0, 1.0 / q),
+        widening: a_v,
+        by_speed: 2.0 * delta * v0 / mu,
+    };
+    Law { text, v0, contact: 2.0, has_series: delta == 0.0 && a_v == 0.0, steepness }
 }
 
 fn exponential(random: &mut Random, v0: f64, epsilon: f64, a_v: f64) -> Law {
@@ -92,17 +117,18 @@ fn exponential(random: &mut Random, v0: f64, epsilon: f64, a_v: f64) -> Law {
     if c > 0.0 {
         push(&mut text, "epsilon", epsilon);
     }
-    let phi = v0 / b + c;
-    Law { text, v0, contact: 2.0, has_series: c == 0.0 && a_v == 0.0, rate: 1.0 + phi.sqrt() + a_v * phi }
+    let by_room = Box::new(move |room: f64| a / b * math::exp(-room / b) + c);
+    let steepness = Steepness { by_room, balanced: v0 / b + c, widening: a_v, by_speed: 0.0 };
+    Law { text, v0, contact: 2.0, has_series: c == 0.0 && a_v == 0.0, steepness }
 }
 
-/// The text, how many, the headway, the room at rest.
-fn ring(random: &mut Random, law: &Law) -> (String, usize, f64, f64) {
+/// The text, how many, the room at rest.
+fn ring(random: &mut Random, law: &Law) -> (String, usize, f64) {
     let pedestrians = (random.decades(0.301, 2.478) + 0.01).floor() as usize;
     let room = if law.contact == 0.0 { random.decades(-0.5, 1.5) } else { random.decades(-2.0, 2.0) };
     let length: f64 = format!("{:.6e}", (law.contact + room) * pedestrians as f64).parse().unwrap_or(room);
     let headway = length / pedestrians as f64;
-    (format!("pedestrians = {pedestrians}\nlength = {length:?}\n"), pedestrians, headway, headway - law.contact)
+    (format!("pedestrians = {pedestrians}\nlength = {length:?}\n"), pedestrians, headway - law.contact)
 }
 
 /// From 1e-200 to most of the room, forward or backward; sometimes none.
@@ -117,11 +143,11 @@ fn shift(random: &mut Random, room: f64) -> String {
     format!("{:e}", short(sign * size))
 }
 
-fn run(random: &mut Random, law: &Law, pedestrians: usize, headway: f64) -> String {
+fn run(random: &mut Random, law: &Law, pedestrians: usize, rate: f64) -> String {
     let method = random.pick(&Method::ALL);
     let method = if method.needs_series() && !law.has_series && random.chance(0.9) { Method::Dop853 } else { method };
     // what both integrations can afford
-    let longest = (1e4 / (pedestrians as f64 * law.rate)).min(500.0 / law.rate);
+    let longest = (1e4 / pedestrians as f64).min(500.0) / rate;
     let t_end = short(random.decades(-1.5, 2.7).min(longest));
     let sample = t_end / random.pick(&[0.3, 1.0, 2.0, 3.7, 10.0, 20.0]);
     let mut text = format!("method = \"{}\"\n", method.name());
@@ -131,9 +157,8 @@ fn run(random: &mut Random, law: &Law, pedestrians: usize, headway: f64) -> Stri
         push(&mut text, "tolerance", decades(random, -14.0, -3.0));
         text.push_str("most_steps = 300000\n");
     } else {
-        // from a few steps to many, of lengths that people take
-        let fewest = random.decades(-4.0, 0.0).max(t_end * pedestrians as f64 / 3e6);
-        push(&mut text, "dt", short((fewest / law.rate.max(headway.recip())).max(t_end / 3e4)));
+        let step = random.decades(-4.0, 0.0) / rate;
+        push(&mut text, "dt", short(step.max(t_end / 3e4).max(t_end * pedestrians as f64 / 3e6)));
     }
     if !method.needs_series() && random.chance(0.4) {
         let _ = writeln!(text, "state = \"{}\"", random.pick(&["gaps", "positions", "deviations"]));

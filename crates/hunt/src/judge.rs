@@ -1,6 +1,6 @@
 //! A scene run as its user would, and judged by the second integration.
 
-use crate::answer::{Answer, Digits};
+use crate::answer::{Answer, Numbers};
 use crate::bound::Bound;
 use crate::question;
 use files::recipe;
@@ -101,6 +101,7 @@ fn refused(verdict: &mut Verdict, problem: &str, question: &Question) {
         ("needs a force that depends on the gap alone", "refused: taylor has no series"),
         ("closes a gap", "refused: shift closes a gap"),
         ("gaps are closed", "refused: closed gaps"),
+        ("give either dt or tolerance", "refused: dt and tolerance"),
     ];
     let class = known.iter().find(|(words, _)| problem.contains(words));
     verdict.ending = class.map_or("refused: other", |(_, class)| class).into();
@@ -139,7 +140,10 @@ fn failed(verdict: &mut Verdict, scene: &Scene, broken: &Broken, mut question: Q
     // fixed steps that are too long, and step limits, are the user's affair
     let is_own = class == "too many steps" || class == "not finite" && scene.method_is_fixed();
     question.times = vec![time.max(1e-3 * scene.t_end), scene.t_end];
-    let answer = Answer::new(&question, Digits::Sixteen);
+    let mut answer = Answer::new(&question, Numbers::Differences);
+    if answer.solution.end == End::NearWall {
+        answer = Answer::new(&question, Numbers::Clearances);
+    }
     let ends_there = matches!(answer.solution.end, End::Singular | End::BlownUp)
         && answer.solution.time <= 1.001 * time.max(1e-3 * scene.t_end);
     verdict.ending = format!("failed: {class}{}", if ends_there { ", where the solution ends" } else { "" });
@@ -167,20 +171,38 @@ fn done(verdict: &mut Verdict, scene: &Scene, outcome: &Outcome, mut question: Q
     let end = if outcome.statistics.time >= scene.t_end { "ran to t_end" } else { "ended" };
     verdict.ending = if names.is_empty() { end.into() } else { format!("{end}: {}", names.join(", ")) };
     question.times = outcome.std.rows().map(|row| row[0]).filter(|t| *t > 0.0).collect();
-    if outcome.statistics.time > question.times.last().copied().unwrap_or(0.0) {
+    if is_beyond(scene, outcome) {
+        // the step was too long for the wall: what is right after it is no question
+        verdict.ending.push_str(", by a step over the wall");
+    } else if outcome.statistics.time > question.times.last().copied().unwrap_or(0.0) {
         question.times.push(outcome.statistics.time);
     }
-    for digits in [Digits::Sixteen, Digits::ThirtyTwo] {
+    // what faster numbers cannot decide, or find wrong, better ones are asked
+    let mut next = Some(Numbers::Differences);
+    while let Some(numbers) = next {
         verdict.ratios.clear();
         verdict.findings.clear();
         verdict.undecided.clear();
-        let answer = Answer::new(&question, digits);
+        let answer = Answer::new(&question, numbers);
         let bound = Bound::new(scene, outcome, &answer);
         compare(verdict, scene, outcome, &answer, &bound);
         if verdict.findings.is_empty() && verdict.undecided.is_empty() {
             return;
         }
+        next = match (numbers, answer.solution.end) {
+            (_, End::Unfinished) => None,
+            (Numbers::Differences, End::NearWall) => Some(Numbers::Clearances),
+            (Numbers::Differences, _) => Some(Numbers::LongDifferences),
+            (Numbers::Clearances, _) => Some(Numbers::LongClearances),
+            _ => None,
+        };
     }
+}
+
+/// Whether a fixed step went through a singular force, which no solution does.
+fn is_beyond(scene: &Scene, outcome: &Outcome) -> bool {
+    let is_over = |happening: &Happening| happening.event == Event::Overlap;
+    scene.model.is_singular() && scene.method_is_fixed() && outcome.events.iter().any(is_over)
 }
 
 /// The comparison of one number.
@@ -291,10 +313,13 @@ fn kind(event: Event) -> Option<Kind> {
 }
 
 fn events(verdict: &mut Verdict, scene: &Scene, outcome: &Outcome, answer: &Answer, bound: &Bound) {
+    if is_beyond(scene, outcome) {
+        return;
+    }
     for happening in &outcome.events {
         match kind(happening.event) {
             Some(kind) => crossing(verdict, happening, kind, scene, answer, bound),
-            None => blow_up(verdict, happening, answer),
+            None => blow_up(verdict, happening, answer, scene.ring.length),
         }
     }
     for kind in Kind::ALL {
@@ -345,10 +370,11 @@ fn crossing(
 }
 
 /// Speeds double at every throw, so the end is as near as the ring is long over the speed reached.
-fn blow_up(verdict: &mut Verdict, happening: &Happening, answer: &Answer) {
+fn blow_up(verdict: &mut Verdict, happening: &Happening, answer: &Answer, length: f64) {
     let solution = &answer.solution;
-    let allowed = 10.0 / solution.fastest + 1e-6 * solution.time;
-    if solution.end != End::BlownUp || (happening.time - solution.time).abs() > allowed {
+    let allowed = length / solution.fastest + 1e-6 * solution.time;
+    let is_end = matches!(solution.end, End::BlownUp | End::Singular);
+    if !is_end || (happening.time - solution.time).abs() > allowed {
         verdict.findings.push(format!(
             "blow-up at t = {:?}; right: {:?} at {:?} with speeds of {:e}",
             happening.time, solution.end, solution.time, solution.fastest

@@ -1,5 +1,5 @@
-//! The numbers that a formula can be evaluated in: doubles, numbers of 106 bits, and a number together with a difference
-//! from it.
+//! The numbers that a formula can be evaluated in: doubles, numbers of 106 bits, a number together with a difference
+//! from it ([`Difference`]), and a sum that stays in two parts ([`Parted`]).
 //!
 //! A law is written once ([`crate::formula`]). In [`Difference`]s it gives what it gives in a uniform flow and by how much
 //! a perturbed pedestrian differs from that, with all digits of the difference, be it 1e-200.
@@ -216,5 +216,89 @@ impl<T: Real> Number for Difference<T> {
         let ratio = self.change / self.base;
         let is_small = ratio.value().abs() < 0.5;
         self.map(is_small, |x| x.power(q), |base, _| base * (ratio.ln_1p() * T::from(q)).exp_m1())
+    }
+}
+
+/// The sum `base + rest`, added and subtracted part by part: `(2 + rest) - 2` is `rest`, however small. Everything else is
+/// done to the sum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parted<T> {
+    /// The constant part.
+    pub base: T,
+    /// The other part.
+    pub rest: T,
+}
+
+impl<T: Real> Parted<T> {
+    /// The sum.
+    pub fn whole(self) -> T {
+        self.base + self.rest
+    }
+
+    fn of(rest: T) -> Parted<T> {
+        Parted { base: T::from(0.0), rest }
+    }
+}
+
+impl<T: Real> From<f64> for Parted<T> {
+    fn from(value: f64) -> Parted<T> {
+        Parted { base: T::from(value), rest: T::from(0.0) }
+    }
+}
+
+impl<T: Real> Add for Parted<T> {
+    type Output = Parted<T>;
+    fn add(self, other: Parted<T>) -> Parted<T> {
+        Parted { base: self.base + other.base, rest: self.rest + other.rest }
+    }
+}
+
+impl<T: Real> Sub for Parted<T> {
+    type Output = Parted<T>;
+    fn sub(self, other: Parted<T>) -> Parted<T> {
+        Parted { base: self.base - other.base, rest: self.rest - other.rest }
+    }
+}
+
+impl<T: Real> Neg for Parted<T> {
+    type Output = Parted<T>;
+    fn neg(self) -> Parted<T> {
+        Parted { base: -self.base, rest: -self.rest }
+    }
+}
+
+impl<T: Real> Mul for Parted<T> {
+    type Output = Parted<T>;
+    fn mul(self, other: Parted<T>) -> Parted<T> {
+        Parted::of(self.whole() * other.whole())
+    }
+}
+
+impl<T: Real> Div for Parted<T> {
+    type Output = Parted<T>;
+    fn div(self, other: Parted<T>) -> Parted<T> {
+        Parted::of(self.whole() / other.whole())
+    }
+}
+
+impl<T: Real> Number for Parted<T> {
+    fn value(self) -> f64 {
+        self.whole().value()
+    }
+
+    fn exp(self) -> Parted<T> {
+        Parted::of(self.whole().exp())
+    }
+
+    fn softplus(self) -> Parted<T> {
+        Parted::of(self.whole().softplus())
+    }
+
+    fn ln_1p(self) -> Parted<T> {
+        Parted::of(self.whole().ln_1p())
+    }
+
+    fn power(self, q: f64) -> Parted<T> {
+        Parted::of(self.whole().power(q))
     }
 }

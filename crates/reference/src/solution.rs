@@ -1,6 +1,6 @@
 //! A scene solved: samples, the first event of each kind, and how it ends.
 
-use crate::flow::Flow;
+use crate::flow::{Flow, Form};
 use crate::formula::Formula;
 use crate::number::Real;
 use crate::solver::{Care, Solver, Stuck};
@@ -96,8 +96,10 @@ pub enum End {
     Reached,
     /// Speeds grow beyond all bounds.
     BlownUp,
-    /// Nobody is fast, but there is no solution beyond.
+    /// There is no solution beyond: steps tend to 0, or the room of somebody under a singular force.
     Singular,
+    /// Somebody comes so near to a singular force that differences from the uniform flow do not tell how near.
+    NearWall,
     /// The work allowed was not enough.
     Unfinished,
 }
@@ -122,8 +124,10 @@ pub struct Solution {
 }
 
 /// Solves in numbers of type `T`. Speeds above `fastest` times the desired one, or 1, are a blow-up.
-pub fn solve<T: Real>(question: &Question, care: Care, fastest: f64) -> Solution {
-    let flow: Flow<T> = Flow::new(question.formula, question.pedestrians, question.length);
+pub fn solve<T: Real>(question: &Question, form: Form, care: Care, fastest: f64) -> Solution {
+    let flow: Flow<T> = Flow::new(question.formula, question.pedestrians, question.length, form);
+    // a room that keeps a third of its digits; below 1e-280 products underflow
+    let near = if form == Form::Differences { flow.headway.value() * math::pow(T::ROUNDING, 1.0 / 3.0) } else { 1e-280 };
     let mut solver = Solver::new(flow, flow.start(question.shift), care);
     let bound = fastest * question.formula.desired_speed().max(1.0);
     let mut solution = Solution {
@@ -151,6 +155,8 @@ pub fn solve<T: Real>(question: &Question, care: Care, fastest: f64) -> Solution
         solution.fastest = speeds(&flow, &solver.state).into_iter().fold(0.0, |most, v| v.abs().max(most));
         if solution.fastest > bound {
             solution.end = End::BlownUp;
+        } else if question.formula.is_singular() && flow.least_room(&solver.state) < near {
+            solution.end = if form == Form::Differences { End::NearWall } else { End::Singular };
         }
     }
     solution.time = solver.time.into();

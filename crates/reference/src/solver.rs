@@ -33,7 +33,7 @@ const STRIDE: f64 = 4.0;
 /// Iterations of a step, at most; slow ones ask for a shorter step.
 const ITERATIONS: usize = 40;
 /// Shorter steps mean that there is no solution beyond.
-const SHORTEST: f64 = 1e-40;
+const SHORTEST: f64 = 1e-290;
 
 /// A solution at its present time, and the step that led there.
 #[derive(Clone, Debug)]
@@ -165,27 +165,24 @@ impl<T: Real> Solver<T> {
         if error <= self.care.tolerance { factor.clamp(1.0, 3.0) } else { factor.clamp(0.1, 0.9) }
     }
 
-    /// What errors are compared with: of the perturbation's spacings and speeds, of the first one's place, and of the
-    /// uniform flow.
-    fn scales(&self) -> [f64; 4] {
-        let (n, state) = (self.flow.pedestrians, &self.state);
-        let size = self.flow.perturbation(state).max(f64::MIN_POSITIVE);
-        let room = if self.flow.formula.is_singular() { self.flow.least_room(state) } else { size };
-        let uniform = self.flow.formula.desired_speed().max(state[2 * n + 2].value().abs());
-        [size.min(room), size, size.max(state[2 * n].value().abs()), uniform]
+    /// What errors are compared with, component by component: spacings and speeds with the largest of both, spacings near a
+    /// singular force with their own room, the uniform flow with the desired speed.
+    fn scales(&self) -> Vec<f64> {
+        let (n, flow, state) = (self.flow.pedestrians, &self.flow, &self.state);
+        let size = flow.size(state).max(f64::MIN_POSITIVE);
+        let uniform = flow.formula.desired_speed().max(state[2 * n + 2].value().abs());
+        let mut scales = vec![size; 2 * n];
+        if flow.formula.is_singular() {
+            scales[..n].iter_mut().enumerate().for_each(|(i, scale)| *scale = size.min(flow.room(state, i).value()));
+        }
+        scales.extend([size.max(state[2 * n].value().abs()), uniform, uniform]);
+        scales
     }
 
     /// The largest of these numbers in those units.
-    fn norm(&self, values: impl Iterator<Item = T>, scales: &[f64; 4]) -> f64 {
-        let n = self.flow.pedestrians;
+    fn norm(&self, values: impl Iterator<Item = T>, scales: &[f64]) -> f64 {
         let mut largest = 0.0;
-        for (i, value) in values.enumerate() {
-            let scale = match i {
-                i if i < n => scales[0],
-                i if i < 2 * n => scales[1],
-                i if i == 2 * n => scales[2],
-                _ => scales[3],
-            };
+        for (value, scale) in values.zip(scales) {
             let size = value.value().abs() / scale;
             if size.is_nan() {
                 return f64::INFINITY;
@@ -196,7 +193,7 @@ impl<T: Real> Solver<T> {
     }
 
     /// Finds the rates at the nodes; false if they do not settle.
-    fn iterate(&mut self, h: f64, scales: &[f64; 4]) -> bool {
+    fn iterate(&mut self, h: f64, scales: &[f64]) -> bool {
         for rates in &mut self.stage_rates {
             rates.copy_from_slice(&self.rates);
         }
@@ -240,7 +237,7 @@ impl<T: Real> Solver<T> {
 
     /// How far the rates are from their polynomial at both ends, as an error of the solution. The polynomial's defect is a
     /// multiple of the next Legendre polynomial, largest at the ends; its integral is at most about a tenth of that.
-    fn error(&self, h: f64, scales: &[f64; 4]) -> f64 {
+    fn error(&self, h: f64, scales: &[f64]) -> f64 {
         let defect = |rates: &[T], sign: f64| {
             let differences = (0..rates.len()).map(|i| {
                 let (mut sum, mut factor) = (-rates[i], 1.0);
