@@ -41,6 +41,12 @@ pub(crate) trait Stepper {
         None
     }
 
+    /// How much the law's rates at the end of the step differ from the slope of its solution there, times the length of the
+    /// step and in units of the tolerance; 0 where the method has no such slope.
+    fn defect(&mut self, _ends: &Ends<'_>, _norm: &Norm) -> f64 {
+        0.0
+    }
+
     /// The power of the step with which the estimated error falls.
     fn error_power(&self) -> usize;
 

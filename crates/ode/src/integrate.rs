@@ -1,6 +1,7 @@
 //! The two drivers: steps of fixed length, and steps as long as the error allows.
 
 use crate::ballistic::Ballistic;
+use crate::bends::Bends;
 use crate::control::{Control, Controller, Norm};
 use crate::dense::{Ends, SAME, Step, Stepper, Trial};
 use crate::extrapolation::Extrapolation;
@@ -96,7 +97,7 @@ impl<'a> Run<'a> {
         let stepper: Box<dyn Stepper> = match (problem.method, problem.method.tableau()) {
             (_, Some(tableau)) => Box::new(RungeKutta::new(tableau, n)),
             (Method::Ballistic, None) => Box::new(Ballistic::new(system)),
-            (Method::Taylor, None) => Box::new(Taylor::new(n, problem.control)),
+            (Method::Taylor, None) => Box::new(Taylor::new(system, problem.control)),
             (_, None) => Box::new(Extrapolation::new(n)),
         };
         let mut rates = vec![0.0; n];
@@ -164,6 +165,7 @@ impl<'a> Run<'a> {
             if !self.next.iter().all(|component| component.is_finite()) {
                 return Err(Failure::NotFinite { time: start, step: length });
             }
+            self.arrive();
             if self.accept(start, end, length, observer).is_break() {
                 break;
             }
@@ -196,6 +198,7 @@ impl<'a> Run<'a> {
         let mut h = self.first_step(problem, &mut norm);
         h = self.propose(&norm).unwrap_or(h);
         let most_steps = observer.most_steps();
+        let mut bends = Bends::new(self.system, &self.state, &self.rates);
         while time[0] < problem.end {
             if self.statistics.steps + self.statistics.rejected >= most_steps {
                 return Err(Failure::TooManySteps { time: time[0], steps: most_steps });
@@ -218,6 +221,12 @@ impl<'a> Run<'a> {
                 continue;
             }
             add_compensated(&self.state, &self.change, &carry, &mut self.next, &mut next_carry);
+            self.arrive();
+            if let Some(factor) = self.too_long(length, &norm, bends.as_mut()) {
+                self.statistics.rejected += 1;
+                h = length * factor;
+                continue;
+            }
             std::mem::swap(&mut carry, &mut next_carry);
             let (start, start_carry) = (time, time_carry);
             add_compensated(&start, &[length], &start_carry, &mut time, &mut time_carry);
@@ -228,10 +237,31 @@ impl<'a> Run<'a> {
             if is_last {
                 break;
             }
+            if let Some(bends) = &mut bends {
+                bends.advance();
+            }
             norm.start(&self.state);
             h = self.propose(&norm).unwrap_or_else(|| length * controller.accept(error));
         }
         Ok(())
+    }
+
+    /// The part of a step that its error allows after which it has to end all the same, less than 1: for a bend that it may
+    /// not have seen, or since the law says otherwise at its end than its solution.
+    fn too_long(&mut self, h: f64, norm: &Norm, bends: Option<&mut Bends>) -> Option<f64> {
+        let shortened = bends.and_then(|bends| bends.shortened(self.system, &self.next, &self.next_rates, h));
+        if shortened.is_some() {
+            return shortened;
+        }
+        let ends = Ends {
+            before: &self.state,
+            after: &self.next,
+            rates_before: &self.rates,
+            rates_after: &self.next_rates,
+            h,
+        };
+        let defect = self.stepper.defect(&ends, norm);
+        (defect.is_nan() || defect > LARGEST_DEFECT).then_some(0.5)
     }
 
     fn propose(&mut self, norm: &Norm) -> Option<f64> {
@@ -245,8 +275,8 @@ impl<'a> Run<'a> {
         error
     }
 
-    /// Takes `self.next` for the new state and shows the step to the observer.
-    fn accept(&mut self, start: f64, end: f64, h: f64, observer: &mut dyn Observer) -> std::ops::ControlFlow<()> {
+    /// Finds the rates at the end of a step.
+    fn arrive(&mut self) {
         // known rates are those at a state that lacks the carry of its sum, half a unit at most
         match self.stepper.rates_at_end() {
             Some(rates) => self.next_rates.copy_from_slice(rates),
@@ -255,6 +285,10 @@ impl<'a> Run<'a> {
                 self.statistics.evaluations += 1;
             }
         }
+    }
+
+    /// Takes `self.next`, whose rates are known, for the new state and shows the step to the observer.
+    fn accept(&mut self, start: f64, end: f64, h: f64, observer: &mut dyn Observer) -> std::ops::ControlFlow<()> {
         let ends = Ends {
             before: &self.state,
             after: &self.next,
@@ -288,3 +322,6 @@ const LONGEST_BURST: u64 = 4096;
 /// Shorter steps are taken for a sign that the tolerance cannot be met. The equations do not know the time and its sum
 /// is compensated, so a step may lie far below the rounding of the time: a blow-up needs that.
 const SHORTEST: f64 = 1e-60;
+
+/// A larger defect is taken for a sign that the law is another one at the end of the step than at its start.
+const LARGEST_DEFECT: f64 = 32.0;

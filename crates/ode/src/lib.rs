@@ -5,6 +5,7 @@
 //! [`integrate`], which shows it every accepted [`Step`].
 
 mod ballistic;
+mod bends;
 mod control;
 mod dense;
 mod extrapolation;

@@ -41,6 +41,16 @@ pub trait System {
     /// are given.
     fn series(&self, _order: usize, _unit: f64, _coefficients: &mut [f64]) {}
 
+    /// In how many places the rates can bend sharply, as a smooth ramp does.
+    fn bends(&self) -> usize {
+        0
+    }
+
+    /// Writes how far a state is from each bend, in units of its width, 0 in its middle; and how fast that changes. Steps of
+    /// adaptive length are short on this scale where they touch a bend, since their error estimates may not see what they
+    /// step over.
+    fn bend_arguments(&self, _state: &[f64], _rates: &[f64], _arguments: &mut [f64], _slopes: &mut [f64]) {}
+
     /// All rates: [`System::kinematics`] and [`System::dynamics`].
     fn rates(&self, state: &[f64], rates: &mut [f64]) {
         self.kinematics(state, rates);

@@ -10,6 +10,7 @@ use crate::dense::{Ends, Stepper, Trial};
 use crate::system::System;
 use math::lane;
 use math::simd::{Kernel, dispatch};
+use std::ops::Range;
 
 pub(crate) struct Taylor {
     order: usize,
@@ -21,6 +22,10 @@ pub(crate) struct Taylor {
     next_unit: f64,
     /// Rows of coefficients, that of order 0 first.
     coefficients: Vec<f64>,
+    /// The components that are not position-like: the others' rates bend nowhere.
+    forced: Vec<Range<usize>>,
+    /// Room for the defect at the end of a step; 0 for position-like components.
+    defect: Vec<f64>,
 }
 
 /// The order at a fixed step: higher ones gain nothing in double precision.
@@ -45,9 +50,11 @@ const PER_E_FOLD: f64 = 0.45;
 const OFFSET: f64 = 4.3;
 
 impl Taylor {
-    pub(crate) fn new(dimension: usize, control: Control) -> Taylor {
-        let order = order(control);
-        Taylor { order, dimension, unit: 1.0, next_unit: 1.0, coefficients: vec![0.0; (order + 1) * dimension] }
+    pub(crate) fn new(system: &dyn System, control: Control) -> Taylor {
+        let (order, dimension) = (order(control), system.dimension());
+        let zeros = |count: usize| vec![0.0; count];
+        let (coefficients, defect) = (zeros((order + 1) * dimension), zeros(dimension));
+        Taylor { order, dimension, unit: 1.0, next_unit: 1.0, coefficients, forced: forced(system), defect }
     }
 
     fn expand(&mut self, system: &dyn System, state: &[f64], rates: &[f64]) {
@@ -87,6 +94,16 @@ impl Stepper for Taylor {
 
     fn evaluations(&self) -> u64 {
         self.order as u64 - 1
+    }
+
+    fn defect(&mut self, ends: &Ends<'_>, norm: &Norm) -> f64 {
+        let h = ends.h / self.unit;
+        let coefficients = &self.coefficients[self.dimension..];
+        for range in self.forced.iter().cloned() {
+            let rates = ends.rates_after;
+            dispatch(Defect { coefficients, range, h, length: ends.h, rates, defect: &mut self.defect });
+        }
+        norm.of(&self.defect)
     }
 
     fn error_power(&self) -> usize {
@@ -160,6 +177,60 @@ impl Kernel for Change<'_> {
             self.lanes::<LANES>(from.min(n - LANES));
         }
     }
+}
+
+/// Writes `c_1 h + 2 c_2 h^2 + 3 c_3 h^3 + ...`, the length of the step times the slope of the series, minus `length` times
+/// the rates.
+struct Defect<'a> {
+    coefficients: &'a [f64],
+    range: Range<usize>,
+    h: f64,
+    length: f64,
+    rates: &'a [f64],
+    defect: &'a mut [f64],
+}
+
+impl Defect<'_> {
+    #[inline(always)]
+    fn lanes<const LANES: usize>(&mut self, from: usize) {
+        let (n, mut sum) = (self.defect.len(), [0.0; LANES]);
+        let order = self.coefficients.len() / n;
+        for (k, row) in (1..=order).rev().zip(self.coefficients.rchunks_exact(n)) {
+            let k = k as f64;
+            for (sum, coefficient) in sum.iter_mut().zip(&row[from..][..LANES]) {
+                *sum = (*sum + k * coefficient) * self.h;
+            }
+        }
+        let defects = self.defect[from..][..LANES].iter_mut().zip(&self.rates[from..][..LANES]);
+        for ((defect, rate), sum) in defects.zip(sum) {
+            *defect = sum - self.length * rate;
+        }
+    }
+}
+
+impl Kernel for Defect<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(mut self) {
+        let Range { start, end } = self.range;
+        if end - start < LANES {
+            (start..end).for_each(|from| self.lanes::<1>(from));
+            return;
+        }
+        for from in (start..end).step_by(LANES) {
+            self.lanes::<LANES>(from.min(end - LANES));
+        }
+    }
+}
+
+/// The components that are not position-like.
+fn forced(system: &dyn System) -> Vec<Range<usize>> {
+    let mut positions = system.positions();
+    positions.sort_by_key(|range| range.start);
+    let starts = std::iter::once(0).chain(positions.iter().map(|range| range.end));
+    let ends = positions.iter().map(|range| range.start).chain([system.dimension()]);
+    starts.zip(ends).map(|(start, end)| start..end).filter(|range| !range.is_empty()).collect()
 }
 
 /// So many components at a time.

@@ -2,7 +2,7 @@
 //! `dv_n/dt = v_0 - v_n - (mu + delta r_eps(v_{n+1} - v_n))^2 / d_n^q`, `d_n = s_n - a_v (v_n + v_{n+1}) - 2`.
 
 use super::{Law, Visitor, Work};
-use crate::ramp::smooth_ramp;
+use crate::ramp::{Bend, smooth_ramp};
 use crate::series::{Block, lanes};
 use crate::stability::Linear;
 use math::lane::{self, SoftplusBase};
@@ -252,5 +252,10 @@ impl<const RELATIVE: bool, const WIDENING: bool, const POWER: u8> Law for Algebr
 
     fn room_per_speed(&self) -> f64 {
         self.parameters.widening
+    }
+
+    fn bend(&self) -> Option<Bend> {
+        let slope = 1.0 / self.parameters.epsilon;
+        RELATIVE.then_some(Bend { clearance: 0.0, speed: -slope, ahead: slope, offset: 0.0 })
     }
 }

@@ -2,7 +2,7 @@
 //! `dv_n/dt = v_0 - v_n - a exp(-d_n / b) - c r_eps(d_n)`, `d_n = s_n - a_v (v_n + v_{n+1}) - 2`.
 
 use super::{Law, Visitor, Work};
-use crate::ramp::smooth_ramp;
+use crate::ramp::{Bend, smooth_ramp};
 use crate::series::{Block, inner_product, lanes};
 use crate::stability::Linear;
 use math::lane::{self, SoftplusBase};
@@ -177,5 +177,11 @@ impl<const CONTACT: bool, const WIDENING: bool> Law for ExponentialLaw<CONTACT, 
 
     fn room_per_speed(&self) -> f64 {
         self.parameters.widening
+    }
+
+    fn bend(&self) -> Option<Bend> {
+        let Exponential { widening: a_v, epsilon, .. } = self.parameters;
+        let speed = if WIDENING { -a_v / epsilon } else { 0.0 };
+        CONTACT.then_some(Bend { clearance: 1.0 / epsilon, speed, ahead: speed, offset: 0.0 })
     }
 }

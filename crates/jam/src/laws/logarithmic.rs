@@ -2,7 +2,7 @@
 //! `R_n = r_eps(s_n / (2 + a_v (v_n + v_{n+1})) - 1)`.
 
 use super::{Law, Visitor, Work};
-use crate::ramp::smooth_ramp;
+use crate::ramp::{Bend, smooth_ramp};
 use crate::series::{Block, inner_product, lanes};
 use crate::stability::Linear;
 use math::lane::{self, SoftplusBase};
@@ -214,5 +214,11 @@ impl<const WIDENING: bool> Law for LogarithmicLaw<WIDENING> {
 
     fn room_per_speed(&self) -> f64 {
         0.0
+    }
+
+    fn bend(&self) -> Option<Bend> {
+        let Logarithmic { widening: a_v, epsilon, .. } = self.parameters;
+        let (clearance, speed) = (0.5 / epsilon, -0.5 * a_v / epsilon);
+        Some(Bend { clearance, speed, ahead: speed, offset: -1.0 / epsilon })
     }
 }

@@ -13,6 +13,7 @@ pub use algebraic::{Algebraic, AlgebraicLaw};
 pub use exponential::{Exponential, ExponentialLaw};
 pub use logarithmic::{C, Logarithmic, LogarithmicLaw};
 
+use crate::ramp::Bend;
 use crate::series::Block;
 use crate::stability::Linear;
 use math::row::{LENGTH, Room};
@@ -68,6 +69,9 @@ pub trait Law: Copy + Send {
 
     /// How much room a unit of speed, own or ahead, takes away.
     fn room_per_speed(&self) -> f64;
+
+    /// Where the smooth ramp bends, if the law has one; where its argument is a quotient, its numerator.
+    fn bend(&self) -> Option<Bend>;
 }
 
 /// Room for a row of a law at work.

@@ -129,6 +129,20 @@ impl<L: Law> System for Deviations<L> {
         ]
     }
 
+    fn bends(&self) -> usize {
+        self.law.bend().map_or(0, |_| self.pedestrians)
+    }
+
+    fn bend_arguments(&self, state: &[f64], rates: &[f64], arguments: &mut [f64], slopes: &mut [f64]) {
+        let Some(bend) = self.law.bend() else { return };
+        let n = self.pedestrians;
+        let (_, _, speed) = self.extras();
+        let sum = bend.speed + bend.ahead;
+        let offset = bend.offset + (bend.clearance * self.clearance + sum * state[speed]);
+        bend.arguments(offset, &state[..n], &state[n..2 * n], arguments);
+        bend.arguments(sum * rates[speed], &rates[..n], &rates[n..2 * n], slopes);
+    }
+
     fn in_domain(&self, state: &[f64]) -> bool {
         if !L::SINGULAR {
             return true;

@@ -91,6 +91,17 @@ impl<L: Law> System for Gaps<L> {
         ]
     }
 
+    fn bends(&self) -> usize {
+        self.law.bend().map_or(0, |_| self.pedestrians)
+    }
+
+    fn bend_arguments(&self, state: &[f64], rates: &[f64], arguments: &mut [f64], slopes: &mut [f64]) {
+        let Some(bend) = self.law.bend() else { return };
+        let n = self.pedestrians;
+        bend.arguments(bend.offset, &state[..n], &state[n..2 * n], arguments);
+        bend.arguments(0.0, &rates[..n], &rates[n..2 * n], slopes);
+    }
+
     fn in_domain(&self, state: &[f64]) -> bool {
         let n = self.pedestrians;
         let (gaps, speeds) = (&state[..n], &state[n..2 * n]);

@@ -69,6 +69,20 @@ impl<L: Law> System for Positions<L> {
         burst(steps, Cut::of(self.ring.pedestrians), state)
     }
 
+    fn bends(&self) -> usize {
+        self.law.bend().map_or(0, |_| self.ring.pedestrians)
+    }
+
+    fn bend_arguments(&self, state: &[f64], rates: &[f64], arguments: &mut [f64], slopes: &mut [f64]) {
+        let Some(bend) = self.law.bend() else { return };
+        let n = self.ring.pedestrians;
+        let mut gaps = self.gaps.borrow_mut();
+        self.write_gaps(&state[..n], &mut gaps);
+        bend.arguments(bend.offset - bend.clearance * L::CONTACT, &gaps, &state[n..], arguments);
+        super::closing_rates(&rates[..n], &mut gaps);
+        bend.arguments(0.0, &gaps, &rates[n..], slopes);
+    }
+
     fn in_domain(&self, state: &[f64]) -> bool {
         let n = self.ring.pedestrians;
         let mut gaps = self.gaps.borrow_mut();
