@@ -5,7 +5,7 @@ fn main() {
     let form = if std::env::args().nth(2).unwrap() == "c" { Form::Clearances } else { Form::Differences };
     let q = hunt::question::read(&hunt::draw::scene(seed), "main").unwrap();
     let flow: Flow<f64> = Flow::new(q.formula, q.pedestrians, q.length, form);
-    let mut s = Solver::new(flow, flow.start(q.shift), Care { nodes: 12, tolerance: 1e-13, most_work: 10_000_000 });
+    let mut s = Solver::new(flow, flow.start(q.shift), Care { nodes: 12, tolerance: std::env::args().nth(3).unwrap().parse().unwrap(), most_work: 10_000_000 });
     let mut k = 0u64;
     loop {
         let r = s.advance(1e3);

@@ -177,16 +177,19 @@ fn done(verdict: &mut Verdict, scene: &Scene, outcome: &Outcome, mut question: Q
     } else if outcome.statistics.time > question.times.last().copied().unwrap_or(0.0) {
         question.times.push(outcome.statistics.time);
     }
-    // what faster numbers cannot decide, or find wrong, better ones are asked
+    // what faster numbers cannot decide, better ones are asked
     let mut next = Some(Numbers::Differences);
     while let Some(numbers) = next {
-        verdict.ratios.clear();
-        verdict.findings.clear();
-        verdict.undecided.clear();
         let answer = Answer::new(&question, numbers);
-        let bound = Bound::new(scene, outcome, &answer);
-        compare(verdict, scene, outcome, &answer, &bound);
-        if verdict.findings.is_empty() && verdict.undecided.is_empty() {
+        let is_better = answer.is_settled() || verdict.undecided.is_empty() && verdict.findings.is_empty();
+        if is_better {
+            verdict.ratios.clear();
+            verdict.findings.clear();
+            verdict.undecided.clear();
+            let bound = Bound::new(scene, outcome, &answer);
+            compare(verdict, scene, outcome, &answer, &bound);
+        }
+        if answer.is_settled() && verdict.undecided.is_empty() {
             return;
         }
         next = match (numbers, answer.solution.end) {

@@ -71,6 +71,11 @@ pub fn weights_at<T: Real>(count: usize, theta: T) -> Vec<T> {
     integrals(count, theta * T::from(2.0) - T::from(1.0))
 }
 
+/// The weights of Legendre coefficients in the rates at the fraction `theta` of a step, which may lie beyond its end.
+pub fn rates_at<T: Real>(count: usize, theta: T) -> Vec<T> {
+    legendre(count, theta * T::from(2.0) - T::from(1.0))
+}
+
 /// Writes the sum of the rows, weighted, times `factor`.
 pub fn combine<T: Real>(factor: T, weights: &[T], rows: &[Vec<T>], sums: &mut [T]) {
     sums.fill(T::from(0.0));

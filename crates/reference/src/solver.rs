@@ -1,6 +1,6 @@
 //! Steps of [`crate::collocation`] for a [`Flow`], as long as their error allows and never over a kink unseen.
 
-use crate::collocation::{Collocation, combine, weights_at};
+use crate::collocation::{Collocation, combine, rates_at, weights_at};
 use crate::flow::Flow;
 use crate::number::Real;
 use math::twofold::Twofold;
@@ -32,6 +32,9 @@ const FELT: f64 = 40.0;
 const STRIDE: f64 = 4.0;
 /// Iterations of a step, at most; slow ones ask for a shorter step.
 const ITERATIONS: usize = 40;
+/// Orders of the last step's polynomial that are carried on, up to steps longer by this factor.
+const GUESSED: usize = 6;
+const LONGEST_GUESS: f64 = 1.7;
 /// Shorter steps mean that there is no solution beyond.
 const SHORTEST: f64 = 1e-290;
 
@@ -57,7 +60,9 @@ pub struct Solver<T> {
     before: Vec<T>,
     rates: Vec<T>,
     kinks: Vec<f64>,
+    /// Of the rates in the last step.
     coefficients: Vec<Vec<T>>,
+    trial: Vec<Vec<T>>,
     stages: Vec<Stage<T>>,
     stage_rates: Vec<Vec<T>>,
     end: Stage<T>,
@@ -108,6 +113,7 @@ impl<T: Real> Solver<T> {
             rates,
             kinks,
             coefficients: rows.clone(),
+            trial: rows.clone(),
             stages: vec![Stage::new(dimension); care.nodes],
             stage_rates: rows,
             end: Stage::new(dimension),
@@ -194,9 +200,7 @@ impl<T: Real> Solver<T> {
 
     /// Finds the rates at the nodes; false if they do not settle.
     fn iterate(&mut self, h: f64, scales: &[f64]) -> bool {
-        for rates in &mut self.stage_rates {
-            rates.copy_from_slice(&self.rates);
-        }
+        self.guess(h);
         let settled = (4.0 * T::ROUNDING).max(1e-3 * self.care.tolerance);
         let mut new = vec![T::from(0.0); self.flow.dimension()];
         let mut last = f64::INFINITY;
@@ -224,11 +228,24 @@ impl<T: Real> Solver<T> {
         false
     }
 
+    /// Rates to begin with: the polynomial of the last step, its low orders, goes on.
+    fn guess(&mut self, h: f64) {
+        let ratio = h / self.length;
+        for i in 0..self.care.nodes {
+            if ratio < LONGEST_GUESS {
+                let weights = rates_at(GUESSED, T::from(1.0 + ratio * self.method.node(i)));
+                combine(T::from(1.0), &weights[..GUESSED], &self.coefficients, &mut self.stage_rates[i]);
+            } else {
+                self.stage_rates[i].copy_from_slice(&self.rates);
+            }
+        }
+    }
+
     /// The end of a step from its nodes.
     fn finish(&mut self, h: f64) {
-        self.method.coefficients(&self.stage_rates, &mut self.coefficients);
+        self.method.coefficients(&self.stage_rates, &mut self.trial);
         // all but the first polynomial integrate to 0
-        for (change, rate) in self.end.change.iter_mut().zip(&self.coefficients[0]) {
+        for (change, rate) in self.end.change.iter_mut().zip(&self.trial[0]) {
             *change = T::from(h) * *rate;
         }
         self.end.move_from(&self.state);
@@ -241,7 +258,7 @@ impl<T: Real> Solver<T> {
         let defect = |rates: &[T], sign: f64| {
             let differences = (0..rates.len()).map(|i| {
                 let (mut sum, mut factor) = (-rates[i], 1.0);
-                for row in &self.coefficients {
+                for row in &self.trial {
                     sum = sum + row[i] * T::from(factor);
                     factor *= sign;
                 }
@@ -298,6 +315,7 @@ impl<T: Real> Solver<T> {
         self.start = self.time;
         self.time = self.time + h;
         self.length = h;
+        std::mem::swap(&mut self.coefficients, &mut self.trial);
         std::mem::swap(&mut self.rates, &mut self.end_rates);
         std::mem::swap(&mut self.kinks, &mut self.end.kinks);
     }
