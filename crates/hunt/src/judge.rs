@@ -170,13 +170,10 @@ fn done(verdict: &mut Verdict, scene: &Scene, outcome: &Outcome, mut question: Q
     let names: Vec<&str> = outcome.events.iter().map(|happening| happening.event.name()).collect();
     let end = if outcome.statistics.time >= scene.t_end { "ran to t_end" } else { "ended" };
     verdict.ending = if names.is_empty() { end.into() } else { format!("{end}: {}", names.join(", ")) };
-    question.times = outcome.std.rows().map(|row| row[0]).filter(|t| *t > 0.0).collect();
     if is_beyond(scene, outcome) {
-        // the step was too long for the wall: what is right after it is no question
         verdict.ending.push_str(", by a step over the wall");
-    } else if outcome.statistics.time > question.times.last().copied().unwrap_or(0.0) {
-        question.times.push(outcome.statistics.time);
     }
+    question.times = times(scene, outcome);
     // what faster numbers cannot decide, better ones are asked
     let mut next = Some(Numbers::Differences);
     while let Some(numbers) = next {
@@ -200,6 +197,18 @@ fn done(verdict: &mut Verdict, scene: &Scene, outcome: &Outcome, mut question: Q
             _ => None,
         };
     }
+}
+
+/// The times of the rows, and the end, unless a step was too long for a wall: what is right after it is no question.
+pub fn times(scene: &Scene, outcome: &Outcome) -> Vec<f64> {
+    let mut times: Vec<f64> = outcome.std.rows().map(|row| row[0]).filter(|t| *t > 0.0).collect();
+    let end = outcome.statistics.time;
+    // a last row may lie a rounding after the end
+    if !is_beyond(scene, outcome) && !times.contains(&end) && end > 0.0 {
+        times.push(end);
+        times.sort_by(f64::total_cmp);
+    }
+    times
 }
 
 /// Whether a fixed step went through a singular force, which no solution does.

@@ -4,6 +4,7 @@
 
 pub mod answer;
 pub mod bound;
+pub mod case;
 pub mod draw;
 pub mod judge;
 pub mod question;

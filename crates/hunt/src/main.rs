@@ -1,7 +1,7 @@
 //! `hunt`: judges random scenes, or a scene of one's own, by a second integration.
 
 use clap::Parser;
-use hunt::{draw, judge, report};
+use hunt::{case, draw, judge, report};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -19,6 +19,9 @@ struct Arguments {
     /// Print the scenes of these seeds instead of judging them
     #[arg(long)]
     print: bool,
+    /// Print runs of these seeds with their right values as JSON, a line each, those alone that doubles can follow
+    #[arg(long)]
+    json: bool,
     /// Print all findings of each scene, not the first alone
     #[arg(long)]
     verbose: bool,
@@ -29,6 +32,12 @@ fn main() -> ExitCode {
     if arguments.print {
         for seed in arguments.from..arguments.from + arguments.count {
             println!("{}", draw::scene(seed));
+        }
+        return ExitCode::SUCCESS;
+    }
+    if arguments.json {
+        for seed in arguments.from..arguments.from + arguments.count {
+            case::of(seed).iter().for_each(|case| println!("{case}"));
         }
         return ExitCode::SUCCESS;
     }
