@@ -146,6 +146,11 @@ impl<'a> Watch<'a> {
         &self.after.speeds
     }
 
+    /// The rooms at the end of the step looked at last.
+    pub fn rooms(&self) -> &[f64] {
+        &self.after.rooms
+    }
+
     /// The first event of each kind so far, in order of time.
     pub fn found(&self) -> &[Happening] {
         &self.found

@@ -321,7 +321,7 @@ const LONGEST_BURST: u64 = 4096;
 
 /// Shorter steps are taken for a sign that the tolerance cannot be met. The equations do not know the time and its sum
 /// is compensated, so a step may lie far below the rounding of the time: a blow-up needs that.
-const SHORTEST: f64 = 1e-60;
+const SHORTEST: f64 = 1e-290;
 
 /// A larger defect is taken for a sign that the law is another one at the end of the step than at its start.
 const LARGEST_DEFECT: f64 = 32.0;

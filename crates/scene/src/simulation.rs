@@ -136,10 +136,9 @@ pub fn run_from(scene: &Scene, from: Option<Checkpoint>, onlooker: &mut dyn Onlo
     })
 }
 
-/// A pedestrian faster than this many desired speeds was thrown back from a wall, to within less than 1e-3 of it for
-/// the paper's parameters. From there on the clearances are the state, which keep all digits however small they become;
-/// deviations from the uniform flow do not.
-const NEAR_WALLS: f64 = 10.0;
+/// Where the least room falls below this part of that in the uniform flow, the clearances become the state: they keep all
+/// digits however small they are; deviations from the uniform flow have lost three of them there.
+const NEAR_WALLS: f64 = 1e-3;
 
 /// Takes samples and looks for events, step by step.
 struct Recorder<'a> {
@@ -204,10 +203,10 @@ impl<'a> Recorder<'a> {
     fn comes_near_walls(&self) -> bool {
         let scene = self.scene;
         let is_open = !self.is_near_walls && scene.form == FormKind::Deviations && scene.model.is_singular();
-        let fast = NEAR_WALLS * scene.model.desired_speed();
+        let least = NEAR_WALLS * scene.model.room(scene.ring.headway(), scene.steady_speed, scene.steady_speed);
         is_open
             && matches!(scene.control, Control::Adaptive { .. })
-            && self.watch.speeds().iter().any(|v| v.abs() > fast)
+            && self.watch.rooms().iter().any(|&room| room < least)
     }
 }
 
