@@ -3,7 +3,7 @@ use reference::flow::*; use reference::solver::*;
 fn main() {
     let seed: u64 = std::env::args().nth(1).unwrap().parse().unwrap();
     let form = if std::env::args().nth(2).unwrap() == "c" { Form::Clearances } else { Form::Differences };
-    let q = hunt::question::read(&hunt::draw::scene(seed), "main").unwrap();
+    let q: reference::solution::Question = hunt::question::read(&hunt::draw::scene(seed), "main").unwrap();
     let flow: Flow<f64> = Flow::new(q.formula, q.pedestrians, q.length, form);
     let mut s = Solver::new(flow, flow.start(q.shift), Care { nodes: 12, tolerance: std::env::args().nth(3).unwrap().parse().unwrap(), most_work: 10_000_000 });
     let mut k = 0u64;

@@ -17,36 +17,29 @@ pub struct Answer {
     pub second: Solution,
 }
 
-/// The numbers of the second integration, the fastest first.
+/// The numbers of the second integration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Numbers {
-    /// Doubles, differences from the uniform flow.
-    Differences,
-    /// Doubles, clearances.
-    Clearances,
-    /// Unevaluated sums of two doubles, differences from the uniform flow.
-    LongDifferences,
-    /// Unevaluated sums of two doubles, clearances.
-    LongClearances,
+    /// Doubles.
+    Doubles,
+    /// Unevaluated sums of two doubles.
+    Twofold,
 }
 
 impl Answer {
     /// Answers the question.
     pub fn new(question: &Question, numbers: Numbers) -> Answer {
         let care = |nodes, tolerance, most_work| Care { nodes, tolerance, most_work };
-        let short = |form| Answer {
-            solution: solve::<f64>(question, form, care(12, 1e-13, 10_000_000), FASTEST),
-            second: solve::<f64>(question, form, care(9, 1e-13, 15_000_000), FASTEST),
-        };
-        let long = |form| Answer {
-            solution: solve::<Twofold>(question, form, care(20, 1e-20, 1_000_000), FASTEST),
-            second: solve::<Twofold>(question, form, care(16, 1e-19, 1_000_000), FASTEST),
-        };
+        let form = Form::Differences;
         match numbers {
-            Numbers::Differences => short(Form::Differences),
-            Numbers::Clearances => short(Form::Clearances),
-            Numbers::LongDifferences => long(Form::Differences),
-            Numbers::LongClearances => long(Form::Clearances),
+            Numbers::Doubles => Answer {
+                solution: solve::<f64>(question, form, care(12, 1e-13, 10_000_000), FASTEST),
+                second: solve::<f64>(question, form, care(9, 1e-13, 15_000_000), FASTEST),
+            },
+            Numbers::Twofold => Answer {
+                solution: solve::<Twofold>(question, form, care(20, 1e-20, 1_000_000), FASTEST),
+                second: solve::<Twofold>(question, form, care(16, 1e-19, 1_000_000), FASTEST),
+            },
         }
     }
 
@@ -58,7 +51,7 @@ impl Answer {
 
     /// Whether both end alike.
     pub fn is_settled(&self) -> bool {
-        self.solution.end == self.second.end && !matches!(self.solution.end, End::Unfinished | End::NearWall)
+        self.solution.end == self.second.end && self.solution.end != End::Unfinished
     }
 
     /// The first crossings of a kind: for each pedestrian the time, its uncertainty, and the rate.

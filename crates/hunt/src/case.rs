@@ -22,7 +22,7 @@ fn case(seed: u64, text: &str, panel: &recipe::Panel) -> Option<Value> {
     let outcome = scene::simulation::run(&scene).ok()?;
     let mut question = question::read(text, &panel.name).ok()?;
     question.times = judge::times(&scene, &outcome);
-    let answer = Answer::new(&question, Numbers::Differences);
+    let answer = Answer::new(&question, Numbers::Doubles);
     let is_visible = scene.start.shift.abs() > LEAST_SHIFT * scene.ring.headway();
     if !is_visible || !answer.is_settled() {
         return None;

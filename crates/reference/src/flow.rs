@@ -59,6 +59,16 @@ impl<T: Real> Flow<T> {
         state
     }
 
+    /// The same ring with clearances for its state, and a state in that form.
+    pub fn by_clearances(&self, state: &[T]) -> (Flow<T>, Vec<T>) {
+        let n = self.pedestrians;
+        let flow = Flow { form: Form::Clearances, ..*self };
+        let mut clearances: Vec<T> = state[..n].iter().map(|u| (self.base() - flow.base()) + *u).collect();
+        clearances.extend((0..n).map(|i| self.speed(state, i)));
+        clearances.extend([state[2 * n] + state[2 * n + 1], T::from(0.0), T::from(0.0)]);
+        (flow, clearances)
+    }
+
     /// Writes the rates of a state and, for each ramp in the law, how far its argument is from the kink, in units of its
     /// width.
     pub fn rates(&self, state: &[T], rates: &mut [T], kinks: &mut Vec<f64>) {

@@ -79,7 +79,8 @@ impl Formula {
     pub fn room<T: Number>(&self, s: T, v: T, ahead: T) -> T {
         match *self {
             Formula::Algebraic { a_v, .. } | Formula::Exponential { a_v, .. } => {
-                s - T::from(a_v) * (v + ahead) - T::from(2.0)
+                // contact first: no digit of a small room is lost to it
+                s - T::from(2.0) - T::from(a_v) * (v + ahead)
             }
             Formula::Logarithmic { .. } => s,
         }

@@ -200,11 +200,21 @@ impl<T: Real> Number for Difference<T> {
         self.map(self.is_below_1(), T::exp, |base, change| base * change.exp_m1())
     }
 
-    /// Over a change `c` it grows by `ln(1 + s (e^c - 1))`, where `s = 1 / (1 + e^-x)`.
+    /// Over a small change `c` it grows by `ln(1 + s (e^c - 1))`, where `s = 1 / (1 + e^-x)`; beyond 0 by `c` and what is
+    /// left of `ln(1 + e^-x)`.
     fn softplus(self) -> Difference<T> {
-        let decay = if self.base.value() > 0.0 { (-self.base).exp() } else { self.base.exp() };
-        let share = if self.base.value() > 0.0 { T::from(1.0) } else { decay } / (decay + T::from(1.0));
-        self.map(self.is_below_1(), T::softplus, |_, change| (share * change.exp_m1()).ln_1p())
+        let (base, whole) = (self.base, self.whole());
+        let tail = |x: T| (-x).exp().ln_1p();
+        let change = if self.is_below_1() {
+            let decay = if base.value() > 0.0 { (-base).exp() } else { base.exp() };
+            let share = if base.value() > 0.0 { T::from(1.0) } else { decay } / (decay + T::from(1.0));
+            (share * self.change.exp_m1()).ln_1p()
+        } else if base.value() > 0.0 && whole.value() > 0.0 {
+            self.change + (tail(whole) - tail(base))
+        } else {
+            whole.softplus() - base.softplus()
+        };
+        Difference { base: base.softplus(), change }
     }
 
     fn ln_1p(self) -> Difference<T> {

@@ -80,7 +80,7 @@ pub struct Crossing {
     pub rate: f64,
 }
 
-/// The first event of a kind: everybody who crosses in the step of the first who does, first in time first.
+/// The first event of a kind for everybody to whom it happens, first in time first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct First {
     /// Of what.
@@ -98,8 +98,6 @@ pub enum End {
     BlownUp,
     /// There is no solution beyond: steps tend to 0, or the room of somebody under a singular force.
     Singular,
-    /// Somebody comes so near to a singular force that differences from the uniform flow do not tell how near.
-    NearWall,
     /// The work allowed was not enough.
     Unfinished,
 }
@@ -109,7 +107,7 @@ pub enum End {
 pub struct Solution {
     /// At the times asked for, up to the end.
     pub samples: Vec<Sample>,
-    /// First events, in no order.
+    /// First events, a kind each, in the order of [`Kind::ALL`].
     pub events: Vec<First>,
     /// The least value of each [`Kind`] after the first step, and when.
     pub least: [(f64, f64); 3],
@@ -123,16 +121,20 @@ pub struct Solution {
     pub work: u64,
 }
 
-/// Solves in numbers of type `T`. Speeds above `fastest` times the desired one, or 1, are a blow-up.
+/// A room is near a singular force below this part of the headway: differences have lost three digits of it.
+const NEAR: f64 = 1e-3;
+/// Where the room is smaller, products underflow.
+const LEAST_ROOM: f64 = 1e-280;
+
+/// Solves in numbers of type `T`, beginning in this form. Where somebody comes near a singular force, clearances become the
+/// state. Speeds above `fastest` times the desired one, or 1, are a blow-up.
 pub fn solve<T: Real>(question: &Question, form: Form, care: Care, fastest: f64) -> Solution {
     let flow: Flow<T> = Flow::new(question.formula, question.pedestrians, question.length, form);
-    // a room that keeps a third of its digits; below 1e-280 products underflow
-    let near = if form == Form::Differences { flow.headway.value() * math::pow(T::ROUNDING, 1.0 / 3.0) } else { 1e-280 };
     let mut solver = Solver::new(flow, flow.start(question.shift), care);
     let bound = fastest * question.formula.desired_speed().max(1.0);
     let mut solution = Solution {
         samples: Vec::new(),
-        events: Vec::new(),
+        events: Kind::ALL.map(|kind| First { kind, crossings: Vec::new() }).to_vec(),
         least: [(f64::INFINITY, 0.0); 3],
         end: End::Reached,
         time: 0.0,
@@ -150,13 +152,18 @@ pub fn solve<T: Real>(question: &Question, form: Form, care: Care, fastest: f64)
         while let Some(&time) = wanted.next_if(|time| **time <= f64::from(solver.time)) {
             let since = f64::from(Twofold::from(time) - solver.start);
             let theta = if time == last { 1.0 } else { since / solver.length };
-            solution.samples.push(sample(&flow, time, &solver.at(theta)));
+            solution.samples.push(sample(&solver.flow, time, &solver.at(theta)));
         }
-        solution.fastest = speeds(&flow, &solver.state).into_iter().fold(0.0, |most, v| v.abs().max(most));
+        solution.fastest = speeds(&solver.flow, &solver.state).into_iter().fold(0.0, |most, v| v.abs().max(most));
         if solution.fastest > bound {
             solution.end = End::BlownUp;
-        } else if question.formula.is_singular() && flow.least_room(&solver.state) < near {
-            solution.end = if form == Form::Differences { End::NearWall } else { End::Singular };
+        } else if question.formula.is_singular() {
+            let room = solver.flow.least_room(&solver.state);
+            if room < LEAST_ROOM {
+                solution.end = End::Singular;
+            } else if solver.flow.form == Form::Differences && room < NEAR * flow.headway.value() {
+                solver.change_form();
+            }
         }
     }
     solution.time = solver.time.into();
@@ -183,25 +190,22 @@ fn watch<T: Real>(solver: &Solver<T>, solution: &mut Solution) {
     let (flow, places, states) = (&solver.flow, solver.places(), solver.states());
     let is_first = solver.start == Twofold::ZERO;
     for (index, kind) in Kind::ALL.into_iter().enumerate() {
-        if solution.events.iter().any(|first| first.kind == kind) {
-            continue;
-        }
-        let mut crossings = Vec::new();
         for n in 0..flow.pedestrians {
+            let known = &solution.events[index].crossings;
+            if known.iter().any(|crossing| crossing.pedestrian == n) {
+                continue;
+            }
             let values: Vec<f64> = states.iter().map(|state| kind.value(flow, state, n)).collect();
-            if !is_first {
-                for (value, place) in values.iter().zip(&places) {
-                    if *value < solution.least[index].0 {
-                        solution.least[index] = (*value, f64::from(solver.start + place * solver.length));
-                    }
+            let is_quiet = known.is_empty() && !is_first;
+            for (value, place) in values.iter().zip(&places).filter(|_| is_quiet) {
+                if *value < solution.least[index].0 {
+                    solution.least[index] = (*value, f64::from(solver.start + place * solver.length));
                 }
             }
-            crossings.extend(crossing(solver, kind, n, &places, &values));
+            let found = crossing(solver, kind, n, &places, &values);
+            solution.events[index].crossings.extend(found);
         }
-        crossings.sort_by(|a: &Crossing, b| a.time.total_cmp(&b.time));
-        if !crossings.is_empty() {
-            solution.events.push(First { kind, crossings });
-        }
+        solution.events[index].crossings.sort_by(|a, b| a.time.total_cmp(&b.time));
     }
 }
 

@@ -121,6 +121,13 @@ impl<T: Real> Solver<T> {
         }
     }
 
+    /// Goes on with clearances for its state.
+    pub fn change_form(&mut self) {
+        let (flow, state) = self.flow.by_clearances(&self.state);
+        let (time, next, work) = (self.time, self.next, self.work);
+        *self = Solver { time, next, work, ..Solver::new(flow, state, self.care) };
+    }
+
     /// Takes one step, at most to `limit`, which it then reaches exactly.
     ///
     /// # Errors
@@ -219,7 +226,7 @@ impl<T: Real> Solver<T> {
             if !moved.is_finite() {
                 return false;
             }
-            if moved <= settled || (moved < 0.01 * self.care.tolerance && moved >= 0.5 * last) {
+            if moved <= settled || (moved < 0.1 * self.care.tolerance && moved >= 0.5 * last) {
                 self.finish(h);
                 return true;
             }
