@@ -58,7 +58,8 @@ impl Bound {
                     .max(pairs(&cells(outcome), &cells(&finer)));
                 let rounding = 1e-15 * (steps + 10.0);
                 Bound {
-                    perturbation: GROWTH * (std + rounding * perturbation) + if scene.form == FormKind::Deviations { 0.0 } else { rounding * size },
+                    perturbation: GROWTH * (std + rounding * perturbation)
+                        + if scene.form == FormKind::Deviations { 0.0 } else { rounding * size },
                     rest: GROWTH * (state + std + rounding * size),
                 }
             }

@@ -49,9 +49,16 @@ impl Ratio {
 
 /// Judges every panel of a scene.
 pub fn scene(text: &str) -> Vec<Verdict> {
+    scene_as(text, text)
+}
+
+/// Judges every panel of a scene by what another text asks.
+pub fn scene_as(text: &str, other: &str) -> Vec<Verdict> {
     match recipe::parse("scene.toml", text) {
-        Err(error) => vec![Verdict { ending: "refused: not a scene".into(), findings: vec![error.to_string()], ..named("") }],
-        Ok(recipe) => recipe.panels.iter().map(|panel| judge_panel(text, panel)).collect(),
+        Err(error) => {
+            vec![Verdict { ending: "refused: not a scene".into(), findings: vec![error.to_string()], ..named("") }]
+        }
+        Ok(recipe) => recipe.panels.iter().map(|panel| judge_panel(other, panel)).collect(),
     }
 }
 
@@ -225,7 +232,9 @@ impl Compared {
         let error = (found - right).abs();
         if error <= allowed {
             if uncertainty > 0.5 * allowed {
-                verdict.undecided.push(format!("{what} at {time:?}: allowed {allowed:e}, uncertain by {uncertainty:e}"));
+                verdict
+                    .undecided
+                    .push(format!("{what} at {time:?}: allowed {allowed:e}, uncertain by {uncertainty:e}"));
             }
             verdict.ratios.push(Ratio { what, error, allowed, range });
         } else if error > 3.0 * uncertainty {
@@ -295,7 +304,10 @@ fn state(
     bound: &Bound,
 ) {
     let largest = |a: &[f64], b: &[f64]| {
-        a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, |most: f64, error| if error <= most { most } else { error })
+        a.iter()
+            .zip(b)
+            .map(|(a, b)| (a - b).abs())
+            .fold(0.0, |most: f64, error| if error <= most { most } else { error })
     };
     let numbers = [
         ("position", x, &right.positions, &twin.positions, bound.position(time)),
@@ -304,7 +316,8 @@ fn state(
     for (what, found, right, twin, allowed) in numbers {
         let range = right.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         let error = largest(found, right);
-        Compared { what, time, found: error, right: 0.0, uncertainty: largest(right, twin), allowed, range }.note(verdict);
+        Compared { what, time, found: error, right: 0.0, uncertainty: largest(right, twin), allowed, range }
+            .note(verdict);
     }
 }
 
@@ -337,26 +350,25 @@ fn events(verdict: &mut Verdict, scene: &Scene, outcome: &Outcome, answer: &Answ
             let depth = answer.solution.least[index].0;
             // a dip below 0 that is shallower than the error allowed
             let allowed = bound.value(kind, time);
-            let text = format!("no {} by pedestrian {pedestrian} at t = {time:?} (rate {rate:e}, least value {depth:e})", kind.name());
+            let text = format!(
+                "no {} by pedestrian {pedestrian} at t = {time:?} (rate {rate:e}, least value {depth:e})",
+                kind.name()
+            );
             if depth.abs() > allowed { verdict.findings.push(text) } else { verdict.undecided.push(text) }
         }
     }
 }
 
-fn crossing(
-    verdict: &mut Verdict,
-    happening: &Happening,
-    kind: Kind,
-    scene: &Scene,
-    answer: &Answer,
-    bound: &Bound,
-) {
+fn crossing(verdict: &mut Verdict, happening: &Happening, kind: Kind, scene: &Scene, answer: &Answer, bound: &Bound) {
     let (name, found) = (kind.name(), happening.time);
     let crossings = answer.crossings(kind);
     let Some(&(_, time, uncertainty, rate)) = crossings.first() else {
         let index = Kind::ALL.iter().position(|other| *other == kind).unwrap_or(0);
         let (least, when) = answer.solution.least[index];
-        let text = format!("{name} at t = {found:?} by {}, but the least value is {least:e} at {when:?}", happening.pedestrian);
+        let text = format!(
+            "{name} at t = {found:?} by {}, but the least value is {least:e} at {when:?}",
+            happening.pedestrian
+        );
         let is_later = answer.solution.time < found;
         if is_later || least < bound.value(kind, found) {
             verdict.undecided.push(text);

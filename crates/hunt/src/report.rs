@@ -74,6 +74,11 @@ pub fn table(all: &[Hunted]) -> String {
             quantile(1.0)
         );
     }
-    let _ = write!(text, "findings: {}\n{findings}undecided: {}\n{undecided}", findings.lines().count(), undecided.lines().count());
+    let _ = write!(
+        text,
+        "findings: {}\n{findings}undecided: {}\n{undecided}",
+        findings.lines().count(),
+        undecided.lines().count()
+    );
     text
 }

@@ -83,8 +83,9 @@ impl<T: Real> Flow<T> {
                 Form::Differences => {
                     let speed = |change| Difference { base, change };
                     let s = Difference { base: self.headway, change: s };
-                    let acceleration =
-                        self.formula.acceleration(s, speed(v), speed(ahead), &mut |x, epsilon| noted(x, epsilon, kinks));
+                    let acceleration = self
+                        .formula
+                        .acceleration(s, speed(v), speed(ahead), &mut |x, epsilon| noted(x, epsilon, kinks));
                     rates[2 * n + 2] = acceleration.base;
                     acceleration.change
                 }

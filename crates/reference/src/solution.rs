@@ -210,13 +210,7 @@ fn watch<T: Real>(solver: &Solver<T>, solution: &mut Solution) {
 }
 
 /// Where the value of pedestrian `n`, known at these places of the step, first falls below 0.
-fn crossing<T: Real>(
-    solver: &Solver<T>,
-    kind: Kind,
-    n: usize,
-    places: &[f64],
-    values: &[f64],
-) -> Option<Crossing> {
+fn crossing<T: Real>(solver: &Solver<T>, kind: Kind, n: usize, places: &[f64], values: &[f64]) -> Option<Crossing> {
     let count = solver.flow.pedestrians;
     let components = [n, count + n, count + (n + 1) % count, 2 * count + 2];
     let mut state = solver.state.clone();

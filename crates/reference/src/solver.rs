@@ -307,7 +307,7 @@ impl<T: Real> Solver<T> {
 
     fn leaves_domain(&self) -> bool {
         let flow = &self.flow;
-        let closed = |state: &[T]| !(flow.least_room(state) > 0.0);
+        let closed = |state: &[T]| flow.least_room(state) <= 0.0;
         flow.formula.is_singular() && (closed(&self.end.state) || self.stages.iter().any(|stage| closed(&stage.state)))
     }
 

@@ -45,7 +45,8 @@ fn a_law_in_differences_and_in_parts_is_the_law() {
     for law in laws {
         for (u, w, w_ahead) in [(1e-9, -2e-9, 1e-10), (0.3, 0.1, -0.2), (-0.4, 0.05, 0.06)] {
             let (s, v) = (3.1, 0.6);
-            let number = |base: f64, change: f64| Difference { base: Twofold::from(base), change: Twofold::from(change) };
+            let number =
+                |base: f64, change: f64| Difference { base: Twofold::from(base), change: Twofold::from(change) };
             let ramp = &mut |x, epsilon| smooth_ramp(x, epsilon);
             let by_difference =
                 whole(law.acceleration(number(s, u), number(v, w), number(v, w_ahead), &mut |x, e| smooth_ramp(x, e)));

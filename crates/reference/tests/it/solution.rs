@@ -100,13 +100,7 @@ fn kinks_are_never_passed_unseen() {
         (1e-6, 0.03851961252292, 0.03005290296743),
     ] {
         let formula = Formula::Logarithmic { a_v: 0.0, epsilon, v0: 1.0 };
-        let question = Question {
-            formula,
-            pedestrians: 20,
-            length: 30.0,
-            shift: 0.6,
-            times: vec![5.0, 20.0],
-        };
+        let question = Question { formula, pedestrians: 20, length: 30.0, shift: 0.6, times: vec![5.0, 20.0] };
         let solution = solve::<f64>(&question, Form::Differences, CARE, 1e6);
         for (sample, expected) in solution.samples.iter().zip([at_5, at_20]) {
             assert!((sample.std - expected).abs() < 2e-12, "eps = {epsilon}: {} for {expected}", sample.std);
