@@ -1,6 +1,6 @@
 //! A long run in the eyes of its user: how far it is, and a file from which it goes on after it was killed.
 //!
-//! The file: a line `checkpoint 1 RUN SUM`, then the seconds of CPU so far and the run, as 64-bit words. `RUN` is the
+//! The file: a line `checkpoint 2 RUN SUM`, then the seconds of CPU so far and the run, as 64-bit words. `RUN` is the
 //! SHA-256 of the program and of the scene, `SUM` that of everything behind the line: what is damaged, cut off or of
 //! another run or program is not believed, and the run begins anew.
 
@@ -11,7 +11,7 @@ use files::write::{atomic, sha256, sha256_file};
 use ode::{Control, Step};
 use scene::checkpoint::{Checkpoint, Underway};
 use scene::run::Scene;
-use scene::simulation::{Onlooker, Outcome, run_from};
+use scene::simulation::{Broken, Onlooker, Outcome, run_from};
 use std::io::{IsTerminal as _, Write as _};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -19,8 +19,7 @@ use std::time::{Duration, Instant};
 /// How a long run is looked after.
 #[derive(Debug, clap::Args)]
 pub struct Care {
-    /// File from which the run goes on, if it is there; written as the run goes (steps of fixed length), removed at its
-    /// end
+    /// File from which the run goes on, if it is there; written as the run goes, removed at its end; not with --steps
     #[arg(long, value_name = "FILE")]
     checkpoint: Option<PathBuf>,
     /// Seconds between two writings of that file, at least; more where writing takes more than a hundredth of the time
@@ -42,8 +41,10 @@ fn seconds(text: &str) -> Result<Duration, String> {
 /// A run that has ended.
 #[derive(Debug)]
 pub struct Ended {
-    /// What it gave.
+    /// What it gave; of a run that broke, until then.
     pub outcome: Outcome,
+    /// Why it went no further, if it broke.
+    pub broken: Option<Broken>,
     /// Seconds of CPU in the integration, those before the run was killed included.
     pub seconds: f64,
     /// Steps that were taken from the checkpoint.
@@ -61,17 +62,20 @@ impl Care {
     /// Runs the scene, from the checkpoint if there is one.
     ///
     /// # Errors
-    /// The integration failed; or the program cannot be read, which a checkpoint has to tell from others.
+    /// The program cannot be read, which a checkpoint has to tell from others.
     pub fn run(&self, scene: &Scene) -> Result<Ended, Failure> {
         let clock = ProcessTime::now();
         let mut keeper = Keeper::new(self, scene)?;
         let (from, before) = keeper.load(scene).unzip();
         let (steps, done) = from.as_ref().map_or((0, 0.0), |from| (from.steps(), from.fraction(scene)));
         keeper.start(done, before.unwrap_or(0.0));
-        let outcome = run_from(scene, from, &mut keeper).map_err(Failure::work)?;
+        let (outcome, broken) = match run_from(scene, from, &mut keeper) {
+            Ok(outcome) => (outcome, None),
+            Err(broken) => (*broken.outcome.clone(), Some(broken)),
+        };
         keeper.end();
         let seconds = before.unwrap_or(0.0) + clock.elapsed().as_secs_f64();
-        Ok(Ended { outcome, seconds, resumed_steps: steps, steps: keeper.steps })
+        Ok(Ended { outcome, broken, seconds, resumed_steps: steps, steps: keeper.steps })
     }
 
     /// Removes the checkpoint of a run whose results are safe.
@@ -106,7 +110,8 @@ struct Keeper<'a> {
 impl<'a> Keeper<'a> {
     fn new(care: &'a Care, scene: &Scene) -> Result<Keeper<'a>, Failure> {
         let is_fixed = matches!(scene.control, Control::Fixed { .. });
-        let is_kept = care.checkpoint.is_some() && is_fixed;
+        // prints of steps are not kept: a run that makes them begins anew
+        let is_kept = care.checkpoint.is_some() && (is_fixed || !care.steps);
         let run = if is_kept {
             let program = sha256_file(&std::env::current_exe()?)?;
             sha256(format!("{program}\n{scene:?}").as_bytes())
@@ -136,7 +141,7 @@ impl<'a> Keeper<'a> {
     }
 
     fn line(&self, body: &[u8]) -> String {
-        format!("checkpoint 1 {} {}\n", self.run, sha256(body))
+        format!("checkpoint 2 {} {}\n", self.run, sha256(body))
     }
 
     fn start(&mut self, done: f64, before: f64) {

@@ -6,12 +6,12 @@ use crate::panels::{points, trajectories};
 use files::recipe::{self, Kind};
 use files::table::Table;
 use files::write::atomic_all;
-use ode::Control;
+use ode::{Control, Method};
 use plot::style::COLUMN_WIDTH;
 use plot::{Axis, ColorScale, Legend, Lines, Picture, Series, SpaceTime};
 use scene::Overrides;
 use scene::run::Scene;
-use scene::simulation::Outcome;
+use scene::simulation::{Broken, Outcome};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -31,9 +31,7 @@ pub struct Arguments {
     /// Tables and summary only, no pictures
     #[arg(long)]
     tables_only: bool,
-    /// euler, ballistic, heun, rk4 (with --dt), bs32, dopri54, tsit54, verner65, verner76, verner87, verner98, dop853,
-    /// extrapolation (with --tol or --dt)
-    #[arg(long)]
+    #[arg(long, help = methods())]
     method: Option<String>,
     /// Largest local error, relative to the perturbation: 1e-15 to 1e-2
     #[arg(long, value_name = "X", conflicts_with = "dt", allow_negative_numbers = true)]
@@ -64,15 +62,27 @@ pub struct Arguments {
     json: bool,
 }
 
+/// The methods in words.
+fn methods() -> String {
+    let names = |is_meant: fn(&Method) -> bool| Method::ALL.into_iter().filter(is_meant).map(Method::name);
+    let list = |names: Vec<&str>| names.join(", ");
+    format!(
+        "{} (with --dt); {} (with --tol or --dt); taylor needs a force that depends on the gap alone",
+        list(names(|method| !method.is_adaptive()).collect()),
+        list(names(|method| method.is_adaptive()).collect())
+    )
+}
+
 /// Runs the scene and writes what was asked for.
 ///
 /// # Errors
-/// A bad scene or option (nothing is written), a failed integration, a file that cannot be written.
+/// A bad scene or option (nothing is written); a run that cannot go on, whose tables are written; a file that cannot be
+/// written.
 pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     let scene = read_scene(arguments)?;
     let ended = arguments.care.run(&scene)?;
     let summary = summary(&scene, &ended);
-    let Ended { outcome, seconds, steps, .. } = ended;
+    let Ended { outcome, broken, seconds, steps, .. } = ended;
     let mut files = Vec::new();
     if let Some(folder) = &arguments.out {
         files.extend(tables(folder, &scene, &outcome));
@@ -87,7 +97,8 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     atomic_all(&files)?;
     arguments.care.remove()?;
     let words = if arguments.json { summary.to_string() } else { in_words(&scene, &outcome, seconds) };
-    print(&words)
+    print(&words)?;
+    broken.map_or(Ok(()), |broken| Err(Failure::work(broken)))
 }
 
 fn read_scene(arguments: &Arguments) -> Result<Scene, Failure> {
@@ -158,7 +169,7 @@ fn tables(folder: &Path, scene: &Scene, outcome: &Outcome) -> Vec<(PathBuf, Vec<
     files
 }
 
-/// `event,t,n`: the first event of each kind.
+/// `event,t,n`: the first event of each kind, a line for each pedestrian to whom it happens.
 fn events(outcome: &Outcome) -> String {
     let mut text = "event,t,n\n".to_owned();
     for happening in &outcome.events {
@@ -181,7 +192,7 @@ fn pretty(summary: &Value) -> String {
 }
 
 fn summary(scene: &Scene, ended: &Ended) -> Value {
-    let Ended { outcome, seconds, resumed_steps, .. } = ended;
+    let Ended { outcome, broken, seconds, resumed_steps, .. } = ended;
     let control = match scene.control {
         Control::Fixed { step } => json!({ "dt": step }),
         Control::Adaptive { tolerance } => json!({ "tolerance": tolerance }),
@@ -213,10 +224,20 @@ fn summary(scene: &Scene, ended: &Ended) -> Value {
         "right_hand_sides": outcome.statistics.evaluations,
         "seconds": seconds,
         "t": outcome.statistics.time,
-        "stop": outcome.stop().map_or("t_end", |happening| happening.event.name()),
+        "stop": stop(outcome, broken.as_ref()),
+        "reason": broken.as_ref().map(ToString::to_string),
         "events": events,
         "jams": scene.keeps_trajectories.then(|| jams(outcome)),
     })
+}
+
+/// What ended the tables: an event, the end of the run, or why it could not go on.
+fn stop(outcome: &Outcome, broken: Option<&Broken>) -> &'static str {
+    match (outcome.stop(), broken) {
+        (Some(happening), _) => happening.event.name(),
+        (None, Some(broken)) => broken.failure.name(),
+        (None, None) => "t_end",
+    }
 }
 
 fn jams(outcome: &Outcome) -> Value {
@@ -227,6 +248,11 @@ fn jams(outcome: &Outcome) -> Value {
         "speed": outcome.drift.speed().map(|(speed, _)| speed),
         "measured_over": outcome.drift.speed().map(|(_, time)| time),
     })
+}
+
+/// A time in words, to a thousandth.
+fn rounded(time: f64) -> f64 {
+    (1e3 * time).round() / 1e3
 }
 
 fn in_words(scene: &Scene, outcome: &Outcome, seconds: f64) -> String {
@@ -255,7 +281,8 @@ fn in_words(scene: &Scene, outcome: &Outcome, seconds: f64) -> String {
     }
     if let Some((speed, time)) = outcome.drift.speed() {
         let count = outcome.drift.jams().len();
-        let _ = write!(text, "\n{count} jams, travelling at {speed:.4} (mean over the last {time:?})");
+        let jams = if count == 1 { "jam" } else { "jams" };
+        let _ = write!(text, "\n{count} {jams}, travelling at {speed:.4} (mean over the last {})", rounded(time));
     }
     text
 }

@@ -235,6 +235,17 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// What the text under `key` names, which must be one of these names.
+    ///
+    /// # Errors
+    /// Missing, not a text, or none of the names.
+    pub fn one_of<T: Copy>(&mut self, key: &'static str, choices: &[(&'static str, T)]) -> Result<T, RecipeError> {
+        let names: Vec<&'static str> = choices.iter().map(|choice| choice.0).collect();
+        let name = self.choice(key, &names)?;
+        let named = choices.iter().find(|choice| choice.0 == name).map(|choice| choice.1);
+        named.ok_or_else(|| self.missing(key, &names.join(", ")))
+    }
+
     /// The table under `key`.
     ///
     /// # Errors

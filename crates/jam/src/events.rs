@@ -3,7 +3,7 @@
 use crate::laws::Model;
 use crate::states::Form;
 use math::simd::{Kernel, dispatch};
-use ode::{Step, first_crossing};
+use ode::{Step, crossing_between, first_crossing};
 
 /// What can happen to a pedestrian.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -120,6 +120,9 @@ pub struct Watch<'a> {
     seen: Option<f64>,
 }
 
+/// What happens to several pedestrians within this time happens at once.
+const AT_ONCE: f64 = 1e-9;
+
 /// A step in which an event may lie is searched in this many parts.
 const PARTS: u32 = 16;
 
@@ -134,6 +137,27 @@ impl<'a> Watch<'a> {
     pub fn change_form(&mut self, form: &'a dyn Form) {
         self.form = form;
         self.seen = None;
+    }
+
+    /// What happens at the start of a run, at time `t`: everybody to whom it does. A speed of 0 that falls is negative at once.
+    pub fn start(&mut self, t: f64, state: &[f64], rates: &[f64]) -> Vec<Happening> {
+        self.after.read(self.form, &self.model, state, rates);
+        self.seen = Some(t);
+        let now = &self.after;
+        for event in Event::ALL {
+            for pedestrian in 0..now.gaps.len() {
+                let (value, rate) = match event {
+                    Event::Overlap => (now.rooms[pedestrian], now.room_rates[pedestrian]),
+                    Event::NegativeSpeed => (now.speeds[pedestrian], now.speed_rates[pedestrian]),
+                    Event::Exchange => (now.gaps[pedestrian], now.gap_rates[pedestrian]),
+                    Event::BlowUp => (self.bound() - now.speeds[pedestrian].abs(), 0.0),
+                };
+                if value < 0.0 || value == 0.0 && rate < 0.0 {
+                    self.found.push(Happening { event, time: t, pedestrian, gap: now.gaps[pedestrian], step: 0.0 });
+                }
+            }
+        }
+        self.found.clone()
     }
 
     /// Goes on where a watch stood that had found these.
@@ -151,7 +175,19 @@ impl<'a> Watch<'a> {
         &self.after.rooms
     }
 
-    /// The first event of each kind so far, in order of time.
+    /// The rooms in any state of the form.
+    pub fn rooms_of(&self, state: &[f64]) -> Vec<f64> {
+        let mut instant = self.before.clone();
+        instant.read(self.form, &self.model, state, &vec![0.0; state.len()]);
+        instant.rooms
+    }
+
+    /// Adds an event that the steps do not show.
+    pub fn add(&mut self, happening: Happening) {
+        self.found.push(happening);
+    }
+
+    /// The first event of each kind so far, of everybody to whom it happened at once, in order of time.
     pub fn found(&self) -> &[Happening] {
         &self.found
     }
@@ -167,9 +203,11 @@ impl<'a> Watch<'a> {
         self.after.read(self.form, &self.model, step.after(), step.rates_after());
         let mut new = Vec::new();
         for event in Event::ALL {
-            let is_known = self.found.iter().any(|happening| happening.event == event);
-            if !is_known && self.may_lie_within(event, step.length()) {
-                new.extend(self.locate(event, step));
+            let mut known = self.found.iter().filter(|happening| happening.event == event).peekable();
+            let first = known.peek().map(|happening| happening.time);
+            if first.is_none_or(|time| step.start <= time + AT_ONCE) && self.may_lie_within(event, step.length()) {
+                let known: Vec<usize> = known.map(|happening| happening.pedestrian).collect();
+                new.extend(self.locate(event, first, &known, step));
             }
         }
         let mut overlaps = self.found.iter().chain(&new);
@@ -196,21 +234,47 @@ impl<'a> Watch<'a> {
         }
     }
 
-    fn locate(&self, event: Event, step: &mut Step<'_>) -> Option<Happening> {
+    /// The first event of this kind in the step, of everybody but those `known` to whom it happens at once; none that is
+    /// not at once with the `first` of all.
+    fn locate(&self, event: Event, first: Option<f64>, known: &[usize], step: &mut Step<'_>) -> Vec<Happening> {
         let count = self.before.gaps.len();
         let (mut gaps, mut speeds) = (vec![0.0; count], vec![0.0; count]);
-        let mut lowest = |state: &[f64]| {
+        let mut values = |state: &[f64], values: &mut [f64]| {
             self.form.read(state, &mut gaps, &mut speeds);
-            let values = (0..count).map(|n| (self.value(event, gaps[n], speeds[n], speeds[(n + 1) % count]), n));
-            values.fold((f64::INFINITY, 0), |lowest, next| if next.0 < lowest.0 { next } else { lowest })
+            for (n, value) in values.iter_mut().enumerate() {
+                *value = self.value(event, gaps[n], speeds[n], speeds[(n + 1) % count]);
+            }
+            known.iter().for_each(|&n| values[n] = f64::INFINITY);
         };
-        let theta = first_crossing(step, PARTS, &mut |state| lowest(state).0)?;
+        let mut all = vec![0.0; count];
+        let lowest = &mut |state: &[f64]| {
+            values(state, &mut all);
+            all.iter().fold(f64::INFINITY, |lowest, &next| if next < lowest { next } else { lowest })
+        };
+        let Some(theta) = first_crossing(step, PARTS, lowest) else { return Vec::new() };
+        let (start, length) = (step.start, step.length());
+        let last = first.map_or(theta * length, |first| first - start) + AT_ONCE;
+        let last = if last < length { last / length } else { 1.0 };
         let mut state = vec![0.0; step.before().len()];
+        let (mut at_first, mut at_last) = (vec![0.0; count], vec![0.0; count]);
         step.at_fraction(theta, &mut state);
-        let (_, pedestrian) = lowest(&state);
-        self.form.read(&state, &mut gaps, &mut speeds);
-        let (time, gap) = (step.start + theta * step.length(), gaps[pedestrian]);
-        Some(Happening { event, time, pedestrian, gap, step: step.length() })
+        values(&state, &mut at_first);
+        step.at_fraction(if theta < last { last } else { theta }, &mut state);
+        values(&state, &mut at_last);
+        let (mut found, mut spare) = (Vec::new(), vec![0.0; count]);
+        for pedestrian in (0..count).filter(|&n| theta <= last && (at_first[n] < 0.0 || at_last[n] < 0.0)) {
+            let mut own = |state: &[f64]| {
+                values(state, &mut all);
+                all[pedestrian]
+            };
+            let is_first = at_first[pedestrian] < 0.0;
+            let place = if is_first { theta } else { crossing_between(step, theta, last, &mut own) };
+            step.at_fraction(place, &mut state);
+            self.form.read(&state, &mut all, &mut spare);
+            let (time, gap) = (start + place * length, all[pedestrian]);
+            found.push(Happening { event, time, pedestrian, gap, step: length });
+        }
+        found
     }
 
     /// The overlap in a step that was beyond a wall at none but its stages: at its end, of the pedestrian with the least

@@ -7,9 +7,28 @@ use math::simd::{Kernel, dispatch};
 pub fn spread(values: &[f64]) -> f64 {
     let count = values.len() as f64;
     let mean = dispatch(Sum { values, map: |value| value }) / count;
-    let squares = dispatch(Sum { values, map: |value| (value - mean) * (value - mean) });
-    (squares / count).sqrt()
+    let squares = |scale: f64| {
+        let map = |value| {
+            let rest = scale * (value - mean);
+            rest * rest
+        };
+        (dispatch(Sum { values, map }) / count).sqrt() / scale
+    };
+    match squares(1.0) {
+        // squares of tiny or huge numbers are no longer doubles, or not with all digits: powers of 2 cost none
+        spread if spread < TINY => squares(UP),
+        spread if spread > HUGE => squares(DOWN),
+        spread => spread,
+    }
 }
+
+/// 2^400 and 2^-400.
+const UP: f64 = f64::from_bits((1023 + 400) << 52);
+const DOWN: f64 = f64::from_bits((1023 - 400) << 52);
+/// The square of less has lost digits.
+const TINY: f64 = 1e-130;
+/// The square of more may be too large.
+const HUGE: f64 = 1e130;
 
 /// So many sums run at a time.
 const LANES: usize = 8;

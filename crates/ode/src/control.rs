@@ -58,7 +58,8 @@ impl Norm {
 /// Proportional-integral control of the step (K. Gustafsson 1991; Hairer & Wanner, *Solving ODEs II*, section IV.2).
 pub(crate) struct Controller {
     exponent: f64,
-    previous: f64,
+    /// The error of the last step that was accepted.
+    pub(crate) previous: f64,
 }
 
 /// The step shrinks or grows at most by these factors.

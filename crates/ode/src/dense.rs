@@ -33,6 +33,14 @@ pub(crate) trait Stepper {
         None
     }
 
+    /// The unit of time of the coefficients that the method keeps from step to step, if it does.
+    fn unit(&self) -> f64 {
+        1.0
+    }
+
+    /// Goes on with coefficients in this unit.
+    fn resume(&mut self, _unit: f64) {}
+
     /// Evaluations of the rates in the step tried last, the one at its start not counted.
     fn evaluations(&self) -> u64;
 
@@ -67,8 +75,15 @@ pub struct Step<'a> {
     pub end: f64,
 }
 
-/// Closer than this fraction of a step to one of its ends, a time is taken for that end.
-pub(crate) const SAME: f64 = 1e-9;
+/// Closer than this fraction of a step to one of its ends, a place is taken for that end.
+const SAME: f64 = 1e-13;
+
+/// How near to an end of a step of this length a time is taken for that end: a few roundings of it, but a small part of a
+/// step that is hardly longer than these.
+pub(crate) fn nearby(end: f64, length: f64) -> f64 {
+    let (rounding, part) = (4.0 * f64::EPSILON * end.abs(), 1e-9 * length);
+    if rounding < part { rounding } else { part }
+}
 
 impl Step<'_> {
     /// The state at the start.
@@ -103,7 +118,15 @@ impl Step<'_> {
 
     /// Writes the state at the time `t` within the step.
     pub fn at(&mut self, t: f64, state: &mut [f64]) {
-        self.at_fraction((t - self.start) / self.ends.h, state);
+        let near = nearby(self.end, self.ends.h);
+        let theta = if (t - self.start).abs() < near {
+            0.0
+        } else if (t - self.end).abs() < near {
+            1.0
+        } else {
+            (t - self.start) / self.ends.h
+        };
+        self.at_fraction(theta, state);
     }
 
     /// Writes the state at the fraction `theta` of the step, 0 to 1.

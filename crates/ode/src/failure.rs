@@ -5,7 +5,7 @@ use crate::methods::Method;
 /// Why an integration could not go on.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Failure {
-    /// The error asks for a step that no longer moves the time.
+    /// The error, or the end of the domain, asks for a step shorter than [`SHORTEST`](crate::SHORTEST).
     StepTooSmall {
         /// The time reached.
         time: f64,
@@ -30,8 +30,22 @@ pub enum Failure {
     NoSeries,
     /// The method has no error estimate and cannot choose its steps.
     NoErrorEstimate(Method),
-    /// Only steps of fixed length are resumed from a mark.
+    /// The mark is that of a run with another rule for its steps.
     NotResumable,
+}
+
+impl Failure {
+    /// The name in tables and summaries.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Failure::StepTooSmall { .. } => "step_too_small",
+            Failure::TooManySteps { .. } => "too_many_steps",
+            Failure::NotFinite { .. } => "not_finite",
+            Failure::NoSeries => "no_series",
+            Failure::NoErrorEstimate(_) => "no_error_estimate",
+            Failure::NotResumable => "not_resumable",
+        }
+    }
 }
 
 impl std::fmt::Display for Failure {
@@ -40,16 +54,16 @@ impl std::fmt::Display for Failure {
             Failure::StepTooSmall { time, step } => {
                 write!(
                     f,
-                    "at t = {time:?} the tolerance asks for a step of {step:e}, too small to go on; raise the tolerance"
+                    "at t = {time:?} the tolerance asks for a step of {step:e}, too small to go on"
                 )
             }
             Failure::TooManySteps { time, steps } => {
-                write!(f, "{steps} steps, as many as are allowed, reach t = {time:?} only; raise the tolerance")
+                write!(f, "{steps} steps, as many as are allowed, reach t = {time:?} only")
             }
             Failure::NotFinite { time, step } => {
                 write!(
                     f,
-                    "in the step of {step:e} from t = {time:?} the state is no longer finite; a smaller step may help"
+                    "in the step of {step:e} from t = {time:?} the state is no longer finite"
                 )
             }
             Failure::NoSeries => {
@@ -63,7 +77,7 @@ impl std::fmt::Display for Failure {
                 let name = method.name();
                 write!(f, "{name} has no error estimate: give it a step, or choose one of {}", names.join(", "))
             }
-            Failure::NotResumable => write!(f, "only steps of fixed length can be resumed"),
+            Failure::NotResumable => write!(f, "fixed steps are resumed from a mark of fixed steps, adaptive ones from one of adaptive steps"),
         }
     }
 }

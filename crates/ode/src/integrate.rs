@@ -3,11 +3,11 @@
 use crate::ballistic::Ballistic;
 use crate::bends::Bends;
 use crate::control::{Control, Controller, Norm};
-use crate::dense::{Ends, SAME, Step, Stepper, Trial};
+use crate::dense::{Ends, Step, Stepper, Trial};
 use crate::extrapolation::Extrapolation;
 use crate::failure::Failure;
 use crate::methods::Method;
-use crate::observe::{Mark, Observer, Place};
+use crate::observe::{Mark, Observer, Pace, Place};
 use crate::runge_kutta::RungeKutta;
 use crate::system::{Burst, System};
 use crate::taylor::Taylor;
@@ -58,21 +58,24 @@ pub fn integrate(problem: &Problem<'_>, observer: &mut dyn Observer) -> Result<S
         Control::Adaptive { .. } if !problem.method.is_adaptive() => {
             return Err(Failure::NoErrorEstimate(problem.method));
         }
-        Control::Adaptive { tolerance } => run.adaptive(problem, tolerance, observer),
+        Control::Adaptive { tolerance } => run.adaptive(problem, tolerance, None, observer),
     };
     run.end(made, observer)
 }
 
-/// Goes on from a mark of the same problem to the same bits, counts included, as the run that showed it: for steps of
-/// fixed length, whose methods look back no further than the step itself. The observer must be as it was then.
+/// Goes on from a mark of the same problem to the same bits, counts included, as the run that showed it. The observer must
+/// be as it was then.
 ///
 /// # Errors
-/// [`Failure::NotResumable`] for adaptive steps; else as [`integrate`].
+/// [`Failure::NotResumable`] for a mark of a run with another rule for its steps; else as [`integrate`].
 pub fn resume(problem: &Problem<'_>, mark: &Mark<'_>, observer: &mut dyn Observer) -> Result<Statistics, Failure> {
-    let Control::Fixed { step } = problem.control else { return Err(Failure::NotResumable) };
     let mut run = Run::new(&Problem { start: mark.state, ..*problem });
     run.statistics = mark.statistics.clone();
-    let made = run.fixed(problem, step, mark.place, observer);
+    let made = match (problem.control, mark.pace) {
+        (Control::Fixed { step }, None) => run.fixed(problem, step, mark.place, observer),
+        (Control::Adaptive { tolerance }, Some(pace)) => run.adaptive(problem, tolerance, Some(pace), observer),
+        _ => return Err(Failure::NotResumable),
+    };
     run.end(made, observer)
 }
 
@@ -117,10 +120,10 @@ impl<'a> Run<'a> {
 
     /// What it took; or why it ended early, after the observer has seen the last state.
     fn end(mut self, made: Result<(), Failure>, observer: &mut dyn Observer) -> Result<Statistics, Failure> {
-        if made.is_err() {
-            observer.stuck(&self.state);
-        }
         self.statistics.state = self.state;
+        if made.is_err() {
+            observer.stuck(&self.statistics);
+        }
         made.map(|()| self.statistics)
     }
 
@@ -133,7 +136,8 @@ impl<'a> Run<'a> {
         observer: &mut dyn Observer,
     ) -> Result<(), Failure> {
         let count = (problem.end - problem.begin) / h;
-        let is_multiple = (count - count.round()).abs() < SAME * count;
+        // the quotient is off by a rounding or two of itself
+        let is_multiple = (count - count.round()).abs() < 1e-9 + 4.0 * f64::EPSILON * count;
         // of a step much longer than the whole time the number may vanish
         let least = u64::from(problem.begin < problem.end);
         let whole = (if is_multiple { count.round() } else { count.ceil() } as u64).max(least);
@@ -142,7 +146,7 @@ impl<'a> Run<'a> {
         while k < whole {
             if k >= next_mark {
                 let place = Place { step: k, slow_until };
-                observer.between(&Mark { place, statistics: &self.statistics, state: &self.state });
+                observer.between(&Mark { place, statistics: &self.statistics, state: &self.state, pace: None });
                 next_mark = k + LONGEST_BURST;
             }
             if problem.method == Method::Heun && k >= slow_until {
@@ -190,15 +194,35 @@ impl<'a> Run<'a> {
         burst
     }
 
-    fn adaptive(&mut self, problem: &Problem<'_>, tolerance: f64, observer: &mut dyn Observer) -> Result<(), Failure> {
+    fn adaptive(
+        &mut self,
+        problem: &Problem<'_>,
+        tolerance: f64,
+        from: Option<Pace<'_>>,
+        observer: &mut dyn Observer,
+    ) -> Result<(), Failure> {
         let mut norm = Norm::new(self.system, tolerance);
         let mut controller = Controller::new(self.stepper.error_power());
         let (mut carry, mut next_carry) = (vec![0.0; self.state.len()], vec![0.0; self.state.len()]);
         let (mut time, mut time_carry) = ([problem.begin], [0.0]);
-        let mut h = self.first_step(problem, &mut norm);
-        h = self.propose(&norm).unwrap_or(h);
+        let mut h = match from {
+            None => {
+                let guess = self.first_step(problem, &mut norm);
+                self.propose(&norm).unwrap_or(guess)
+            }
+            Some(pace) => {
+                carry.copy_from_slice(pace.carry);
+                self.rates.copy_from_slice(pace.rates);
+                ([time[0], time_carry[0]], controller.previous) = (pace.time, pace.error);
+                norm.start(&self.state);
+                self.stepper.resume(pace.unit);
+                self.propose(&norm);
+                pace.step
+            }
+        };
         let most_steps = observer.most_steps();
         let mut bends = Bends::new(self.system, &self.state, &self.rates);
+        let between_marks = (WORK_BETWEEN_MARKS / self.state.len() as u64).max(1);
         while time[0] < problem.end {
             if self.statistics.steps + self.statistics.rejected >= most_steps {
                 return Err(Failure::TooManySteps { time: time[0], steps: most_steps });
@@ -242,6 +266,14 @@ impl<'a> Run<'a> {
             }
             norm.start(&self.state);
             h = self.propose(&norm).unwrap_or_else(|| length * controller.accept(error));
+            if self.statistics.steps.is_multiple_of(between_marks) {
+                let (error, unit) = (controller.previous, self.stepper.unit());
+                let time = [time[0], time_carry[0]];
+                let pace = Pace { rates: &self.rates, carry: &carry, time, step: h, error, unit };
+                let place = Place { step: self.statistics.steps, slow_until: 0 };
+                let (statistics, state) = (&self.statistics, &self.state[..]);
+                observer.between(&Mark { place, statistics, state, pace: Some(pace) });
+            }
         }
         Ok(())
     }
@@ -319,9 +351,12 @@ impl<'a> Run<'a> {
 /// Steps of a burst: enough to make its start cheap, few enough to make again one by one. Marks are no closer.
 const LONGEST_BURST: u64 = 4096;
 
-/// Shorter steps are taken for a sign that the tolerance cannot be met. The equations do not know the time and its sum
-/// is compensated, so a step may lie far below the rounding of the time: a blow-up needs that.
-const SHORTEST: f64 = 1e-290;
+/// As many components are brought on by adaptive steps between two marks.
+const WORK_BETWEEN_MARKS: u64 = 1 << 18;
+
+/// No adaptive step is shorter. The equations do not know the time and its sum is compensated, so a step may lie far below
+/// the rounding of the time: near a wall of the force it is as short as the room is small.
+pub const SHORTEST: f64 = 1e-290;
 
 /// A larger defect is taken for a sign that the law is another one at the end of the step than at its start.
 const LARGEST_DEFECT: f64 = 32.0;

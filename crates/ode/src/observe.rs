@@ -1,6 +1,6 @@
 //! Looking at a solution while it is made: samples at regular times, the first crossing of zero.
 
-use crate::dense::{SAME, Step};
+use crate::dense::{Step, nearby};
 use crate::integrate::Statistics;
 use std::ops::ControlFlow;
 
@@ -21,10 +21,10 @@ pub trait Observer {
         MOST_STEPS
     }
 
-    /// Sees the last state that was reached when no step leads on from it, before the failure is returned.
-    fn stuck(&mut self, _state: &[f64]) {}
+    /// Sees how far it came when no step leads on from there, before the failure is returned.
+    fn stuck(&mut self, _reached: &Statistics) {}
 
-    /// Looks at a place between two steps of fixed length, every few thousand of them, from which the run can be resumed.
+    /// Looks at a place between two steps, every few thousand of them, from which the run can be resumed.
     fn between(&mut self, _mark: &Mark<'_>) {}
 }
 
@@ -41,7 +41,7 @@ pub struct Place {
     pub slow_until: u64,
 }
 
-/// All that an integration by steps of fixed length has to know to go on, the rates being those of the state.
+/// All that an integration has to know to go on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mark<'a> {
     /// Between which steps.
@@ -50,6 +50,25 @@ pub struct Mark<'a> {
     pub statistics: &'a Statistics,
     /// The state there.
     pub state: &'a [f64],
+    /// What steps of adaptive length remember; `None` for those of fixed length, whose rates are those of the state.
+    pub pace: Option<Pace<'a>>,
+}
+
+/// What steps of adaptive length remember from one to the next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pace<'a> {
+    /// The rates at the state, to the last bit: some methods know them from a state that lacks its carry.
+    pub rates: &'a [f64],
+    /// What rounding has dropped of the state.
+    pub carry: &'a [f64],
+    /// The time, and what rounding has dropped of it.
+    pub time: [f64; 2],
+    /// The length of the next step.
+    pub step: f64,
+    /// The error of the last step that was accepted.
+    pub error: f64,
+    /// The unit of time of the series at the state, for a method that has one.
+    pub unit: f64,
 }
 
 impl<F: FnMut(&mut Step<'_>) -> ControlFlow<()>> Observer for F {
@@ -89,7 +108,7 @@ impl Sampler {
 
     /// Calls `take(t, state)` for every sample time within the step that is not after `until`.
     pub fn within(&mut self, step: &mut Step<'_>, until: f64, take: &mut dyn FnMut(f64, &[f64])) {
-        let end = if until < step.end { until } else { step.end + SAME * step.length() };
+        let end = if until < step.end { until } else { step.end + nearby(step.end, step.length()) };
         loop {
             let t = self.next();
             if t > end {
@@ -136,6 +155,15 @@ pub fn first_crossing(step: &mut Step<'_>, parts: u32, value: &mut dyn FnMut(&[f
     }
     let from = place(parts - 1);
     negative_about_minimum(from, 1.0, &mut at).map(|past| bisect(from, past, &mut at))
+}
+
+/// The first fraction of the step, between one where `value` is not negative and one where it is, at which it is negative.
+pub fn crossing_between(step: &mut Step<'_>, before: f64, past: f64, value: &mut dyn FnMut(&[f64]) -> f64) -> f64 {
+    let mut state = vec![0.0; step.before().len()];
+    bisect(before, past, &mut |theta| {
+        step.at_fraction(theta, &mut state);
+        value(&state)
+    })
 }
 
 /// A fraction between the two at which the value is negative, from a golden-section search for its minimum.

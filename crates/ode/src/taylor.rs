@@ -92,6 +92,14 @@ impl Stepper for Taylor {
         Some(step)
     }
 
+    fn unit(&self) -> f64 {
+        self.unit
+    }
+
+    fn resume(&mut self, unit: f64) {
+        self.next_unit = unit;
+    }
+
     fn evaluations(&self) -> u64 {
         self.order as u64 - 1
     }

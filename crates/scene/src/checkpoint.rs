@@ -1,15 +1,17 @@
-//! A run by steps of fixed length on its way, as bytes, to be gone on with later to the same bits. Pure: who writes them
+//! A run on its way, as bytes, to be gone on with later to the same bits. Pure: who writes them
 //! where, and how often, is the caller's business.
 //!
-//! The bytes are 64-bit words, low byte first, numbers by their bits: place, counts, state, events, samples, jams. What
+//! The bytes are 64-bit words, low byte first, numbers by their bits: place, counts, state, pace, events, samples, jams. What
 //! follows from the scene and the rest is left out: the times and numbers in the table of trajectories, and whether the
 //! run has come to a stop. Nothing guards them against damage; a file should hold their hash.
 
 use crate::run::Scene;
+use crate::simulation::Counts;
 use files::table::Table;
 use jam::events::{Event, Happening};
 use jam::jams::{Drift, Jam};
-use ode::{Control, Mark, Place, Statistics};
+use jam::states::FormKind;
+use ode::{Control, Mark, Pace, Place, Statistics};
 
 /// A run between two of its steps.
 #[derive(Clone, Copy, Debug)]
@@ -20,22 +22,37 @@ pub struct Underway<'a> {
     pub(crate) std: &'a Table,
     pub(crate) trajectories: &'a Table,
     pub(crate) drift: &'a Drift,
+    /// When the jams were looked at last.
+    pub(crate) followed: f64,
+    /// When the leg near the walls began, if it has.
+    pub(crate) near_walls: Option<f64>,
+    pub(crate) earlier: Counts,
 }
 
 impl Underway<'_> {
     /// The part of its time that is done, 0 to 1.
     pub fn fraction(&self) -> f64 {
-        fraction(self.scene, self.mark.place.step)
+        fraction(self.scene, self.mark.place.step, self.mark.statistics.time)
     }
 
     /// Everything that [`Checkpoint::parse`] needs.
     pub fn to_bytes(&self) -> Vec<u8> {
-        let Mark { place, statistics, state } = *self.mark;
+        let Mark { place, statistics, state, pace } = *self.mark;
         let mut words = Words::default();
         words.whole(&[place.step, place.slow_until, statistics.steps, statistics.rejected, statistics.evaluations]);
         words.numbers(&[statistics.time]);
         words.count(state.len());
         words.numbers(state);
+        words.count(usize::from(pace.is_some()));
+        if let Some(pace) = pace {
+            words.numbers(pace.rates);
+            words.numbers(pace.carry);
+            words.numbers(&[pace.time[0], pace.time[1], pace.step, pace.error, pace.unit]);
+        }
+        words.whole(&[self.earlier.steps, self.earlier.rejected, self.earlier.evaluations]);
+        words.numbers(&[self.followed]);
+        words.count(usize::from(self.near_walls.is_some()));
+        words.numbers(&[self.near_walls.unwrap_or(0.0)]);
         words.count(self.found.len());
         for happening in self.found {
             words.count(Event::ALL.iter().take_while(|event| **event != happening.event).count());
@@ -63,10 +80,32 @@ pub struct Checkpoint {
     pub(crate) place: Place,
     pub(crate) statistics: Statistics,
     pub(crate) state: Vec<f64>,
+    pub(crate) pace: Option<Remembered>,
+    pub(crate) earlier: Counts,
+    pub(crate) followed: f64,
+    pub(crate) near_walls: Option<f64>,
     pub(crate) found: Vec<Happening>,
     pub(crate) std: Table,
     pub(crate) trajectories: Table,
     pub(crate) drift: Drift,
+}
+
+/// What adaptive steps remember (see [`Pace`]).
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Remembered {
+    rates: Vec<f64>,
+    carry: Vec<f64>,
+    time: [f64; 2],
+    step: f64,
+    error: f64,
+    unit: f64,
+}
+
+impl Remembered {
+    pub(crate) fn pace(&self) -> Pace<'_> {
+        let Remembered { rates, carry, time, step, error, unit } = self;
+        Pace { rates, carry, time: *time, step: *step, error: *error, unit: *unit }
+    }
 }
 
 impl Checkpoint {
@@ -78,6 +117,10 @@ impl Checkpoint {
         let statistics = Statistics { steps, rejected, evaluations, time: words.number()?, state: Vec::new() };
         let count = words.count()?;
         let state = (0..count).map(|_| words.number()).collect::<Option<Vec<f64>>>()?;
+        let pace = if words.count()? == 1 { Some(words.pace(state.len())?) } else { None };
+        let earlier = Counts { steps: words.whole()?, rejected: words.whole()?, evaluations: words.whole()? };
+        let (followed, is_near_walls, begin) = (words.number()?, words.count()? == 1, words.number()?);
+        let near_walls = is_near_walls.then_some(begin);
         let count = words.count()?;
         let found = (0..count).map(|_| words.happening()).collect::<Option<Vec<Happening>>>()?;
         let std = words.std()?;
@@ -85,26 +128,40 @@ impl Checkpoint {
         let (distance, time, count) = (words.number()?, words.number()?, words.count()?);
         let before = (0..count).map(|_| words.jam()).collect::<Option<Vec<Jam>>>()?;
         let is_whole = words.words.next().is_none() && words.words.remainder().is_empty();
-        let fits = state.len() == scene.form.build(&scene.model, scene.ring).dimension();
+        let kind = if is_near_walls { FormKind::Gaps } else { scene.form };
+        let fits = state.len() == kind.build(&scene.model, scene.ring).dimension()
+            && pace.is_some() == matches!(scene.control, Control::Adaptive { .. });
         let drift = Drift { before, distance, time };
-        (is_whole && fits).then_some(Checkpoint { place, statistics, state, found, std, trajectories, drift })
+        (is_whole && fits).then_some(Checkpoint {
+            place,
+            statistics,
+            state,
+            pace,
+            earlier,
+            followed,
+            near_walls,
+            found,
+            std,
+            trajectories,
+            drift,
+        })
     }
 
     /// Steps that need not be made again.
     pub fn steps(&self) -> u64 {
-        self.place.step
+        self.earlier.steps + self.place.step
     }
 
     /// The part of the run's time that need not be gone through again, 0 to 1.
     pub fn fraction(&self, scene: &Scene) -> f64 {
-        fraction(scene, self.place.step)
+        fraction(scene, self.place.step, self.statistics.time)
     }
 }
 
-fn fraction(scene: &Scene, step: u64) -> f64 {
+fn fraction(scene: &Scene, step: u64, time: f64) -> f64 {
     match scene.control {
         Control::Fixed { step: h } => step as f64 * h / scene.t_end,
-        Control::Adaptive { .. } => 0.0,
+        Control::Adaptive { .. } => time / scene.t_end,
     }
 }
 
@@ -142,6 +199,13 @@ impl Reader<'_> {
 
     fn number(&mut self) -> Option<f64> {
         self.whole().map(f64::from_bits)
+    }
+
+    fn pace(&mut self, dimension: usize) -> Option<Remembered> {
+        let rates = (0..dimension).map(|_| self.number()).collect::<Option<Vec<f64>>>()?;
+        let carry = (0..dimension).map(|_| self.number()).collect::<Option<Vec<f64>>>()?;
+        let time = [self.number()?, self.number()?];
+        Some(Remembered { rates, carry, time, step: self.number()?, error: self.number()?, unit: self.number()? })
     }
 
     fn happening(&mut self) -> Option<Happening> {

@@ -13,50 +13,57 @@ const EPSILON: f64 = 0.1;
 /// An unknown kind, preset or key, or a parameter out of its range.
 pub fn read(file: &str, section: &Section) -> Result<Model, RecipeError> {
     let mut law = Reader::new(file, "law", section);
-    let model = match law.choice("kind", &["algebraic", "exponential", "logarithmic"])? {
-        "algebraic" => Model::Algebraic(algebraic(&mut law)?),
-        "exponential" => Model::Exponential(exponential(&mut law)?),
-        _ => Model::Logarithmic(Logarithmic {
-            desired_speed: law.number("v0", POSITIVE)?,
-            widening: law.optional_number("a_v", NOT_NEGATIVE)?.unwrap_or(0.0),
-            epsilon: law.number("epsilon", POSITIVE)?,
-        }),
-    };
+    let read = law.one_of("kind", &KINDS)?;
+    let model = read(&mut law)?;
     law.finish()?;
     Ok(model)
 }
 
-fn algebraic(law: &mut Reader<'_>) -> Result<Algebraic, RecipeError> {
+/// Reads the parameters of a law.
+type Parameters = fn(&mut Reader<'_>) -> Result<Model, RecipeError>;
+
+/// The laws by name.
+const KINDS: [(&str, Parameters); 3] =
+    [("algebraic", algebraic), ("exponential", exponential), ("logarithmic", logarithmic)];
+
+fn algebraic(law: &mut Reader<'_>) -> Result<Model, RecipeError> {
     if law.has("preset") {
         return preset(law);
     }
-    Ok(Algebraic {
+    Ok(Model::Algebraic(Algebraic {
         strength: law.number("mu", NOT_NEGATIVE)?,
         relative: law.optional_number("delta", NOT_NEGATIVE)?.unwrap_or(0.0),
         power: law.number("q", POSITIVE)?,
         widening: law.optional_number("a_v", NOT_NEGATIVE)?.unwrap_or(0.0),
         epsilon: law.optional_number("epsilon", POSITIVE)?.unwrap_or(EPSILON),
         desired_speed: law.number("v0", POSITIVE)?,
-    })
+    }))
 }
 
 /// A model of tab:model; the parameters that it leaves open must be given, the others must not.
-fn preset(law: &mut Reader<'_>) -> Result<Algebraic, RecipeError> {
-    let name = law.choice("preset", &PRESETS.map(|preset| preset.name))?;
-    let preset = PRESETS.iter().find(|preset| preset.name == name).unwrap_or(&PRESETS[0]);
+fn preset(law: &mut Reader<'_>) -> Result<Model, RecipeError> {
+    let preset = law.one_of("preset", &PRESETS.map(|preset| (preset.name, preset)))?;
     let strength = if preset.strength.is_none() { law.number("mu", NOT_NEGATIVE)? } else { 0.0 };
     let widening = if preset.widening.is_none() { law.number("a_v", NOT_NEGATIVE)? } else { 0.0 };
     let epsilon = law.optional_number("epsilon", POSITIVE)?.unwrap_or(EPSILON);
-    Ok(preset.law(strength, widening, epsilon, law.number("v0", POSITIVE)?))
+    Ok(Model::Algebraic(preset.law(strength, widening, epsilon, law.number("v0", POSITIVE)?)))
 }
 
-fn exponential(law: &mut Reader<'_>) -> Result<Exponential, RecipeError> {
-    Ok(Exponential {
+fn logarithmic(law: &mut Reader<'_>) -> Result<Model, RecipeError> {
+    Ok(Model::Logarithmic(Logarithmic {
+        desired_speed: law.number("v0", POSITIVE)?,
+        widening: law.optional_number("a_v", NOT_NEGATIVE)?.unwrap_or(0.0),
+        epsilon: law.number("epsilon", POSITIVE)?,
+    }))
+}
+
+fn exponential(law: &mut Reader<'_>) -> Result<Model, RecipeError> {
+    Ok(Model::Exponential(Exponential {
         strength: law.number("a", NOT_NEGATIVE)?,
         range: law.number("b", POSITIVE)?,
         contact: law.optional_number("c", NOT_NEGATIVE)?.unwrap_or(0.0),
         widening: law.optional_number("a_v", NOT_NEGATIVE)?.unwrap_or(0.0),
         epsilon: law.optional_number("epsilon", POSITIVE)?.unwrap_or(EPSILON),
         desired_speed: law.number("v0", POSITIVE)?,
-    })
+    }))
 }

@@ -33,6 +33,17 @@ pub struct Scene {
     pub keeps_trajectories: bool,
     /// The speed `v'` of the uniform flow.
     pub steady_speed: f64,
+    /// Whether an overlap ends the tables.
+    pub at_overlap: AtOverlap,
+}
+
+/// What becomes of a run in which two overlap.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AtOverlap {
+    /// Its tables end there.
+    Stop,
+    /// It goes on, under a law that does: one whose force acts in contact, for instance.
+    Continue,
 }
 
 /// As many rows as the table of a run may have, so that a slip in `sample` does not fill the memory (32 bytes a row).
@@ -62,12 +73,11 @@ pub fn read(file: &str, tables: &Section) -> Result<Scene, RecipeError> {
     let control = control(&mut run, method)?;
     let form = match run.has("state") {
         false => FormKind::Deviations,
-        true => match run.choice("state", &["deviations", "gaps", "positions"])? {
-            "gaps" => FormKind::Gaps,
-            "positions" => FormKind::Positions,
-            _ => FormKind::Deviations,
-        },
+        true => run.one_of("state", &FORMS)?,
     };
+    // what the uniform flow itself cannot hold in a number is lost in deviations from it
+    let is_lost = model.linearise(ring.headway(), steady_speed).phi < LEAST_RESPONSE;
+    let form = if form == FormKind::Deviations && is_lost { FormKind::Gaps } else { form };
     if !method.suits(&*form.build(&model, ring)) {
         let problem = format!(
             "{} needs a force that depends on the gap alone (a_v, delta and c are not named), and gaps or deviations as state",
@@ -75,7 +85,7 @@ pub fn read(file: &str, tables: &Section) -> Result<Scene, RecipeError> {
         );
         return Err(run.complaint("method", &problem));
     }
-    let keeps_trajectories = !run.has("record") || run.choice("record", &["std", "trajectories"])? == "trajectories";
+    let keeps_trajectories = !run.has("record") || run.one_of("record", &[("std", false), ("trajectories", true)])?;
     let rows = (t_end / sample).floor() * if keeps_trajectories { ring.pedestrians as f64 } else { 1.0 };
     if rows > MOST_ROWS {
         let problem =
@@ -83,8 +93,51 @@ pub fn read(file: &str, tables: &Section) -> Result<Scene, RecipeError> {
         return Err(run.complaint("sample", &problem));
     }
     let most_steps = most_steps(&mut run, control, t_end)?;
+    if matches!(control, Control::Adaptive { .. }) && t_end < SHORTEST_RUN {
+        let problem = format!("too short for steps of adaptive length; must be at least {SHORTEST_RUN:e}");
+        return Err(run.complaint("t_end", &problem));
+    }
+    let at_overlap = at_overlap(&mut run, &model)?;
     run.finish()?;
-    Ok(Scene { model, ring, start, t_end, sample, method, control, most_steps, form, keeps_trajectories, steady_speed })
+    Ok(Scene {
+        model,
+        ring,
+        start,
+        t_end,
+        sample,
+        method,
+        control,
+        most_steps,
+        form,
+        keeps_trajectories,
+        steady_speed,
+        at_overlap,
+    })
+}
+
+/// Names of the forms of the state.
+const FORMS: [(&str, FormKind); 3] =
+    [("deviations", FormKind::Deviations), ("gaps", FormKind::Gaps), ("positions", FormKind::Positions)];
+
+/// Below this response of the uniform flow to a gap, its force has lost digits to underflow.
+const LEAST_RESPONSE: f64 = 1e-280;
+
+/// A run by adaptive steps is at least as long: far longer than the shortest of them.
+const SHORTEST_RUN: f64 = 1e-250;
+
+fn at_overlap(run: &mut Reader<'_>, model: &Model) -> Result<AtOverlap, RecipeError> {
+    if !run.has("at_overlap") {
+        return Ok(AtOverlap::Stop);
+    }
+    let choice = run.one_of("at_overlap", &[("stop", AtOverlap::Stop), ("continue", AtOverlap::Continue)])?;
+    if choice == AtOverlap::Continue && model.is_singular() {
+        let problem = format!(
+            "the force of the {} law is infinite where the room ends: no run goes on from there; must be \"stop\"",
+            model.name()
+        );
+        return Err(run.complaint("at_overlap", &problem));
+    }
+    Ok(choice)
 }
 
 fn ring(file: &str, ring: &Section, start: &Section, model: &Model) -> Result<(Ring, Start), RecipeError> {
@@ -129,8 +182,7 @@ fn most_steps(run: &mut Reader<'_>, control: Control, t_end: f64) -> Result<u64,
 }
 
 fn method(run: &mut Reader<'_>) -> Result<Method, RecipeError> {
-    let name = run.choice("method", &Method::ALL.map(Method::name))?;
-    Ok(Method::ALL.into_iter().find(|method| method.name() == name).unwrap_or(Method::Dop853))
+    run.one_of("method", &Method::ALL.map(|method| (method.name(), method)))
 }
 
 /// `tolerance` for methods that choose their steps, `dt` for any.

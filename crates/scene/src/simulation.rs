@@ -1,7 +1,7 @@
 //! Running a scene: the tables of its standard deviation and trajectories, its events, its statistics.
 
-use crate::checkpoint::{Checkpoint, Underway};
-use crate::run::Scene;
+use crate::checkpoint::{Checkpoint, Remembered, Underway};
+use crate::run::{AtOverlap, Scene};
 use files::table::Table;
 use jam::events::{Event, Happening, Watch};
 use jam::jams;
@@ -16,7 +16,8 @@ pub struct Outcome {
     pub std: Table,
     /// `t, n, x, v`: up to the first stop; empty when the scene does not keep them.
     pub trajectories: Table,
-    /// The first event of each kind, in order of time; those after a stop belong to the continued run.
+    /// The first event of each kind, with everybody to whom it happens at once, in order of time; those after a stop belong
+    /// to the continued run.
     pub events: Vec<Happening>,
     /// Steps, evaluations, the time reached.
     pub statistics: Statistics,
@@ -24,25 +25,35 @@ pub struct Outcome {
     pub positions: Vec<f64>,
     /// See `positions`.
     pub speeds: Vec<f64>,
-    /// The jams at the last sample before the end or the first stop, and how they got there; nothing when the scene does
-    /// not keep trajectories.
+    /// The jams at the end or the first stop, and how they got there; nothing when the scene does not keep trajectories.
     pub drift: jams::Drift,
+    /// What an overlap does.
+    pub at_overlap: AtOverlap,
 }
 
 impl Outcome {
-    /// The first event that ends the drawn part of the run.
+    /// The first event that ends the tables.
     pub fn stop(&self) -> Option<&Happening> {
-        self.events.iter().find(|happening| happening.event.is_stop())
+        self.events.iter().find(|happening| stops(happening.event, self.at_overlap))
     }
 }
 
+/// Whether an event ends the tables.
+fn stops(event: Event, at_overlap: AtOverlap) -> bool {
+    event.is_stop() && (event != Event::Overlap || at_overlap == AtOverlap::Stop)
+}
+
 /// A run that could not go on.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Broken {
+    /// What it gave until then.
+    pub outcome: Box<Outcome>,
     /// Why, with the time reached and the step.
     pub failure: ode::Failure,
     /// Who had the least room in the last state that was reached; `None` when no step was tried.
     pub narrowest: Option<Place>,
+    /// What helps, if anything does.
+    pub advice: Option<&'static str>,
 }
 
 /// A pedestrian at one instant.
@@ -61,6 +72,7 @@ pub struct Place {
 impl std::fmt::Display for Broken {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{}", self.failure)?;
+        self.advice.map_or(Ok(()), |advice| write!(f, "; {advice}"))?;
         self.narrowest.map_or(Ok(()), |Place { pedestrian, gap, room, speed }| {
             write!(f, "; least room then: pedestrian {pedestrian}, gap {gap:?}, room {room:?}, speed {speed:?}")
         })
@@ -74,8 +86,7 @@ pub trait Onlooker {
     /// Sees every accepted step of adaptive length; of fixed ones, those that the run needs to see.
     fn after(&mut self, _step: &Step<'_>) {}
 
-    /// Sees the run every few thousand steps, where these are of fixed length. A run by adaptive steps takes seconds and is
-    /// not shown.
+    /// Sees the run every few thousand steps.
     fn between(&mut self, _underway: &Underway<'_>) {}
 }
 
@@ -93,52 +104,61 @@ pub fn run(scene: &Scene) -> Result<Outcome, Broken> {
 /// As [`run`], from a checkpoint of the same scene to the same bits.
 ///
 /// # Errors
-/// As [`run`]; or a checkpoint for a scene by adaptive steps.
+/// As [`run`]; or a checkpoint of a scene with another rule for its steps.
 pub fn run_from(scene: &Scene, from: Option<Checkpoint>, onlooker: &mut dyn Onlooker) -> Result<Outcome, Broken> {
     let form = scene.form.build(&scene.model, scene.ring);
     let near_walls = FormKind::Gaps.build(&scene.model, scene.ring);
     let mut recorder = Recorder::new(scene, &*form, onlooker);
-    let mut statistics = match from {
-        Some(checkpoint) => recorder.resume(&*form, checkpoint)?,
+    let mut made = match from {
+        Some(checkpoint) => recorder.resume(&*form, &*near_walls, checkpoint),
         None => {
             let start = form.start(scene.start);
-            recorder.record.take(0.0, &start);
-            recorder.leg(&*form, 0.0, &start)?
+            recorder.start(&start);
+            recorder.leg(&*form, 0.0, &start)
         }
     };
-    let mut last: &dyn Form = &*form;
-    let count = scene.ring.pedestrians;
-    let (mut positions, mut gaps, mut speeds) = (vec![0.0; count], vec![0.0; count], vec![0.0; count]);
-    if recorder.is_near_walls {
-        form.write_positions(&statistics.state, &mut positions);
-        form.read(&statistics.state, &mut gaps, &mut speeds);
-        let state = gaps_state(&scene.model, &gaps, &speeds, positions[0]);
-        recorder.change_form(&*near_walls);
-        let first_leg = statistics;
-        statistics = recorder.leg(&*near_walls, first_leg.time, &state)?;
-        statistics.steps += first_leg.steps;
-        statistics.rejected += first_leg.rejected;
-        statistics.evaluations += first_leg.evaluations;
-        last = &*near_walls;
+    let is_stuck = matches!(made.failure, Some(ode::Failure::StepTooSmall { .. }));
+    if recorder.turns_to_walls || is_stuck && recorder.can_turn() {
+        recorder.earlier = made.counts();
+        let state = recorder.enter_walls(&*near_walls, &made.statistics.state);
+        made = recorder.leg(&*near_walls, made.statistics.time, &state);
     }
-    last.write_positions(&statistics.state, &mut positions);
-    last.read(&statistics.state, &mut gaps, &mut speeds);
-    let Recorder { watch, record, .. } = recorder;
-    let events = watch.found().to_vec();
-    Ok(Outcome {
-        std: record.std,
-        trajectories: record.trajectories,
-        events,
-        statistics,
-        positions,
-        speeds,
-        drift: record.drift,
-    })
+    recorder.end(made)
+}
+
+/// What became of a leg: how far it came, and why no further, if it broke.
+struct Made {
+    statistics: Statistics,
+    failure: Option<ode::Failure>,
+}
+
+impl Made {
+    fn counts(&self) -> Counts {
+        let Statistics { steps, rejected, evaluations, .. } = self.statistics;
+        Counts { steps, rejected, evaluations }
+    }
+}
+
+/// The counts of an earlier leg.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Counts {
+    pub(crate) steps: u64,
+    pub(crate) rejected: u64,
+    pub(crate) evaluations: u64,
 }
 
 /// Where the least room falls below this part of that in the uniform flow, the clearances become the state: they keep all
-/// digits however small they are; deviations from the uniform flow have lost three of them there.
+/// digits however small they are; deviations from the uniform flow have lost three of them there. They do, too, where
+/// deviations lead no further.
 const NEAR_WALLS: f64 = 1e-3;
+
+/// A room below this, at a wall where no shorter step leads on, is that of a pedestrian who comes nearer to the wall than a
+/// double can tell: the force has no bound that a number has.
+const NO_ROOM: f64 = 1e-200;
+
+/// The jams are followed at the first step that ends no sooner than this after the one before, in units of `tau`: they go a
+/// small part of a headway in that time. The times do not depend on the samples.
+const FOLLOWED_EVERY: f64 = 1.0;
 
 /// Takes samples and looks for events, step by step.
 struct Recorder<'a> {
@@ -148,7 +168,12 @@ struct Recorder<'a> {
     record: Record<'a>,
     onlooker: &'a mut dyn Onlooker,
     is_stopped: bool,
+    /// Whether the leg in deviations has ended near a wall, and the next begins.
+    turns_to_walls: bool,
     is_near_walls: bool,
+    /// What the leg before took.
+    earlier: Counts,
+    reached: Statistics,
     narrowest: Option<Place>,
 }
 
@@ -161,30 +186,128 @@ impl<'a> Recorder<'a> {
             record: Record::new(scene, form),
             onlooker,
             is_stopped: false,
+            turns_to_walls: false,
             is_near_walls: false,
+            earlier: Counts::default(),
+            reached: Statistics::default(),
             narrowest: None,
         }
     }
 
+    /// Takes the first sample, and the events at the start.
+    fn start(&mut self, state: &[f64]) {
+        let mut rates = vec![0.0; state.len()];
+        self.record.form.rates(state, &mut rates);
+        self.is_stopped = self.watch.start(0.0, state, &rates).iter().any(|happening| self.stops(happening));
+        self.record.take(0.0, state);
+        self.record.follow(0.0, state);
+    }
+
     /// Integrates from this time and state to the end of the run, or until an event or the walls break it off.
-    fn leg(&mut self, form: &dyn Form, begin: f64, state: &[f64]) -> Result<Statistics, Broken> {
-        integrate(&self.problem(form, begin, state), self).map_err(|failure| self.broken(failure))
+    fn leg(&mut self, form: &dyn Form, begin: f64, state: &[f64]) -> Made {
+        let made = integrate(&self.problem(form, begin, state), self);
+        self.made(made)
     }
 
     /// Goes on from a checkpoint as [`Recorder::leg`] would have.
-    fn resume(&mut self, form: &dyn Form, checkpoint: Checkpoint) -> Result<Statistics, Broken> {
-        let Checkpoint { place, statistics, state, found, std, trajectories, drift } = checkpoint;
+    fn resume(&mut self, form: &dyn Form, near_walls: &'a dyn Form, checkpoint: Checkpoint) -> Made {
+        let Checkpoint { place, statistics, state, pace, found, std, trajectories, drift, .. } = checkpoint;
         // one sample for each multiple of the interval, from 0; none after a stop
         self.sampler.resume(std.len() as u64);
-        self.is_stopped = found.iter().any(|happening| happening.event.is_stop());
+        self.is_stopped = found.iter().any(|happening| self.stops(happening));
         self.watch.resume(found);
         (self.record.std, self.record.trajectories, self.record.drift) = (std, trajectories, drift);
-        let mark = Mark { place, statistics: &statistics, state: &state };
-        resume(&self.problem(form, 0.0, &state), &mark, self).map_err(|failure| self.broken(failure))
+        (self.record.followed, self.earlier) = (checkpoint.followed, checkpoint.earlier);
+        let (form, begin) = match checkpoint.near_walls {
+            Some(begin) => {
+                self.is_near_walls = true;
+                self.change_form(near_walls);
+                (near_walls, begin)
+            }
+            None => (form, 0.0),
+        };
+        self.record.begin = begin;
+        let pace = pace.as_ref().map(Remembered::pace);
+        let mark = Mark { place, statistics: &statistics, state: &state, pace };
+        let made = resume(&self.problem(form, begin, &state), &mark, self);
+        self.made(made)
     }
 
-    fn broken(&self, failure: ode::Failure) -> Broken {
-        Broken { failure, narrowest: self.narrowest }
+    fn made(&mut self, made: Result<Statistics, ode::Failure>) -> Made {
+        match made {
+            Ok(statistics) => Made { statistics, failure: None },
+            Err(failure) => Made { statistics: std::mem::take(&mut self.reached), failure: Some(failure) },
+        }
+    }
+
+    /// Goes on in clearances; returns the state in that form.
+    fn enter_walls(&mut self, near_walls: &'a dyn Form, state: &[f64]) -> Vec<f64> {
+        let Record { form, positions, gaps, speeds, .. } = &mut self.record;
+        form.write_positions(state, positions);
+        form.read(state, gaps, speeds);
+        let state = gaps_state(&self.scene.model, gaps, speeds, positions[0]);
+        (self.turns_to_walls, self.is_near_walls) = (false, true);
+        self.change_form(near_walls);
+        state
+    }
+
+    /// What the run gave; or, where it broke, what it gave until then.
+    fn end(mut self, made: Made) -> Result<Outcome, Broken> {
+        let Made { mut statistics, failure } = made;
+        statistics.steps += self.earlier.steps;
+        statistics.rejected += self.earlier.rejected;
+        statistics.evaluations += self.earlier.evaluations;
+        if statistics.state.is_empty() {
+            // no step was tried
+            statistics.state = self.record.form.start(self.scene.start);
+        }
+        if !self.is_stopped {
+            self.record.follow(statistics.time, &statistics.state);
+        }
+        let broken = failure.filter(|failure| !self.is_at_wall(failure, &statistics));
+        let Record { form, std, trajectories, mut positions, mut gaps, mut speeds, drift, .. } = self.record;
+        form.write_positions(&statistics.state, &mut positions);
+        form.read(&statistics.state, &mut gaps, &mut speeds);
+        let (events, at_overlap) = (self.watch.found().to_vec(), self.scene.at_overlap);
+        let outcome = Outcome { std, trajectories, events, statistics, positions, speeds, drift, at_overlap };
+        match broken {
+            None => Ok(outcome),
+            Some(failure) => {
+                let (advice, outcome) = (advice(&failure, self.scene), Box::new(outcome));
+                Err(Broken { failure, narrowest: self.narrowest, advice, outcome })
+            }
+        }
+    }
+
+    /// Whether a run ends since a pedestrian comes nearer to a wall than any double can tell; then that is an event.
+    fn is_at_wall(&mut self, failure: &ode::Failure, reached: &Statistics) -> bool {
+        let Some(Place { pedestrian, gap, .. }) = self.narrowest else { return false };
+        let is_singular = self.scene.model.is_singular() && self.is_in_gaps();
+        let is_stuck = matches!(failure, ode::Failure::StepTooSmall { .. });
+        let room = self.rooms(&reached.state)[pedestrian];
+        let is_at_wall = is_singular && is_stuck && room < NO_ROOM;
+        if is_at_wall {
+            let time = reached.time;
+            self.watch.add(Happening { event: Event::BlowUp, time, pedestrian, gap, step: 0.0 });
+        }
+        is_at_wall
+    }
+
+    /// The rooms, with all the digits that the form has.
+    fn rooms(&self, state: &[f64]) -> Vec<f64> {
+        let mut rooms = self.watch.rooms_of(state);
+        if self.is_in_gaps() && self.scene.model.room_per_speed() == 0.0 {
+            rooms.copy_from_slice(&state[..self.scene.ring.pedestrians]);
+        }
+        rooms
+    }
+
+    fn is_in_gaps(&self) -> bool {
+        self.is_near_walls || self.scene.form == FormKind::Gaps
+    }
+
+    fn stops(&self, happening: &Happening) -> bool {
+        stops(happening.event, self.scene.at_overlap)
     }
 
     fn problem<'b>(&self, form: &'b dyn Form, begin: f64, start: &'b [f64]) -> Problem<'b> {
@@ -199,14 +322,32 @@ impl<'a> Recorder<'a> {
         self.sampler.change_dimension(form.dimension());
     }
 
-    /// Whether the leg in deviations ends here. Fixed steps stay in the form they were asked for.
+    /// Whether the run is one in deviations that may go on in clearances. Fixed steps stay in the form they were asked for.
+    fn can_turn(&self) -> bool {
+        let is_adaptive = matches!(self.scene.control, Control::Adaptive { .. });
+        !self.is_near_walls && self.scene.form == FormKind::Deviations && is_adaptive
+    }
+
+    /// Whether the leg in deviations ends here.
     fn comes_near_walls(&self) -> bool {
         let scene = self.scene;
-        let is_open = !self.is_near_walls && scene.form == FormKind::Deviations && scene.model.is_singular();
         let least = NEAR_WALLS * scene.model.room(scene.ring.headway(), scene.steady_speed, scene.steady_speed);
-        is_open
-            && matches!(scene.control, Control::Adaptive { .. })
-            && self.watch.rooms().iter().any(|&room| room < least)
+        scene.model.is_singular() && self.can_turn() && self.watch.rooms().iter().any(|&room| room < least)
+    }
+}
+
+/// What helps a run that broke.
+fn advice(failure: &ode::Failure, scene: &Scene) -> Option<&'static str> {
+    match failure {
+        ode::Failure::TooManySteps { .. } if scene.most_steps < ode::MOST_STEPS => {
+            Some("raise most_steps or the tolerance")
+        }
+        ode::Failure::TooManySteps { .. } => Some("raise the tolerance"),
+        ode::Failure::NotFinite { .. } => Some("a smaller step may help"),
+        ode::Failure::StepTooSmall { .. } if scene.form == FormKind::Positions => {
+            Some("state = \"deviations\" keeps more digits of small gaps")
+        }
+        _ => None,
     }
 }
 
@@ -215,14 +356,20 @@ impl Observer for Recorder<'_> {
         self.onlooker.after(step);
         let new = self.watch.look(step);
         if !self.is_stopped {
-            let stop = new.iter().find(|happening| happening.event.is_stop());
-            let until = stop.map_or(self.scene.t_end, |happening| happening.time);
+            let stop = new.iter().find(|happening| self.stops(happening)).map(|happening| happening.time);
+            let until = stop.unwrap_or(self.scene.t_end);
             let record = &mut self.record;
             self.sampler.within(step, until, &mut |t, state| record.take(t, state));
             self.is_stopped = stop.is_some();
+            match stop {
+                Some(time) => record.follow_to(time, step),
+                None if step.end >= record.followed + FOLLOWED_EVERY => record.follow(step.end, step.after()),
+                None => (),
+            }
         }
         if self.comes_near_walls() {
-            self.is_near_walls = true;
+            self.turns_to_walls = true;
+            self.record.begin = step.end;
             return ControlFlow::Break(());
         }
         let happened = |event: Event| self.watch.found().iter().any(|happening| happening.event == event);
@@ -233,27 +380,30 @@ impl Observer for Recorder<'_> {
     }
 
     fn next_sample(&self) -> f64 {
-        self.sampler.next()
+        let (sample, next) = (self.sampler.next(), self.record.followed + FOLLOWED_EVERY);
+        if self.scene.keeps_trajectories && next < sample { next } else { sample }
     }
 
     fn most_steps(&self) -> u64 {
         self.scene.most_steps
     }
 
-    fn stuck(&mut self, state: &[f64]) {
+    fn stuck(&mut self, reached: &Statistics) {
+        let rooms = self.rooms(&reached.state);
         let Record { form, gaps, speeds, .. } = &mut self.record;
-        form.read(state, gaps, speeds);
-        let places = (0..gaps.len()).map(|n| {
-            let (gap, speed, ahead) = (gaps[n], speeds[n], speeds[(n + 1) % speeds.len()]);
-            Place { pedestrian: n, gap, room: self.scene.model.room(gap, speed, ahead), speed }
-        });
+        form.read(&reached.state, gaps, speeds);
+        let places = (0..gaps.len()).map(|n| Place { pedestrian: n, gap: gaps[n], room: rooms[n], speed: speeds[n] });
         self.narrowest = places.min_by(|a, b| a.room.total_cmp(&b.room));
+        self.reached = reached.clone();
     }
 
     fn between(&mut self, mark: &Mark<'_>) {
-        let Record { std, trajectories, drift, .. } = &self.record;
-        let found = self.watch.found();
-        self.onlooker.between(&Underway { scene: self.scene, mark, found, std, trajectories, drift });
+        let Record { std, trajectories, drift, followed, begin, .. } = &self.record;
+        let (found, earlier, followed) = (self.watch.found(), self.earlier, *followed);
+        let near_walls = self.is_near_walls.then_some(*begin);
+        let scene = self.scene;
+        let underway = Underway { scene, mark, found, std, trajectories, drift, followed, near_walls, earlier };
+        self.onlooker.between(&underway);
     }
 }
 
@@ -277,6 +427,10 @@ struct Record<'a> {
     gaps: Vec<f64>,
     speeds: Vec<f64>,
     drift: jams::Drift,
+    /// When the jams were looked at last.
+    followed: f64,
+    /// The time at which the leg begins.
+    begin: f64,
 }
 
 impl<'a> Record<'a> {
@@ -291,6 +445,8 @@ impl<'a> Record<'a> {
             gaps: zeros(),
             speeds: zeros(),
             drift: jams::Drift::default(),
+            followed: 0.0,
+            begin: 0.0,
         }
     }
 
@@ -304,9 +460,26 @@ impl<'a> Record<'a> {
         for (n, (x, v)) in self.positions.iter().zip(&self.speeds).enumerate() {
             self.trajectories.push(&[t, n as f64, *x, *v]);
         }
+    }
+
+    /// Looks where the jams are at time `t`.
+    fn follow(&mut self, t: f64, state: &[f64]) {
+        if !self.scene.keeps_trajectories {
+            return;
+        }
+        self.form.write_positions(state, &mut self.positions);
+        self.form.read(state, &mut self.gaps, &mut self.speeds);
         let (desired, length) = (self.scene.model.desired_speed(), self.scene.ring.length);
         let found = jams::threshold(&self.speeds, desired)
             .map_or(Vec::new(), |threshold| jams::find(&self.positions, &self.speeds, length, threshold));
-        self.drift.follow(&found, length, self.scene.sample);
+        self.drift.follow(&found, length, t - self.followed);
+        self.followed = t;
+    }
+
+    /// Looks where the jams are at a time within a step.
+    fn follow_to(&mut self, t: f64, step: &mut Step<'_>) {
+        let mut state = vec![0.0; step.before().len()];
+        step.at(t, &mut state);
+        self.follow(t, &state);
     }
 }

@@ -5,7 +5,7 @@ use jam::events::{Happening, Watch};
 use jam::laws::{Algebraic, Model};
 use jam::ring::{Ring, Start};
 use jam::states::{Form, FormKind};
-use ode::{Control, Method, Observer, Problem, Step, integrate};
+use ode::{Control, Method, Observer, Problem, Statistics, Step, integrate};
 use std::ops::ControlFlow;
 
 /// A law on a ring, in a form of the state.
@@ -80,8 +80,8 @@ impl Observer for Looking<'_> {
         if is_stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
-    fn stuck(&mut self, state: &[f64]) {
-        self.last = state.to_vec();
+    fn stuck(&mut self, reached: &Statistics) {
+        self.last = reached.state.clone();
     }
 }
 

@@ -4,7 +4,7 @@
 //! distance `X` and speed `V` of the uniform flow, `dX/dt = V`, `dV/dt = f(V, V, Delta y)`. A perturbation of any size
 //! keeps all its digits, and an error is one of the perturbation, not of the state.
 
-use super::{Form, closing_rates};
+use super::{Form, LEAST_SIZE, closing_rates};
 use crate::laws::{Law, Work};
 use crate::observe::spread;
 use crate::ring::{Ring, Start};
@@ -124,7 +124,7 @@ impl<L: Law> System for Deviations<L> {
     fn groups(&self) -> Vec<Group> {
         let n = self.pedestrians;
         vec![
-            Group { range: 0..2 * n, measure: Measure::Largest, floor: f64::MIN_POSITIVE },
+            Group { range: 0..2 * n, measure: Measure::Largest, floor: LEAST_SIZE },
             Group { range: 2 * n..2 * n + 3, measure: Measure::Largest, floor: 1.0 },
         ]
     }

@@ -1,7 +1,7 @@
 //! Gaps and speeds: `[s_0 - s_c .. s_{N-1} - s_c, v_0 .. v_{N-1}, x_0]` with the gap `s_c` at contact (2, or 0 for the
 //! logarithmic law): a gap that closes keeps all its digits.
 
-use super::{Form, closing_rates};
+use super::{Form, LEAST_SIZE, closing_rates};
 use crate::laws::Law;
 use crate::observe::spread;
 use crate::ring::{Ring, Start};
@@ -80,7 +80,7 @@ impl<L: Law> System for Gaps<L> {
         let n = self.pedestrians;
         // at a wall the smallest clearance decides, and the force on it needs its digits
         let clearances = if L::SINGULAR {
-            Group { range: 0..n, measure: Measure::Smallest, floor: f64::MIN_POSITIVE }
+            Group { range: 0..n, measure: Measure::Smallest, floor: LEAST_SIZE }
         } else {
             Group { range: 0..n, measure: Measure::Largest, floor: 1.0 }
         };

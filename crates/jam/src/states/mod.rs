@@ -37,6 +37,10 @@ pub trait Form: ode::System {
     fn speed_deviation(&self, state: &[f64]) -> f64;
 }
 
+/// Perturbations and clearances keep their relative precision down to this size; below it the tolerance of their errors
+/// would come near the least doubles, which have no digits.
+const LEAST_SIZE: f64 = 1e-290;
+
 /// Which form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FormKind {
