@@ -49,9 +49,10 @@ impl Answer {
         Some((&self.solution.samples[find(&self.solution)?], &self.second.samples[find(&self.second)?]))
     }
 
-    /// Whether both end alike.
-    pub fn is_settled(&self) -> bool {
-        self.solution.end == self.second.end && self.solution.end != End::Unfinished
+    /// Whether both reach this time, or end alike.
+    pub fn is_settled(&self, time: f64) -> bool {
+        let (first, second) = (&self.solution, &self.second);
+        first.time >= time && second.time >= time || first.end == second.end && first.end != End::Unfinished
     }
 
     /// The first crossings of a kind: for each pedestrian the time, its uncertainty, and the rate.

@@ -24,7 +24,7 @@ fn case(seed: u64, text: &str, panel: &recipe::Panel) -> Option<Value> {
     question.times = judge::times(&scene, &outcome);
     let answer = Answer::new(&question, Numbers::Doubles);
     let is_visible = scene.start.shift.abs() > LEAST_SHIFT * scene.ring.headway();
-    if !is_visible || !answer.is_settled() {
+    if !is_visible || !answer.is_settled(outcome.statistics.time) {
         return None;
     }
     let end = outcome.statistics.time;

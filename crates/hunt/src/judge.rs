@@ -5,6 +5,7 @@ use crate::bound::Bound;
 use crate::question;
 use files::recipe;
 use jam::events::{Event, Happening};
+use jam::states::FormKind;
 use reference::solution::{End, Kind, Question};
 use scene::run::Scene;
 use scene::simulation::{Broken, Outcome};
@@ -95,8 +96,8 @@ fn judge_panel(text: &str, panel: &recipe::Panel) -> Verdict {
             verdict.ending = "panicked".into();
             verdict.findings.push("the run panicked".into());
         }
-        Ok(Err(broken)) => failed(&mut verdict, &scene, &broken, question),
-        Ok(Ok(outcome)) => done(&mut verdict, &scene, &outcome, question),
+        Ok(Err(broken)) => ended(&mut verdict, &scene, &broken.outcome, Some(&broken), question),
+        Ok(Ok(outcome)) => ended(&mut verdict, &scene, &outcome, None, question),
     }
     verdict
 }
@@ -136,65 +137,85 @@ fn has_uniform_flow(question: &Question) -> bool {
     pushes.windows(2).any(|pair| pair[0] && !pair[1])
 }
 
-/// A run that could not go on: is there a reason in the equations?
-fn failed(verdict: &mut Verdict, scene: &Scene, broken: &Broken, mut question: Question) {
-    let (time, class) = match broken.failure {
-        ode::Failure::StepTooSmall { time, .. } => (time, "step too small"),
-        ode::Failure::TooManySteps { time, .. } => (time, "too many steps"),
-        ode::Failure::NotFinite { time, .. } => (time, "not finite"),
-        _ => (0.0, "other"),
-    };
-    // fixed steps that are too long, and step limits, are the user's affair
-    let is_own = class == "too many steps" || class == "not finite" && scene.method_is_fixed();
-    question.times = vec![time.max(1e-3 * scene.t_end), scene.t_end];
-    let mut answer = Answer::new(&question, Numbers::Doubles);
-    if !answer.is_settled() && answer.solution.end != End::Unfinished {
-        answer = Answer::new(&question, Numbers::Twofold);
-    }
-    let ends_there = matches!(answer.solution.end, End::Singular | End::BlownUp)
-        && answer.solution.time <= 1.001 * time.max(1e-3 * scene.t_end);
-    verdict.ending = format!("failed: {class}{}", if ends_there { ", where the solution ends" } else { "" });
-    if !ends_there && !is_own {
-        let Answer { solution, .. } = &answer;
-        verdict.findings.push(format!(
-            "{broken}; the second integration goes on: {:?} at t = {:?} with speeds up to {:e}",
-            solution.end, solution.time, solution.fastest
-        ));
-    }
-}
-
 trait Fixed {
-    fn method_is_fixed(&self) -> bool;
+    fn is_fixed(&self) -> bool;
 }
 
 impl Fixed for Scene {
-    fn method_is_fixed(&self) -> bool {
+    fn is_fixed(&self) -> bool {
         matches!(self.control, ode::Control::Fixed { .. })
     }
 }
 
-fn done(verdict: &mut Verdict, scene: &Scene, outcome: &Outcome, mut question: Question) {
-    let names: Vec<&str> = outcome.events.iter().map(|happening| happening.event.name()).collect();
-    let end = if outcome.statistics.time >= scene.t_end { "ran to t_end" } else { "ended" };
-    verdict.ending = if names.is_empty() { end.into() } else { format!("{end}: {}", names.join(", ")) };
-    if is_beyond(scene, outcome) {
-        verdict.ending.push_str(", by a step over the wall");
-    }
+/// A run with tables: are they right, and is its end?
+fn ended(verdict: &mut Verdict, scene: &Scene, outcome: &Outcome, broken: Option<&Broken>, mut question: Question) {
+    verdict.ending = ending(scene, outcome, broken);
     question.times = times(scene, outcome);
+    // what comes after the end tells whether there is a reason for it
+    if broken.is_some() || is_blown_up(outcome) {
+        question.times.push(scene.t_end);
+    }
     // what faster numbers cannot decide, better ones are asked
     for numbers in [Numbers::Doubles, Numbers::Twofold] {
         let answer = Answer::new(&question, numbers);
-        if numbers == Numbers::Doubles || answer.is_settled() {
+        if numbers == Numbers::Doubles || answer.is_settled(outcome.statistics.time) {
             verdict.ratios.clear();
             verdict.findings.clear();
             verdict.undecided.clear();
             let bound = Bound::new(scene, outcome, &answer);
             compare(verdict, scene, outcome, &answer, &bound);
+            if let Some(broken) = broken {
+                reason(verdict, scene, broken, &answer);
+            }
         }
         if verdict.undecided.is_empty() || answer.solution.end == End::Unfinished {
             return;
         }
     }
+}
+
+/// The end in a few words: how far it came, its kinds of events.
+fn ending(scene: &Scene, outcome: &Outcome, broken: Option<&Broken>) -> String {
+    let mut kinds: Vec<&str> = Vec::new();
+    for happening in &outcome.events {
+        if !kinds.contains(&happening.event.name()) {
+            kinds.push(happening.event.name());
+        }
+    }
+    let end = match broken {
+        Some(broken) => format!("failed: {}", broken.failure.name()),
+        None if outcome.statistics.time >= scene.t_end => "ran to t_end".to_owned(),
+        None => "ended".to_owned(),
+    };
+    let beyond = if is_beyond(scene, outcome) { ", by a step over the wall" } else { "" };
+    if kinds.is_empty() { format!("{end}{beyond}") } else { format!("{end}: {}{beyond}", kinds.join(", ")) }
+}
+
+/// A run that could not go on: is there a reason in the equations, or in what its user asked for?
+fn reason(verdict: &mut Verdict, scene: &Scene, broken: &Broken, answer: &Answer) {
+    let Answer { solution, .. } = answer;
+    let time = 1.001 * broken.outcome.statistics.time;
+    let is_own = match broken.failure {
+        ode::Failure::TooManySteps { .. } => true,
+        ode::Failure::NotFinite { .. } => scene.is_fixed(),
+        _ => false,
+    };
+    let ends_there = matches!(solution.end, End::Singular | End::BlownUp) && solution.time <= time;
+    // positions tell no room below their rounding
+    let (room, when) = solution.least[0];
+    let is_blind = scene.form == FormKind::Positions && when <= time && room < 1e-10 * scene.ring.length;
+    if !is_own && !ends_there && !is_blind {
+        let text = format!(
+            "{broken}; the second integration goes on: {:?} at t = {:?} with speeds up to {:e}",
+            solution.end, solution.time, solution.fastest
+        );
+        let is_known = solution.time > time;
+        if is_known { verdict.findings.push(text) } else { verdict.undecided.push(text) }
+    }
+}
+
+fn is_blown_up(outcome: &Outcome) -> bool {
+    outcome.events.iter().any(|happening| happening.event == Event::BlowUp)
 }
 
 /// The times of the rows, and the end, unless a step was too long for a wall: what is right after it is no question.
@@ -212,7 +233,7 @@ pub fn times(scene: &Scene, outcome: &Outcome) -> Vec<f64> {
 /// Whether a fixed step went through a singular force, which no solution does.
 fn is_beyond(scene: &Scene, outcome: &Outcome) -> bool {
     let is_over = |happening: &Happening| happening.event == Event::Overlap;
-    scene.model.is_singular() && scene.method_is_fixed() && outcome.events.iter().any(is_over)
+    scene.model.is_singular() && scene.is_fixed() && outcome.events.iter().any(is_over)
 }
 
 /// The comparison of one number.
@@ -249,7 +270,7 @@ impl Compared {
 }
 
 fn compare(verdict: &mut Verdict, scene: &Scene, outcome: &Outcome, answer: &Answer, bound: &Bound) {
-    if !answer.is_settled() {
+    if !answer.is_settled(outcome.statistics.time) {
         let ends = (answer.solution.end, answer.second.end, answer.solution.time);
         verdict.undecided.push(format!("the second integration ends: {ends:?}"));
         return;
@@ -287,8 +308,7 @@ fn compare(verdict: &mut Verdict, scene: &Scene, outcome: &Outcome, answer: &Ans
         }
     }
     // at a blow-up a rounding of the time is a large part of the speeds
-    let is_blown_up = outcome.events.iter().any(|happening| happening.event == Event::BlowUp);
-    if let Some((right, twin)) = answer.at(outcome.statistics.time).filter(|_| !is_blown_up) {
+    if let Some((right, twin)) = answer.at(outcome.statistics.time).filter(|_| !is_blown_up(outcome)) {
         state(verdict, right.time, (&outcome.positions, &outcome.speeds), right, twin, bound);
     }
     events(verdict, scene, outcome, answer, bound);
@@ -337,12 +357,20 @@ fn events(verdict: &mut Verdict, scene: &Scene, outcome: &Outcome, answer: &Answ
     for happening in &outcome.events {
         match kind(happening.event) {
             Some(kind) => crossing(verdict, happening, kind, scene, answer, bound),
-            None => blow_up(verdict, happening, answer, scene.ring.length),
+            None => blow_up(verdict, happening, answer, scene.ring.length, bound),
         }
     }
     for kind in Kind::ALL {
         let crossings = answer.crossings(kind);
         let Some(&(pedestrian, time, _, rate)) = crossings.first() else { continue };
+        let is_named = |n: usize| {
+            let mut events = outcome.events.iter();
+            events.any(|happening| happening.event.name() == kind.name() && happening.pedestrian == n)
+        };
+        let at_start = crossings.iter().filter(|(_, time, _, rate)| *time < 1e-15 * scene.t_end && *rate > 1e-9);
+        if let Some((n, ..)) = at_start.into_iter().find(|(n, ..)| !is_named(*n)) {
+            verdict.findings.push(format!("{} by pedestrian {n} at the start is not reported", kind.name()));
+        }
         let is_known = outcome.events.iter().any(|happening| happening.event.name() == kind.name());
         let latest = outcome.statistics.time - bound.moment(time, rate);
         if !is_known && time < latest {
@@ -388,14 +416,17 @@ fn crossing(verdict: &mut Verdict, happening: &Happening, kind: Kind, scene: &Sc
 }
 
 /// Speeds double at every throw, so the end is as near as the ring is long over the speed reached.
-fn blow_up(verdict: &mut Verdict, happening: &Happening, answer: &Answer, length: f64) {
+fn blow_up(verdict: &mut Verdict, happening: &Happening, answer: &Answer, length: f64, bound: &Bound) {
     let solution = &answer.solution;
-    let allowed = length / solution.fastest + 1e-6 * solution.time;
+    let found = happening.time;
+    let allowed = length / solution.fastest.max(1.0) + 1e-6 * solution.time + bound.moment(found, 1.0);
     let is_end = matches!(solution.end, End::BlownUp | End::Singular);
-    if !is_end || (happening.time - solution.time).abs() > allowed {
-        verdict.findings.push(format!(
-            "blow-up at t = {:?}; right: {:?} at {:?} with speeds of {:e}",
-            happening.time, solution.end, solution.time, solution.fastest
-        ));
+    if !is_end || (found - solution.time).abs() > allowed {
+        let text = format!(
+            "blow-up at t = {found:?}; right: {:?} at {:?} with speeds of {:e}",
+            solution.end, solution.time, solution.fastest
+        );
+        let is_unknown = solution.end == End::Unfinished && solution.time < found + allowed;
+        if is_unknown { verdict.undecided.push(text) } else { verdict.findings.push(text) }
     }
 }
