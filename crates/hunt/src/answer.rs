@@ -2,6 +2,7 @@
 
 use math::twofold::Twofold;
 use reference::flow::Form;
+use reference::number::Real;
 use reference::solution::{End, Kind, Question, Sample, Solution, solve};
 use reference::solver::Care;
 
@@ -29,17 +30,9 @@ pub enum Numbers {
 impl Answer {
     /// Answers the question.
     pub fn new(question: &Question, numbers: Numbers) -> Answer {
-        let care = |nodes, tolerance, most_work| Care { nodes, tolerance, most_work };
-        let form = Form::Differences;
         match numbers {
-            Numbers::Doubles => Answer {
-                solution: solve::<f64>(question, form, care(12, 1e-13, 10_000_000), FASTEST),
-                second: solve::<f64>(question, form, care(9, 1e-13, 15_000_000), FASTEST),
-            },
-            Numbers::Twofold => Answer {
-                solution: solve::<Twofold>(question, form, care(20, 1e-20, 1_000_000), FASTEST),
-                second: solve::<Twofold>(question, form, care(16, 1e-19, 1_000_000), FASTEST),
-            },
+            Numbers::Doubles => pair::<f64>(question, [(12, 1e-13), (9, 1e-13)], 20_000_000),
+            Numbers::Twofold => pair::<Twofold>(question, [(20, 1e-20), (16, 1e-19)], 1_000_000),
         }
     }
 
@@ -71,4 +64,16 @@ impl Answer {
             })
             .collect()
     }
+}
+
+/// Solutions with so many nodes, to such tolerances. The second is not tried where the first is not finished.
+fn pair<T: Real>(question: &Question, cares: [(usize, f64); 2], most_work: u64) -> Answer {
+    let solved = |(nodes, tolerance), most_work| {
+        solve::<T>(question, Form::Differences, Care { nodes, tolerance, most_work }, FASTEST)
+    };
+    let solution = solved(cares[0], most_work);
+    // fewer nodes take more steps
+    let second =
+        if solution.end == End::Unfinished { solution.clone() } else { solved(cares[1], 3 * most_work / 2) };
+    Answer { solution, second }
 }

@@ -162,6 +162,15 @@ impl<T: Real> Flow<T> {
         parts.iter().fold(0.0_f64, |largest, part| largest.max(part.value().abs()))
     }
 
+    /// The largest acceleration, in size.
+    pub fn acceleration(&self, state: &[T]) -> f64 {
+        let n = self.pedestrians;
+        let mut rates = vec![T::from(0.0); self.dimension()];
+        self.rates(state, &mut rates, &mut Vec::new());
+        let of_flow = rates[2 * n + 2];
+        rates[n..2 * n].iter().fold(0.0, |largest, rate| largest.max((of_flow + *rate).value().abs()))
+    }
+
     /// The least room.
     pub fn least_room(&self, state: &[T]) -> f64 {
         (0..self.pedestrians).fold(f64::INFINITY, |least, n| least.min(self.room(state, n).value()))

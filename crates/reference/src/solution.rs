@@ -30,6 +30,8 @@ pub struct Sample {
     pub std: f64,
     /// The size of the perturbation.
     pub perturbation: f64,
+    /// The largest acceleration, in size: what a rounding of the time does to speeds.
+    pub acceleration: f64,
     /// Unwrapped positions.
     pub positions: Vec<f64>,
     /// Speeds.
@@ -180,6 +182,7 @@ fn sample<T: Real>(flow: &Flow<T>, time: f64, state: &[T]) -> Sample {
         time,
         std: flow.std(state).value(),
         perturbation: flow.perturbation(state),
+        acceleration: flow.acceleration(state),
         positions: flow.positions(state).into_iter().map(T::value).collect(),
         speeds: speeds(flow, state),
     }
