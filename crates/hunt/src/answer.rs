@@ -73,7 +73,6 @@ fn pair<T: Real>(question: &Question, cares: [(usize, f64); 2], most_work: u64) 
     };
     let solution = solved(cares[0], most_work);
     // fewer nodes take more steps
-    let second =
-        if solution.end == End::Unfinished { solution.clone() } else { solved(cares[1], 3 * most_work / 2) };
+    let second = if solution.end == End::Unfinished { solution.clone() } else { solved(cares[1], 3 * most_work / 2) };
     Answer { solution, second }
 }
