@@ -37,6 +37,8 @@ pub struct Ratio {
     pub error: f64,
     /// That allowed.
     pub allowed: f64,
+    /// That of the second integration, by its own account.
+    pub uncertainty: f64,
     /// The largest size of such a number.
     pub range: f64,
 }
@@ -257,12 +259,12 @@ impl Compared {
                     .undecided
                     .push(format!("{what} at {time:?}: allowed {allowed:e}, uncertain by {uncertainty:e}"));
             }
-            verdict.ratios.push(Ratio { what, error, allowed, range });
+            verdict.ratios.push(Ratio { what, error, allowed, uncertainty, range });
         } else if error > 3.0 * uncertainty {
             verdict.findings.push(format!(
                 "{what} at t = {time:?} is {found:?}, right is {right:?} (sure to {uncertainty:.1e}): off by {error:.2e}, allowed {allowed:.2e}"
             ));
-            verdict.ratios.push(Ratio { what, error, allowed, range });
+            verdict.ratios.push(Ratio { what, error, allowed, uncertainty, range });
         } else {
             verdict.undecided.push(format!("{what} at {time:?}: off by {error:e}, uncertain by {uncertainty:e}"));
         }

@@ -39,6 +39,7 @@ pub fn hunt(from: u64, count: u64, threads: usize) -> Vec<Hunted> {
 pub fn table(all: &[Hunted]) -> String {
     let mut endings: BTreeMap<&str, usize> = BTreeMap::new();
     let mut ratios: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
+    let mut own = Vec::new();
     let (mut findings, mut undecided) = (String::new(), String::new());
     let mut runs = 0;
     for hunted in all {
@@ -47,6 +48,7 @@ pub fn table(all: &[Hunted]) -> String {
             *endings.entry(&verdict.ending).or_default() += 1;
             for ratio in &verdict.ratios {
                 ratios.entry(ratio.what).or_default().push(ratio.value());
+                own.push(ratio.uncertainty / ratio.allowed);
             }
             let label = format!("{} {} [{}] {}", hunted.seed, verdict.panel, verdict.method, verdict.ending);
             // writing to a string cannot fail
@@ -61,19 +63,10 @@ pub fn table(all: &[Hunted]) -> String {
     for (ending, count) in endings {
         let _ = writeln!(text, "{count:7}  {ending}");
     }
-    for (what, mut values) in ratios {
-        values.sort_by(f64::total_cmp);
-        let quantile = |q: f64| values[((values.len() - 1) as f64 * q) as usize];
-        let _ = writeln!(
-            text,
-            "error / allowed of {what}: {} numbers, median {:.2e}, 90 % {:.2e}, 99 % {:.2e}, worst {:.2e}",
-            values.len(),
-            quantile(0.5),
-            quantile(0.9),
-            quantile(0.99),
-            quantile(1.0)
-        );
+    for (what, values) in ratios {
+        let _ = writeln!(text, "error / allowed of {what}: {}", distribution(values));
     }
+    let _ = writeln!(text, "the second integration's own error / allowed: {}", distribution(own));
     let _ = write!(
         text,
         "findings: {}\n{findings}undecided: {}\n{undecided}",
@@ -81,4 +74,11 @@ pub fn table(all: &[Hunted]) -> String {
         undecided.lines().count()
     );
     text
+}
+
+fn distribution(mut values: Vec<f64>) -> String {
+    values.sort_by(f64::total_cmp);
+    let quantile = |q: f64| values.get((values.len().saturating_sub(1) as f64 * q) as usize).copied().unwrap_or(0.0);
+    let [half, most, nearly, all] = [0.5, 0.9, 0.99, 1.0].map(quantile);
+    format!("{} numbers, median {half:.1e}, 90 % {most:.1e}, 99 % {nearly:.1e}, worst {all:.1e}", values.len())
 }

@@ -3,7 +3,7 @@
 use hunt::draw;
 use hunt::judge::{self, Verdict};
 
-const SCENE: &str = "title = \"two laws\"\n[law]\nkind = \"exponential\"\na = 3.0\nb = 1.5\nc = 4.0\na_v = 0.1\nepsilon = 0.01\nv0 = 1.2\n[ring]\npedestrians = 12\nlength = 36.0\n[start]\nshift = 0.3\n[run]\nmethod = \"dop853\"\ntolerance = 1e-10\nt_end = 20.0\nsample = 2.0\n";
+const SCENE: &str = "title = \"two laws\"\n[law]\nkind = \"exponential\"\na = 3.0\nb = 1.5\nc = 4.0\na_v = 0.1\nepsilon = 0.01\nv0 = 1.2\n[ring]\npedestrians = 12\nlength = 36.0\n[start]\nshift = 0.3\n[run]\nmethod = \"dop853\"\ntolerance = 1e-12\nt_end = 20.0\nsample = 2.0\n";
 
 fn judged_as(other: &str) -> Verdict {
     judge::scene_as(SCENE, other).pop().expect("a panel")
