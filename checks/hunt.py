@@ -16,6 +16,14 @@ from scipy.integrate import solve_ivp
 C = np.e - 1.0
 # a kink is felt at this distance, in units of its width; wider ramps need no care
 FELT, WIDE = 40.0, 0.03
+# tab:model; what a preset leaves open stands in the scene
+PRESETS = {
+    "CFM": {"mu": 0.0, "delta": 1.0, "q": 1.0},
+    "GCFM": {"delta": 1.0, "q": 1.0},
+    "HFV": {"q": 2.0},
+    "SEY": {"q": 2.0},
+    "GUO": {"q": 1.0},
+}
 
 
 def ramp(x, epsilon):
@@ -27,7 +35,7 @@ class Ring:
     def __init__(self, scene, panel):
         over = scene.get("panel", {}).get(panel, {})
         table = {name: scene[name] | over.get(name, {}) for name in ("law", "ring", "start")}
-        self.law, self.count = table["law"], table["ring"]["pedestrians"]
+        self.law, self.count = table["law"] | PRESETS.get(table["law"].get("preset"), {}), table["ring"]["pedestrians"]
         self.epsilon, self.a_v = self.law.get("epsilon", 0.1), self.law.get("a_v", 0.0)
         self.headway = table["ring"]["length"] / self.count
         shift = table["start"]["shift"]

@@ -74,37 +74,60 @@ fn law(random: &mut Random) -> Law {
     let mut law = match random.pick(&["algebraic", "exponential", "logarithmic"]) {
         "algebraic" => algebraic(random, v0, epsilon, a_v),
         "exponential" => exponential(random, v0, epsilon, a_v),
-        _ => Law {
-            text: format!("kind = \"logarithmic\"\nepsilon = {epsilon:?}\n"),
-            v0,
-            contact: 0.0,
-            has_series: a_v == 0.0,
-            steepness: Steepness { by_room: Box::new(|_| 0.0), balanced: v0, widening: a_v, by_speed: 0.0 },
-        },
+        _ => logarithmic(v0, epsilon, a_v),
     };
     push(&mut law.text, "v0", v0);
-    optional(&mut law.text, "a_v", a_v);
     law
 }
 
+fn logarithmic(v0: f64, epsilon: f64, a_v: f64) -> Law {
+    let mut text = format!("kind = \"logarithmic\"\nepsilon = {epsilon:?}\n");
+    optional(&mut text, "a_v", a_v);
+    let steepness = Steepness { by_room: Box::new(|_| 0.0), balanced: v0, widening: a_v, by_speed: 0.0 };
+    Law { text, v0, contact: 0.0, has_series: a_v == 0.0, steepness }
+}
+
 fn algebraic(random: &mut Random, v0: f64, epsilon: f64, a_v: f64) -> Law {
-    let mu = decades(random, -2.0, 0.7);
-    let delta = perhaps(random, -3.0, 0.5);
-    let q = if random.chance(0.5) { random.pick(&[1.0, 2.0, 3.0]) } else { short(random.between(0.3, 4.0)) };
+    let mut mu = decades(random, -2.0, 0.7);
+    let mut delta = perhaps(random, -3.0, 0.5);
+    let mut q = if random.chance(0.5) { random.pick(&[1.0, 2.0, 3.0]) } else { short(random.between(0.3, 4.0)) };
     let mut text = "kind = \"algebraic\"\n".to_owned();
-    push(&mut text, "mu", mu);
-    push(&mut text, "q", q);
-    optional(&mut text, "delta", delta);
+    let mut widening = a_v;
+    if random.chance(0.15) {
+        // tab:model: what a preset fixes must not be given
+        let name = random.pick(&["CFM", "GCFM", "HFV", "SEY", "GUO"]);
+        let _ = writeln!(text, "preset = \"{name}\"");
+        (delta, q) = match name {
+            "CFM" | "GCFM" => (1.0, 1.0),
+            "GUO" => (0.0, 1.0),
+            _ => (0.0, 2.0),
+        };
+        if name == "CFM" {
+            mu = epsilon * std::f64::consts::LN_2;
+        } else {
+            push(&mut text, "mu", mu);
+        }
+        let is_open = matches!(name, "GCFM" | "SEY");
+        widening = if is_open { a_v.max(0.01) } else { 0.0 };
+        if is_open {
+            push(&mut text, "a_v", widening);
+        }
+    } else {
+        push(&mut text, "mu", mu);
+        push(&mut text, "q", q);
+        optional(&mut text, "delta", delta);
+        optional(&mut text, "a_v", a_v);
+    }
     if delta > 0.0 {
         push(&mut text, "epsilon", epsilon);
     }
     let steepness = Steepness {
         by_room: Box::new(move |room| q * mu * mu / math::pow(room, q + 1.0)),
         balanced: q * v0 / math::pow(mu * mu / v0, 1.0 / q),
-        widening: a_v,
+        widening,
         by_speed: 2.0 * delta * v0 / mu,
     };
-    Law { text, v0, contact: 2.0, has_series: delta == 0.0 && a_v == 0.0, steepness }
+    Law { text, v0, contact: 2.0, has_series: delta == 0.0 && widening == 0.0, steepness }
 }
 
 fn exponential(random: &mut Random, v0: f64, epsilon: f64, a_v: f64) -> Law {
@@ -114,6 +137,7 @@ fn exponential(random: &mut Random, v0: f64, epsilon: f64, a_v: f64) -> Law {
     push(&mut text, "a", a);
     push(&mut text, "b", b);
     optional(&mut text, "c", c);
+    optional(&mut text, "a_v", a_v);
     if c > 0.0 {
         push(&mut text, "epsilon", epsilon);
     }
@@ -162,6 +186,10 @@ fn run(random: &mut Random, law: &Law, pedestrians: usize, rate: f64) -> String 
     }
     if !method.needs_series() && random.chance(0.4) {
         let _ = writeln!(text, "state = \"{}\"", random.pick(&["gaps", "positions", "deviations"]));
+    }
+    // refused where the force is infinite at contact
+    if law.contact > 0.0 && random.chance(if law.text.contains("algebraic") { 0.01 } else { 0.1 }) {
+        text.push_str("at_overlap = \"continue\"\n");
     }
     if random.chance(0.25) {
         text.push_str("record = \"std\"\n");

@@ -3,6 +3,7 @@
 use crate::answer::{Answer, Numbers};
 use crate::bound::Bound;
 use crate::question;
+use crate::stated;
 use files::recipe;
 use jam::events::{Event, Happening};
 use jam::states::FormKind;
@@ -22,6 +23,8 @@ pub struct Verdict {
     pub ending: String,
     /// True errors over the errors that are allowed.
     pub ratios: Vec<Ratio>,
+    /// True errors over those that the run states.
+    pub stated: Vec<Ratio>,
     /// What is wrong.
     pub findings: Vec<String>,
     /// What the second integration could not decide.
@@ -71,6 +74,7 @@ fn named(panel: &str) -> Verdict {
         method: String::new(),
         ending: String::new(),
         ratios: Vec::new(),
+        stated: Vec::new(),
         findings: Vec::new(),
         undecided: Vec::new(),
     }
@@ -112,6 +116,7 @@ fn refused(verdict: &mut Verdict, problem: &str, question: &Question) {
         ("closes a gap", "refused: shift closes a gap"),
         ("gaps are closed", "refused: closed gaps"),
         ("give either dt or tolerance", "refused: dt and tolerance"),
+        ("no run goes on from there", "refused: no run goes on from an overlap"),
     ];
     let class = known.iter().find(|(words, _)| problem.contains(words));
     verdict.ending = class.map_or("refused: other", |(_, class)| class).into();
@@ -162,10 +167,14 @@ fn ended(verdict: &mut Verdict, scene: &Scene, outcome: &Outcome, broken: Option
         let answer = Answer::new(&question, numbers);
         if numbers == Numbers::Doubles || answer.is_settled(outcome.statistics.time) {
             verdict.ratios.clear();
+            verdict.stated.clear();
             verdict.findings.clear();
             verdict.undecided.clear();
             let bound = Bound::new(scene, outcome, &answer);
             compare(verdict, scene, outcome, &answer, &bound);
+            if broken.is_none() {
+                verdict.stated = stated::ratios(scene, outcome, &answer);
+            }
             if let Some(broken) = broken {
                 reason(verdict, scene, broken, &answer);
             }
@@ -216,7 +225,8 @@ fn reason(verdict: &mut Verdict, scene: &Scene, broken: &Broken, answer: &Answer
     }
 }
 
-fn is_blown_up(outcome: &Outcome) -> bool {
+/// Whether the run ended in a blow-up.
+pub fn is_blown_up(outcome: &Outcome) -> bool {
     outcome.events.iter().any(|happening| happening.event == Event::BlowUp)
 }
 
@@ -233,7 +243,7 @@ pub fn times(scene: &Scene, outcome: &Outcome) -> Vec<f64> {
 }
 
 /// Whether a fixed step went through a singular force, which no solution does.
-fn is_beyond(scene: &Scene, outcome: &Outcome) -> bool {
+pub fn is_beyond(scene: &Scene, outcome: &Outcome) -> bool {
     let is_over = |happening: &Happening| happening.event == Event::Overlap;
     scene.model.is_singular() && scene.is_fixed() && outcome.events.iter().any(is_over)
 }
@@ -346,7 +356,8 @@ fn state(
     }
 }
 
-fn kind(event: Event) -> Option<Kind> {
+/// What becomes negative in an event.
+pub fn kind(event: Event) -> Option<Kind> {
     match event {
         Event::Overlap => Some(Kind::Overlap),
         Event::NegativeSpeed => Some(Kind::NegativeSpeed),

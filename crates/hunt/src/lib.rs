@@ -10,3 +10,4 @@ pub mod judge;
 pub mod question;
 pub mod random;
 pub mod report;
+pub mod stated;

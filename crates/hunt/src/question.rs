@@ -25,7 +25,16 @@ pub fn read(text: &str, panel: &str) -> Result<Question, String> {
     let (a_v, v0, epsilon) = (or("a_v", 0.0), number("law", "v0")?, or("epsilon", 0.1));
     let formula = match find("law", "kind").as_ref().and_then(Value::as_str) {
         Some("algebraic") => {
-            let (mu, delta, q) = (number("law", "mu")?, or("delta", 0.0), number("law", "q")?);
+            let (mu, delta, q, a_v) = match find("law", "preset").as_ref().and_then(Value::as_str) {
+                None => (number("law", "mu")?, or("delta", 0.0), number("law", "q")?, a_v),
+                // tab:model
+                Some("CFM") => (0.0, 1.0, 1.0, 0.0),
+                Some("GCFM") => (number("law", "mu")?, 1.0, 1.0, number("law", "a_v")?),
+                Some("HFV") => (number("law", "mu")?, 0.0, 2.0, 0.0),
+                Some("SEY") => (number("law", "mu")?, 0.0, 2.0, number("law", "a_v")?),
+                Some("GUO") => (number("law", "mu")?, 0.0, 1.0, 0.0),
+                Some(name) => return Err(format!("the second reader knows no preset {name}")),
+            };
             Formula::Algebraic { mu, delta, q, a_v, epsilon, v0 }
         }
         Some("exponential") => {

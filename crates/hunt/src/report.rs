@@ -1,6 +1,6 @@
 //! Many scenes, and what came of them.
 
-use crate::judge::{Verdict, scene};
+use crate::judge::{Ratio, Verdict, scene};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -66,6 +66,7 @@ pub fn table(all: &[Hunted]) -> String {
     for (what, values) in ratios {
         let _ = writeln!(text, "error / allowed of {what}: {}", distribution(values));
     }
+    text.push_str(&honesty(all));
     let _ = writeln!(text, "the second integration's own error / allowed: {}", distribution(own));
     let _ = write!(
         text,
@@ -73,6 +74,33 @@ pub fn table(all: &[Hunted]) -> String {
         findings.lines().count(),
         undecided.lines().count()
     );
+    text
+}
+
+/// How honest the errors are that runs state: true over stated, and how much too cautious.
+fn honesty(all: &[Hunted]) -> String {
+    let mut by_number: BTreeMap<&str, Vec<&Ratio>> = BTreeMap::new();
+    for ratio in all.iter().flat_map(|hunted| &hunted.verdicts).flat_map(|verdict| &verdict.stated) {
+        by_number.entry(ratio.what).or_default().push(ratio);
+    }
+    let mut text = String::new();
+    for (what, ratios) in by_number {
+        let share = |of: &[&Ratio], is: &dyn Fn(&Ratio) -> bool| {
+            100.0 * of.iter().filter(|ratio| is(ratio)).count() as f64 / of.len().max(1) as f64
+        };
+        let visible: Vec<&Ratio> = ratios.iter().copied().filter(|ratio| ratio.error > 1e-14 * ratio.range).collect();
+        let _ = writeln!(
+            text,
+            "stated error of {what}: {} numbers, true error within 10 times of {:.2} %, within 3 times of {:.2} %; of {} with \
+             a true error above 1e-14 of the range the stated one is at most 100 times that of {:.1} %; true / stated: {}",
+            ratios.len(),
+            share(&ratios, &|ratio| ratio.value() <= 10.0),
+            share(&ratios, &|ratio| ratio.value() <= 3.0),
+            visible.len(),
+            share(&visible, &|ratio| ratio.value() >= 0.01),
+            distribution(ratios.iter().map(|ratio| ratio.value()).collect())
+        );
+    }
     text
 }
 
