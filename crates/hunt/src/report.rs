@@ -84,6 +84,15 @@ fn honesty(all: &[Hunted]) -> String {
         by_number.entry(ratio.what).or_default().push(ratio);
     }
     let mut text = String::new();
+    for Hunted { seed, verdicts } in all {
+        for verdict in verdicts {
+            for ratio in verdict.stated.iter().filter(|ratio| ratio.value() > 10.0) {
+                let Ratio { what, error, allowed, .. } = ratio;
+                let label = format!("{seed} {} [{}] {}", verdict.panel, verdict.method, verdict.ending);
+                let _ = writeln!(text, "  {label}: error of {what} {error:.2e}, stated {allowed:.2e}");
+            }
+        }
+    }
     for (what, ratios) in by_number {
         let share = |of: &[&Ratio], is: &dyn Fn(&Ratio) -> bool| {
             100.0 * of.iter().filter(|ratio| is(ratio)).count() as f64 / of.len().max(1) as f64

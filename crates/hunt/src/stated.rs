@@ -2,6 +2,7 @@
 
 use crate::answer::Answer;
 use crate::judge::{Ratio, is_beyond, is_blown_up, kind};
+use jam::states::FormKind;
 use ode::{Control, Method};
 use scene::run::Scene;
 use scene::simulation::{Outcome, run};
@@ -81,19 +82,25 @@ fn stated(scene: &Scene, outcome: &Outcome) -> Option<Stated> {
     }
     let other = run(&other).ok()?;
     let factor = if matches!(scene.control, Control::Fixed { .. }) { 2.0 } else { 1.0 };
-    let apart = |a: &[f64], b: &[f64]| {
-        factor * largest(a.iter().zip(b).map(|(a, b)| a - b)) + ROUNDING * largest(a.iter().copied())
-    };
+    let apart = |a: &[f64], b: &[f64]| factor * largest(a.iter().zip(b).map(|(a, b)| a - b));
     let std = |outcome: &Outcome| outcome.std.rows().map(|row| row[1]).collect::<Vec<f64>>();
+    let deviations = std(outcome);
+    let (x, v) = (largest(outcome.positions.iter().copied()), largest(outcome.speeds.iter().copied()));
+    // roundings that both runs have: of what std is the difference of, and of positions in every fixed step
+    let shared = if scene.form == FormKind::Deviations { largest(deviations.iter().copied()) } else { v };
+    let gathered = match scene.control {
+        Control::Fixed { .. } => 0.5 * f64::EPSILON * outcome.statistics.steps as f64,
+        Control::Adaptive { .. } => 0.0,
+    };
     let events = outcome.events.iter().map(|happening| {
         let twin =
             other.events.iter().find(|twin| (twin.event, twin.pedestrian) == (happening.event, happening.pedestrian));
         twin.map_or(f64::INFINITY, |twin| factor * (twin.time - happening.time).abs() + ROUNDING * happening.time)
     });
     Some(Stated {
-        std: apart(&std(outcome), &std(&other)),
-        position: apart(&outcome.positions, &other.positions),
-        speed: apart(&outcome.speeds, &other.speeds),
+        std: apart(&deviations, &std(&other)) + ROUNDING * shared + f64::MIN_POSITIVE,
+        position: apart(&outcome.positions, &other.positions) + (ROUNDING + gathered) * x,
+        speed: apart(&outcome.speeds, &other.speeds) + ROUNDING * v,
         events: events.collect(),
     })
 }
