@@ -211,6 +211,10 @@ impl Job {
             Kind::Map => {
                 let map = scene::map::read(&self.recipe.file, &panel.tables)?;
                 let computed = map.compute().map_err(Failure::input)?;
+                if !computed.blank.is_empty() {
+                    let problem = format!("{}: {} cells are blank", panel.name, computed.blank.len());
+                    return Err(Failure::work(problem));
+                }
                 let error = json!({ map.columns()[2]: computed.error });
                 self.report.insert(panel.name.clone(), json!({ "method": "closed form", "error": error }));
                 computed.table

@@ -7,7 +7,7 @@ use files::recipe::{self, Kind};
 use files::write::{atomic_all, with_path};
 use plot::style::COLUMN_WIDTH;
 use plot::{ColorScale, Picture};
-use scene::map::Computed;
+use scene::map::{Computed, Value};
 use serde_json::json;
 use std::path::PathBuf;
 
@@ -27,9 +27,6 @@ pub struct Arguments {
     #[arg(long)]
     json: bool,
 }
-
-/// Ends of the colour bar: the smallest that holds all values is taken, or the last.
-const LIMITS: [f64; 6] = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5];
 
 /// Computes the maps and writes what was asked for.
 ///
@@ -51,13 +48,23 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     for (name, map, numbers) in &computed {
         let [_, _, value] = map.columns();
         let values = numbers.table.column(value)?;
-        let unstable = values.iter().filter(|&&value| value > 0.0).count() as f64 / values.len() as f64;
-        let (cells, error) = (values.len(), numbers.error);
-        summary
-            .push(json!({ "panel": name, "value": value, "cells": cells, "unstable_share": unstable, "error": error }));
-        words.push(format!("{name}: {cells} cells, {:.1} % unstable, error {error:.1e}", 100.0 * unstable));
+        let share = |count: usize| count as f64 / (values.len() + numbers.blank.len()) as f64;
+        let unstable = share(values.iter().filter(|&&value| value > 0.0).count());
+        let (cells, error, blank) = (values.len() + numbers.blank.len(), numbers.error, numbers.blank_share());
+        let reason = (blank > 0.0).then_some(BLANK);
+        summary.push(json!({
+            "panel": name,
+            "value": value,
+            "cells": cells,
+            "unstable_share": unstable,
+            "blank_share": blank,
+            "blank_reason": reason,
+            "error": error,
+        }));
+        let note = reason.map_or(String::new(), |reason| format!(", {:.1} % blank: {reason}", 100.0 * blank));
+        words.push(format!("{name}: {cells} cells, {:.1} % unstable{note}, error {error:.1e}", 100.0 * unstable));
         let Some(folder) = &arguments.out else { continue };
-        files.push((folder.join(format!("{name}.csv")), numbers.table.to_csv()));
+        files.push((folder.join(format!("{name}.csv")), numbers.to_csv(map)));
         if !arguments.tables_only {
             let rendered = picture(map, numbers, &values)?.render().map_err(Failure::work)?;
             files.push((folder.join(format!("{name}.svg")), rendered.svg));
@@ -71,10 +78,33 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     print(&if arguments.json { json!({ "schema_version": 1, "maps": summary }).to_string() } else { words.join("\n") })
 }
 
+/// Why a cell is blank.
+const BLANK: &str = "the paper's criterion differs there from the exact one by more than 0.1 %; `margin` is exact";
+
 fn picture(map: &scene::map::Map, numbers: &Computed, values: &[f64]) -> Result<Picture, Failure> {
     let largest = values.iter().fold(0.0, |most: f64, value| if value.abs() > most { value.abs() } else { most });
-    let limit = LIMITS.into_iter().find(|&limit| largest <= limit).unwrap_or(0.5);
-    let symbol = if map.columns()[2] == "phi" { "$\\Phi$" } else { "$\\mathrm{Re}\\,z^+$" };
-    let panel = map_panel(map, &numbers.table, Labels { horizontal: true, vertical: true })?;
-    Ok(Picture::new(COLUMN_WIDTH, 70.0).scale(ColorScale::diverging(symbol, limit)).panel(panel))
+    let symbol = match map.value {
+        Value::Margin => "margin",
+        Value::Criterion => "$\\Phi$",
+        Value::GrowthRate => "$\\mathrm{Re}\\,z^+$",
+    };
+    let panel = map_panel(map, &numbers.values(), Labels { horizontal: true, vertical: true })?;
+    let picture = Picture::new(COLUMN_WIDTH, 70.0).scale(ColorScale::diverging(symbol, limit(largest)));
+    Ok(if numbers.blank.is_empty() {
+        picture.panel(panel)
+    } else {
+        let percent = 100.0 * numbers.blank_share();
+        picture.titled(&format!("grey, {percent:.1} %: criterion not exact to 0.1 %"), panel)
+    })
 }
+
+/// The end of the colour bar: 1, 2 or 5 times a power of ten that holds all values, 0.5 at most.
+fn limit(largest: f64) -> f64 {
+    let largest = if largest > 1e-300 { largest } else { 1e-300 };
+    let decade = math::pow(10.0, math::log10(largest).floor());
+    let rounded = [1.0, 2.0, 5.0, 10.0].map(|step| step * decade).into_iter().find(|&limit| largest <= limit);
+    rounded.filter(|&limit| limit < WIDEST).unwrap_or(WIDEST)
+}
+
+/// The widest colour bar.
+const WIDEST: f64 = 0.5;

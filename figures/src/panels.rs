@@ -48,7 +48,7 @@ pub fn map_grid(
     for (index, panel) in panels.iter().enumerate() {
         let map = scene::map::read(&job.recipe.file, &job.panel(panel.name)?.tables)?;
         let labels = Labels { horizontal: index + columns >= panels.len(), vertical: index % columns == 0 };
-        let mut drawn = map_panel(&map, &job.read(panel.name)?, labels)?;
+        let mut drawn = map_panel(&map, &job.read(panel.name)?.column(map.columns()[2])?, labels)?;
         for &(name, at) in panel.regions {
             drawn = drawn.region(name, at);
         }
@@ -57,13 +57,12 @@ pub fn map_grid(
     Ok(picture)
 }
 
-/// The picture of a map, from its table.
+/// The picture of a map, from the values of its cells in the order of its table; NaN for those without one.
 ///
 /// # Errors
-/// The table is not that of this map.
-pub fn map_panel(map: &scene::map::Map, table: &Table, labels: Labels) -> Result<Map, Failure> {
+/// They are not those of this map.
+pub fn map_panel(map: &scene::map::Map, values: &[f64], labels: Labels) -> Result<Map, Failure> {
     let (columns, rows) = (map.x.cells, map.y.cells);
-    let values = table.column(map.columns()[2])?;
     if values.len() != columns * rows {
         return Err(Failure::work(format!("a table of {} rows for a map of {columns} x {rows} cells", values.len())));
     }

@@ -31,7 +31,7 @@ impl Tables {
         match entry.content {
             Content::Map => {
                 let map = scene::map::read(&file, &panel.tables).map_err(|error| error.to_string())?;
-                Ok(map.compute()?.table.to_csv())
+                Ok(map.compute()?.to_csv(&map))
             }
             Content::Curve => {
                 let table = scene::curve::table(&file, &panel.tables).map_err(|error| error.to_string())?;

@@ -120,6 +120,12 @@ fn panels(base: &Section, named: &Section) -> Result<Vec<Panel>, (usize, String)
         .entries
         .iter()
         .map(|(name, entry)| {
+            // the name becomes that of a file
+            let is_good = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_' || byte == b'-';
+            if name.is_empty() || !name.bytes().all(is_good) {
+                let problem = "must be a name of the letters a to z and A to Z, digits, _ and -";
+                return Err((entry.line, format!("panel.{name:?}: {problem}")));
+            }
             let Value::Section(over) = &entry.value else {
                 return Err((entry.line, format!("panel.{name}: must be a table")));
             };

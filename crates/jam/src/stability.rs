@@ -80,6 +80,13 @@ impl Linear {
         2.0 * self.phi - (1.0 + 2.0 * self.kappa) * (1.0 + 2.0 * self.beta)
     }
 
+    /// [`Linear::long_wave_margin`] in twofold precision.
+    pub fn refined_margin(&self) -> f64 {
+        let twice = |x: f64| Twofold::from(2.0) * x;
+        let one = Twofold::from(1.0);
+        (twice(self.phi) - (one + twice(self.kappa)) * (one + twice(self.beta))).hi
+    }
+
     /// The largest growth rate among the waves `k = 2 pi l / N`, `l = 1 .. N/2`, and its `l`.
     pub fn fastest(&self, pedestrians: usize) -> (f64, usize) {
         let rate = |l: usize| self.growth_rate(2.0 * std::f64::consts::PI * l as f64 / pedestrians as f64);

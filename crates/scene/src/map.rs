@@ -2,7 +2,7 @@
 
 use crate::law;
 use files::reader::{FINITE, POSITIVE, Reader, RecipeError, Section};
-use files::table::Table;
+use files::table::{Table, push_number};
 use jam::criteria;
 use jam::laws::Model;
 use jam::stability::Linear;
@@ -34,7 +34,11 @@ impl Axis {
 /// Which number a map shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Value {
-    /// The paper's criterion, negative where the uniform flow is stable.
+    /// How far the uniform flow is from stability, exactly, for the waves of all lengths: negative where it is stable (see
+    /// [`Linear::long_wave_margin`]).
+    Margin,
+    /// The paper's criterion, negative where the uniform flow is stable; only where the assumptions hold that it was
+    /// derived with.
     Criterion,
     /// `Re z^+`.
     GrowthRate,
@@ -62,13 +66,61 @@ struct Point {
     wave_number: Option<f64>,
 }
 
+/// The names of the values in scene files.
+const VALUES: [(&str, Value); 3] =
+    [("margin", Value::Margin), ("criterion", Value::Criterion), ("growth_rate", Value::GrowthRate)];
+
+/// The criterion is left out where it differs by more than this from the exact one, relative to values above 1.
+pub const CRITERION_HOLDS: f64 = 1e-3;
+
 /// The numbers of a map and how exact they are.
 #[derive(Clone, Debug)]
 pub struct Computed {
-    /// One row a cell: the two parameters and the value.
+    /// One row for each cell that has a value: the two parameters and the value.
     pub table: Table,
+    /// The cells without a value, by their number in the order of the table with all of them: those in which the paper's
+    /// criterion differs from the exact one by more than [`CRITERION_HOLDS`].
+    pub blank: Vec<usize>,
     /// The largest difference from the same value found another way; relative to values above 1.
     pub error: f64,
+}
+
+impl Computed {
+    /// The values of all cells, NaN for blank ones, as a picture takes them.
+    pub fn values(&self) -> Vec<f64> {
+        let (mut rows, mut blank) = (self.table.rows(), self.blank.iter().peekable());
+        let cells = self.table.len() + self.blank.len();
+        let mut value = |cell: usize| match blank.next_if_eq(&&cell) {
+            Some(_) => f64::NAN,
+            None => rows.next().map_or(f64::NAN, |row| row[2]),
+        };
+        (0..cells).map(&mut value).collect()
+    }
+
+    /// The part of the cells that are blank.
+    pub fn blank_share(&self) -> f64 {
+        self.blank.len() as f64 / (self.table.len() + self.blank.len()) as f64
+    }
+
+    /// The table of this map as CSV, the value of blank cells empty.
+    pub fn to_csv(&self, map: &Map) -> Vec<u8> {
+        if self.blank.is_empty() {
+            return self.table.to_csv();
+        }
+        let mut text = self.table.columns.join(",") + "\n";
+        for (cell, value) in self.values().into_iter().enumerate() {
+            let (x, y) = (map.x.centre(cell / map.y.cells), map.y.centre(cell % map.y.cells));
+            for (number, end) in [(x, ","), (y, ",")] {
+                push_number(&mut text, number);
+                text += end;
+            }
+            if !value.is_nan() {
+                push_number(&mut text, value);
+            }
+            text += "\n";
+        }
+        text.into_bytes()
+    }
 }
 
 /// Reads a map from the tables of a panel.
@@ -78,10 +130,7 @@ pub struct Computed {
 pub fn read(file: &str, tables: &Section) -> Result<Map, RecipeError> {
     let mut top = Reader::new(file, "scene", tables);
     let mut map = Reader::new(file, "map", top.section("map")?);
-    let value = match map.choice("value", &["criterion", "growth_rate"])? {
-        "criterion" => Value::Criterion,
-        _ => Value::GrowthRate,
-    };
+    let value = if map.has("value") { map.one_of("value", &VALUES)? } else { Value::Margin };
     let (x, y) = (axis(file, "map.x", map.section("x")?)?, axis(file, "map.y", map.section("y")?)?);
     let mut law_tables = top.section("law")?.clone();
     let [x_section, y_section] = [map.section("x")?, map.section("y")?];
@@ -171,8 +220,9 @@ impl Map {
         if self.value == Value::GrowthRate && !has("k") && self.point.wave_number.is_none() {
             return Some("growth_rate needs a wave number: an axis k, or uniform.k".to_owned());
         }
-        if self.value == Value::Criterion && (has("k") || self.point.wave_number.is_some()) {
-            return Some("the criterion is one for all waves: leave out k, or choose growth_rate".to_owned());
+        if self.value != Value::GrowthRate && (has("k") || self.point.wave_number.is_some()) {
+            let name = if self.value == Value::Margin { "margin" } else { "criterion" };
+            return Some(format!("the {name} is one for all waves: leave out k, or choose growth_rate"));
         }
         let gaps = [has("d_gap") || self.point.gap.is_some(), has("headway") || self.point.headway.is_some()];
         match (gaps, &self.model) {
@@ -188,6 +238,7 @@ impl Map {
     /// The columns of its table.
     pub fn columns(&self) -> [&'static str; 3] {
         let value = match self.value {
+            Value::Margin => "margin",
             Value::Criterion => "phi",
             Value::GrowthRate => "re_z",
         };
@@ -200,22 +251,24 @@ impl Map {
     /// A cell without a uniform flow or a finite value: its parameters.
     pub fn compute(&self) -> Result<Computed, String> {
         let mut table = Table::new(&self.columns());
-        let mut error: f64 = 0.0;
-        for i in 0..self.x.cells {
-            for j in 0..self.y.cells {
-                let (x, y) = (self.x.centre(i), self.y.centre(j));
-                let (value, other) = self
-                    .cell(x, y)
-                    .and_then(finite)
-                    .map_err(|why| format!("at {} = {x:?}, {} = {y:?}: {why}", self.x.parameter, self.y.parameter))?;
-                // relative where the value is large: there it lies far beyond the colours
-                let size = if value.abs() > 1.0 { value.abs() } else { 1.0 };
-                let difference = (value - other).abs() / size;
-                error = if difference > error || difference.is_nan() { difference } else { error };
-                table.push(&[x, y, value]);
+        let (mut error, mut blank) = (0.0, Vec::new());
+        for cell in 0..self.x.cells * self.y.cells {
+            let (x, y) = (self.x.centre(cell / self.y.cells), self.y.centre(cell % self.y.cells));
+            let (value, other) = self
+                .cell(x, y)
+                .and_then(finite)
+                .map_err(|why| format!("at {} = {x:?}, {} = {y:?}: {why}", self.x.parameter, self.y.parameter))?;
+            // relative where the value is large: there it lies far beyond the colours
+            let size = |value: f64| if value.abs() > 1.0 { value.abs() } else { 1.0 };
+            if self.value == Value::Criterion && (value - other).abs() > CRITERION_HOLDS * size(other) {
+                blank.push(cell);
+                continue;
             }
+            let difference = (value - other).abs() / size(value);
+            error = if difference > error || difference.is_nan() { difference } else { error };
+            table.push(&[x, y, value]);
         }
-        Ok(Computed { table, error })
+        Ok(Computed { table, blank, error })
     }
 
     /// The value of a cell, and the same found another way.
@@ -231,6 +284,7 @@ impl Map {
         }
         let (criterion, linear) = stability(&model, &point)?;
         Ok(match self.value {
+            Value::Margin => (linear.long_wave_margin(), linear.refined_margin()),
             Value::Criterion => (criterion, criterion_of(&model, &linear)),
             Value::GrowthRate => {
                 let k = point.wave_number.ok_or("needs a wave number")?;
@@ -292,7 +346,7 @@ fn stability(model: &Model, point: &Point) -> Result<(f64, Linear), String> {
     })
 }
 
-/// The criterion through the coefficients of the linearised law: `phi / (1 + 2 beta) - kappa - 1/2`, which for the
+/// The exact criterion, normalised like the paper's, through the coefficients of the linearised law: `phi / (1 + 2 beta) - kappa - 1/2`, which for the
 /// logarithmic law the paper divides once more by `1 + 2 beta`.
 fn criterion_of(model: &Model, linear: &Linear) -> f64 {
     let Linear { phi, beta, kappa } = *linear;

@@ -145,9 +145,17 @@ fn nothing_happens_where_nothing_is_negative() {
 }
 
 #[test]
-fn of_equals_the_first_is_named() {
+fn of_equals_all_are_named() {
     let swing = Swing::new([(5.0, 0.0), (3.0, 4.0), (3.0, 4.0)], [(1.0, 0.0); 3]);
-    assert_events(&swing_events(&swing, 0.0, ADAPTIVE), &[(Event::Overlap, 1, -0.25), (Event::Exchange, 1, -0.75)]);
+    let both = |event, cos| [(event, 1, cos), (event, 2, cos)];
+    let expected = [both(Event::Overlap, -0.25), both(Event::Exchange, -0.75)].concat();
+    assert_events(&swing_events(&swing, 0.0, ADAPTIVE), &expected);
+    // one that is later by more than a thousand millionth of the time is not at once with the first
+    let later = Swing::new([(5.0, 0.0), (3.0, 4.0), (3.0 + 1e-6, 4.0)], [(1.0, 0.0); 3]);
+    assert_eq!(swing_events(&later, 0.0, ADAPTIVE).len(), 2);
+    let earlier = Swing::new([(5.0, 0.0), (3.0, 4.0), (3.0 - 1e-6, 4.0)], [(1.0, 0.0); 3]);
+    let found = swing_events(&earlier, 0.0, ADAPTIVE);
+    assert!(found.len() == 2 && found.iter().all(|happening| happening.pedestrian == 2), "{found:?}");
 }
 
 #[test]

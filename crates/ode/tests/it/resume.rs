@@ -1,8 +1,11 @@
 //! Going on from a mark: the same bits and counts as without a break.
 
 use crate::problems::{general_methods, oscillator, solve};
-use ode::{Control, Failure, Mark, Method, Observer, Place, Problem, Statistics, Step, integrate, resume};
-use std::ops::ControlFlow;
+use ode::{
+    Control, Failure, Group, Mark, Measure, Method, Observer, Pace, Place, Problem, Statistics, Step, System, integrate,
+    resume,
+};
+use std::ops::{ControlFlow, Range};
 
 /// Keeps every mark it is shown.
 #[derive(Default)]
@@ -29,18 +32,101 @@ fn a_run_resumed_from_any_mark_has_the_same_bits_and_counts() {
         assert_eq!(whole, solve(&system, &[1.0, 0.0], 20.0005, method, control), "marks change nothing");
         assert_eq!(keeper.0.len(), 20_001 / 4096, "{}", method.name());
         for (place, statistics, state) in &keeper.0 {
-            let mark = Mark { place: *place, statistics, state };
+            let mark = Mark { place: *place, statistics, state, pace: None };
             let resumed = resume(&problem, &mark, &mut Keeper::default()).expect("nothing stands in the way");
             assert_eq!(resumed, whole, "{} from {place:?}", method.name());
         }
     }
 }
 
+/// A mark of adaptive steps that outlives them.
+struct Kept {
+    place: Place,
+    statistics: Statistics,
+    state: Vec<f64>,
+    rates: Vec<f64>,
+    carry: Vec<f64>,
+    /// Time and its carry, the next step, the last error, the unit.
+    numbers: ([f64; 2], f64, f64, f64),
+}
+
+/// Keeps every mark of adaptive steps.
+#[derive(Default)]
+struct PaceKeeper(Vec<Kept>);
+
+impl Observer for PaceKeeper {
+    fn after(&mut self, _: &mut Step<'_>) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    fn between(&mut self, mark: &Mark<'_>) {
+        let pace = mark.pace.expect("adaptive steps");
+        self.0.push(Kept {
+            place: mark.place,
+            statistics: mark.statistics.clone(),
+            state: mark.state.to_vec(),
+            rates: pace.rates.to_vec(),
+            carry: pace.carry.to_vec(),
+            numbers: (pace.time, pace.step, pace.error, pace.unit),
+        });
+    }
+}
+
 #[test]
-fn adaptive_steps_are_not_resumed() {
+fn adaptive_steps_resumed_from_any_mark_have_the_same_bits_and_counts() {
+    let system = Wide(oscillator());
+    let start: Vec<f64> = (0..WIDTH).map(|i| if i % 2 == 0 { 1.0 } else { 0.0 }).collect();
+    for method in general_methods().into_iter().filter(|method| method.is_adaptive()) {
+        let control = Control::Adaptive { tolerance: if method == Method::Bs32 { 1e-7 } else { 1e-9 } };
+        let problem = Problem { system: &system, start: &start, begin: 0.0, end: 100.0, method, control };
+        let mut keeper = PaceKeeper::default();
+        let whole = integrate(&problem, &mut keeper).expect("nothing stands in the way");
+        assert!(!keeper.0.is_empty(), "{}", method.name());
+        for kept in &keeper.0 {
+            let (time, step, error, unit) = kept.numbers;
+            let pace = Pace { rates: &kept.rates, carry: &kept.carry, time, step, error, unit };
+            let mark = Mark { place: kept.place, statistics: &kept.statistics, state: &kept.state, pace: Some(pace) };
+            let resumed = resume(&problem, &mark, &mut PaceKeeper::default()).expect("nothing stands in the way");
+            assert_eq!(resumed, whole, "{} from {time:?}", method.name());
+        }
+    }
+}
+
+/// Components enough for marks every few steps.
+const WIDTH: usize = 1 << 14;
+
+/// The same system many times.
+struct Wide<S>(S);
+
+impl<S: System> System for Wide<S> {
+    fn dimension(&self) -> usize {
+        WIDTH
+    }
+
+    fn kinematics(&self, state: &[f64], rates: &mut [f64]) {
+        state.chunks(2).zip(rates.chunks_mut(2)).for_each(|(state, rates)| self.0.kinematics(state, rates));
+    }
+
+    fn dynamics(&self, state: &[f64], rates: &mut [f64]) {
+        state.chunks(2).zip(rates.chunks_mut(2)).for_each(|(state, rates)| self.0.dynamics(state, rates));
+    }
+
+    fn positions(&self) -> Vec<Range<usize>> {
+        Vec::new()
+    }
+
+    fn groups(&self) -> Vec<Group> {
+        vec![Group { range: 0..WIDTH, measure: Measure::Largest, floor: 1.0 }]
+    }
+}
+
+#[test]
+fn steps_are_resumed_from_marks_of_their_own_kind_alone() {
     let (system, state) = (oscillator(), [1.0, 0.0]);
-    let control = Control::Adaptive { tolerance: 1e-9 };
-    let problem = Problem { system: &system, start: &state, begin: 0.0, end: 1.0, method: Method::Dop853, control };
-    let mark = Mark { place: Place::default(), statistics: &Statistics::default(), state: &state };
-    assert_eq!(resume(&problem, &mark, &mut Keeper::default()), Err(Failure::NotResumable));
+    let pace = Pace { rates: &[0.0, -1.0], carry: &[0.0; 2], time: [0.0; 2], step: 0.1, error: 1.0, unit: 1.0 };
+    for (control, pace) in [(Control::Adaptive { tolerance: 1e-9 }, None), (Control::Fixed { step: 0.1 }, Some(pace))] {
+        let problem = Problem { system: &system, start: &state, begin: 0.0, end: 1.0, method: Method::Dop853, control };
+        let mark = Mark { place: Place::default(), statistics: &Statistics::default(), state: &state, pace };
+        assert_eq!(resume(&problem, &mark, &mut Keeper::default()), Err(Failure::NotResumable));
+    }
 }

@@ -98,7 +98,26 @@ fn bytes_of_another_form_are_no_checkpoint() {
 }
 
 #[test]
-fn adaptive_runs_show_no_checkpoint() {
-    let (_, kept) = checkpoints(&scene(1.0, "method = \"dop853\"\ntolerance = 1e-10\n"));
-    assert!(kept.is_empty());
+fn adaptive_runs_resumed_from_any_checkpoint_have_the_same_bits() {
+    let text = "[law]\nkind = \"algebraic\"\nmu = 0.8\nq = 2.0\nv0 = 3.0\n[ring]\npedestrians = 2000\nlength = 5970.0\n\
+                [start]\nshift = 0.4\n[run]\nt_end = 60.0\nsample = 0.7\n";
+    for lines in [
+        "method = \"taylor\"\ntolerance = 1e-12\n",
+        "method = \"dop853\"\ntolerance = 1e-11\n",
+        "method = \"extrapolation\"\ntolerance = 1e-9\nstate = \"gaps\"\nrecord = \"std\"\n",
+    ] {
+        let recipe = recipe::parse("my.toml", &format!("{text}{lines}")).expect("a scene");
+        let scene = read("my.toml", &recipe.panels[0].tables).expect("a run");
+        let (whole, kept) = checkpoints(&scene);
+        assert_eq!(words(&whole), words(&run(&scene).expect("it runs")), "keeping changes nothing");
+        assert!(kept.len() > 1, "{lines}: {} checkpoints", kept.len());
+        let (mut parts, every) = (Vec::new(), kept.len().div_ceil(12));
+        for bytes in kept.iter().step_by(every).chain(kept.last()) {
+            let checkpoint = Checkpoint::parse(bytes, &scene).expect("a checkpoint");
+            parts.push(checkpoint.fraction(&scene));
+            let resumed = run_from(&scene, Some(checkpoint), &mut ()).expect("it runs");
+            assert_eq!(words(&resumed), words(&whole), "{lines}");
+        }
+        assert!(parts.is_sorted() && parts[0] > 0.0 && parts.iter().all(|&part| part <= 1.0), "{parts:?}");
+    }
 }

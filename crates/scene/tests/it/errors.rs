@@ -293,7 +293,7 @@ fn complaints_about_the_run() {
             (
                 "tolerance = 1e-11",
                 "tolerance = 1e-11\nthreads = 2",
-                ":15: run.threads: unknown key; known here: dt, method, most_steps, record, sample, state, t_end, tolerance",
+                ":15: run.threads: unknown key; known here: at_overlap, dt, method, most_steps, record, sample, state, t_end, tolerance",
             ),
         ],
     );
@@ -365,7 +365,7 @@ fn complaints_about_maps() {
     assert_complaints(
         MAP,
         &[
-            ("\"growth_rate\"", "\"speed\"", ":8: map.value = \"speed\": must be one of criterion, growth_rate"),
+            ("\"growth_rate\"", "\"speed\"", ":8: map.value = \"speed\": must be one of margin, criterion, growth_rate"),
             ("\"mu\"", "\"nu\"", &format!(":9: map.x.parameter = \"nu\": must be one of {parameters}")),
             ("from = 0.1", "from = -0.1", ":9: map.x.from = -0.1: must be a number >= 0.0"),
             ("to = 1.5", "to = 0.1", ":9: map.x.to = 0.1: must be above from = 0.1"),

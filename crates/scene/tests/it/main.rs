@@ -1,6 +1,7 @@
 //! Tests of scenes: every complaint, the figures' own scenes, maps, curves, overrides, and runs against published curves
 //! and against a second method; checkpoints, and prints of steps.
 
+mod cases;
 mod checkpoint;
 mod contours;
 mod corpus;
