@@ -1,93 +1,73 @@
-//! The errors that a run may have.
+//! The errors that a run may have: ten times those that it states; where it states none, what its tolerance allows.
 
 use crate::answer::Answer;
+use crate::stated::Stated;
 use jam::states::FormKind;
 use ode::Control;
-use reference::solution::Kind;
+use reference::solution::{Kind, Sample};
 use scene::run::Scene;
-use scene::simulation::{Outcome, run};
+use scene::simulation::Outcome;
 
-/// The errors that a run may have, by what is known of it.
-///
-/// By adaptive steps: so many local errors as there are steps, each at most the tolerance times the scale of the form in
-/// use, times [`GROWTH`]. By fixed steps: [`GROWTH`] times what the same run with steps of half the length differs by.
-#[derive(Clone, Debug)]
+/// The errors that a run may have.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bound {
-    perturbation: f64,
-    rest: f64,
+    /// Of standard deviations.
+    pub std: f64,
+    /// Of positions and spacings.
+    pub position: f64,
+    /// Of speeds.
+    pub speed: f64,
 }
 
+/// Times the stated error.
+const FACTOR: f64 = 10.0;
+
 /// How much a local error may grow on the way.
-const GROWTH: f64 = 30.0;
+const GROWTH: f64 = 100.0;
 
 impl Bound {
     /// The errors of this run.
-    pub fn new(scene: &Scene, outcome: &Outcome, answer: &Answer) -> Bound {
-        let samples = &answer.solution.samples;
-        let most = |of: &dyn Fn(&reference::solution::Sample) -> f64| {
-            samples.iter().map(of).fold(0.0_f64, |most, value| most.max(value))
-        };
-        let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-        let perturbation = most(&|sample| sample.perturbation).max(scene.start.shift.abs());
-        let size = most(&|sample| largest(&sample.positions).max(largest(&sample.speeds))).max(scene.ring.length);
-        let steps = outcome.statistics.steps as f64;
-        match scene.control {
-            Control::Adaptive { tolerance } => {
-                let local = GROWTH * (steps + 10.0) * (tolerance + 1e-15);
-                let scale = match scene.form {
-                    FormKind::Deviations => perturbation,
-                    FormKind::Gaps => perturbation.max(1.0),
-                    FormKind::Positions => size,
-                };
-                Bound { perturbation: local * scale, rest: local * size }
-            }
-            Control::Fixed { step } => {
-                let mut finer = scene.clone();
-                finer.control = Control::Fixed { step: 0.5 * step };
-                let Ok(finer) = run(&finer) else {
-                    return Bound { perturbation: f64::INFINITY, rest: f64::INFINITY };
-                };
-                let pairs = |a: &[f64], b: &[f64]| {
-                    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0_f64, |most, error| most.max(error))
-                };
-                let column = |outcome: &Outcome| outcome.std.rows().map(|row| row[1]).collect::<Vec<f64>>();
-                let std = pairs(&column(outcome), &column(&finer));
-                let cells = |outcome: &Outcome| outcome.trajectories.rows().flatten().copied().collect::<Vec<f64>>();
-                let state = pairs(&outcome.positions, &finer.positions)
-                    .max(pairs(&outcome.speeds, &finer.speeds))
-                    .max(pairs(&cells(outcome), &cells(&finer)));
-                let rounding = 1e-15 * (steps + 10.0);
-                Bound {
-                    perturbation: GROWTH * (std + rounding * perturbation)
-                        + if scene.form == FormKind::Deviations { 0.0 } else { rounding * size },
-                    rest: GROWTH * (state + std + rounding * size),
-                }
-            }
+    pub fn new(scene: &Scene, outcome: &Outcome, answer: &Answer, stated: &Stated) -> Bound {
+        let usual = Bound::by_tolerance(scene, outcome, answer);
+        let or = |stated: f64, usual: f64| if stated.is_finite() { FACTOR * stated } else { usual };
+        Bound {
+            std: or(stated.std, usual.std),
+            position: or(stated.position, usual.position),
+            speed: or(stated.speed, usual.speed),
         }
     }
 
-    /// Of the standard deviation.
-    pub fn std(&self, _time: f64) -> f64 {
-        self.perturbation
-    }
-
-    /// Of positions.
-    pub fn position(&self, _time: f64) -> f64 {
-        self.rest
-    }
-
-    /// Of speeds.
-    pub fn speed(&self, _time: f64) -> f64 {
-        self.rest
+    /// So many local errors as there are steps, each at most the tolerance times the scale of the form in use, times
+    /// [`GROWTH`]. Of fixed steps nothing is known.
+    fn by_tolerance(scene: &Scene, outcome: &Outcome, answer: &Answer) -> Bound {
+        let Control::Adaptive { tolerance } = scene.control else {
+            return Bound { std: f64::INFINITY, position: f64::INFINITY, speed: f64::INFINITY };
+        };
+        let samples = &answer.solution.samples;
+        let most = |of: &dyn Fn(&Sample) -> f64| samples.iter().map(of).fold(0.0_f64, f64::max);
+        let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let perturbation = most(&|sample| sample.perturbation).max(scene.start.shift.abs());
+        let size = most(&|sample| largest(&sample.positions).max(largest(&sample.speeds))).max(scene.ring.length);
+        let local = GROWTH * (outcome.statistics.steps as f64 + 10.0) * (tolerance + 1e-15);
+        let scale = match scene.form {
+            FormKind::Deviations => perturbation,
+            FormKind::Gaps => perturbation.max(1.0),
+            FormKind::Positions => size,
+        };
+        Bound { std: local * scale, position: local * size, speed: local * size }
     }
 
     /// Of what becomes negative in an event.
-    pub fn value(&self, _kind: Kind, _time: f64) -> f64 {
-        self.rest
+    pub fn value(&self, kind: Kind) -> f64 {
+        match kind {
+            Kind::Overlap => 2.0 * (self.position + self.speed),
+            Kind::NegativeSpeed => self.speed,
+            Kind::Exchange => 2.0 * self.position,
+        }
     }
 
     /// Of the time of an event at which the value falls at this rate.
-    pub fn moment(&self, time: f64, rate: f64) -> f64 {
-        self.value(Kind::Overlap, time) / rate.abs()
+    pub fn moment(&self, kind: Kind, rate: f64) -> f64 {
+        self.value(kind) / rate.abs()
     }
 }

@@ -162,6 +162,7 @@ fn ended(verdict: &mut Verdict, scene: &Scene, outcome: &Outcome, broken: Option
     if broken.is_some() || is_blown_up(outcome) {
         question.times.push(scene.t_end);
     }
+    let stated = stated::of(scene, outcome);
     // what faster numbers cannot decide, better ones are asked
     for numbers in [Numbers::Doubles, Numbers::Twofold] {
         let answer = Answer::new(&question, numbers);
@@ -170,10 +171,10 @@ fn ended(verdict: &mut Verdict, scene: &Scene, outcome: &Outcome, broken: Option
             verdict.stated.clear();
             verdict.findings.clear();
             verdict.undecided.clear();
-            let bound = Bound::new(scene, outcome, &answer);
+            let bound = Bound::new(scene, outcome, &answer, &stated);
             compare(verdict, scene, outcome, &answer, &bound);
             if broken.is_none() {
-                verdict.stated = stated::ratios(scene, outcome, &answer);
+                verdict.stated = stated::ratios(scene, outcome, &answer, &stated);
             }
             if let Some(broken) = broken {
                 reason(verdict, scene, broken, &answer);
@@ -310,7 +311,7 @@ fn compare(verdict: &mut Verdict, scene: &Scene, outcome: &Outcome, answer: &Ans
             found: std[1],
             right: right.std,
             uncertainty: (right.std - twin.std).abs(),
-            allowed: bound.std(time),
+            allowed: bound.std,
             range: std_range,
         }
         .note(verdict);
@@ -345,8 +346,8 @@ fn state(
             .fold(0.0, |most: f64, error| if error <= most { most } else { error })
     };
     let numbers = [
-        ("position", x, &right.positions, &twin.positions, bound.position(time)),
-        ("speed", v, &right.speeds, &twin.speeds, bound.speed(time) + right.acceleration * ULP * time),
+        ("position", x, &right.positions, &twin.positions, bound.position),
+        ("speed", v, &right.speeds, &twin.speeds, bound.speed + right.acceleration * ULP * time),
     ];
     for (what, found, right, twin, allowed) in numbers {
         let range = right.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
@@ -388,12 +389,12 @@ fn events(verdict: &mut Verdict, scene: &Scene, outcome: &Outcome, answer: &Answ
             verdict.findings.push(format!("{} by pedestrian {n} at the start is not reported", kind.name()));
         }
         let is_known = outcome.events.iter().any(|happening| happening.event.name() == kind.name());
-        let latest = outcome.statistics.time - bound.moment(time, rate);
+        let latest = outcome.statistics.time - bound.moment(kind, rate);
         if !is_known && time < latest {
             let index = Kind::ALL.iter().position(|other| *other == kind).unwrap_or(0);
             let depth = answer.solution.least[index].0;
             // a dip below 0 that is shallower than the error allowed
-            let allowed = bound.value(kind, time);
+            let allowed = bound.value(kind);
             let text = format!(
                 "no {} by pedestrian {pedestrian} at t = {time:?} (rate {rate:e}, least value {depth:e})",
                 kind.name()
@@ -414,14 +415,14 @@ fn crossing(verdict: &mut Verdict, happening: &Happening, kind: Kind, scene: &Sc
             happening.pedestrian
         );
         let is_later = answer.solution.time < found;
-        if is_later || least < bound.value(kind, found) {
+        if is_later || least < bound.value(kind) {
             verdict.undecided.push(text);
         } else {
             verdict.findings.push(text);
         }
         return;
     };
-    let allowed = bound.moment(time, rate) + 1e-9 * time;
+    let allowed = bound.moment(kind, rate) + 1e-9 * time;
     Compared { what: "event", time, found, right: time, uncertainty, allowed, range: scene.t_end }.note(verdict);
     let is_first = crossings.iter().any(|(n, t, ..)| *n == happening.pedestrian && t - time <= 2.0 * allowed)
         || answer.solution.time - time <= 2.0 * allowed;
@@ -435,7 +436,7 @@ fn crossing(verdict: &mut Verdict, happening: &Happening, kind: Kind, scene: &Sc
 fn blow_up(verdict: &mut Verdict, happening: &Happening, answer: &Answer, length: f64, bound: &Bound) {
     let solution = &answer.solution;
     let found = happening.time;
-    let allowed = length / solution.fastest.max(1.0) + 1e-6 * solution.time + bound.moment(found, 1.0);
+    let allowed = length / solution.fastest.max(1.0) + 1e-6 * solution.time + bound.position + bound.speed;
     let is_end = matches!(solution.end, End::BlownUp | End::Singular);
     if !is_end || (found - solution.time).abs() > allowed {
         let text = format!(

@@ -1,4 +1,4 @@
-//! How honest the errors are that a run states.
+//! The errors that a run states, and how honest they are.
 
 use crate::answer::Answer;
 use crate::judge::{Ratio, is_beyond, is_blown_up, kind};
@@ -7,26 +7,25 @@ use ode::{Control, Method};
 use scene::run::Scene;
 use scene::simulation::{Outcome, run};
 
-/// The errors that a run states.
+/// The errors that a run states. Infinite: it states none.
 #[derive(Clone, Debug, PartialEq)]
-struct Stated {
+pub struct Stated {
     /// The largest of the standard deviations in the table.
-    std: f64,
-    /// The largest of the positions at the end.
-    position: f64,
-    /// The largest of the speeds at the end.
-    speed: f64,
+    pub std: f64,
+    /// The largest of the positions in the table and at the end.
+    pub position: f64,
+    /// The largest of the speeds there.
+    pub speed: f64,
     /// Of the time of each event.
-    events: Vec<f64>,
+    pub events: Vec<f64>,
 }
 
-/// True errors over stated ones: of std, of positions and speeds at the end, of the first event of each kind.
-pub fn ratios(scene: &Scene, outcome: &Outcome, answer: &Answer) -> Vec<Ratio> {
+/// True errors over stated ones: of std, of positions and speeds at the end, of the time of each event.
+pub fn ratios(scene: &Scene, outcome: &Outcome, answer: &Answer, stated: &Stated) -> Vec<Ratio> {
     let end = outcome.statistics.time;
     if is_beyond(scene, outcome) || !answer.is_settled(end) {
         return Vec::new();
     }
-    let Some(stated) = stated(scene, outcome) else { return Vec::new() };
     let mut ratios = Vec::new();
     let rows: Vec<_> = outcome.std.rows().filter_map(|row| Some((row[1], answer.at(row[0])?))).collect();
     if !rows.is_empty() {
@@ -61,52 +60,83 @@ pub fn ratios(scene: &Scene, outcome: &Outcome, answer: &Answer) -> Vec<Ratio> {
             ratios.push(Ratio { what: "events", error, allowed: *allowed, uncertainty, range: scene.t_end });
         }
     }
-    // what the second integration does not know well enough says nothing
-    ratios.retain(|ratio| ratio.uncertainty <= 0.1 * ratio.error.max(ratio.allowed));
+    // what is not stated, and what the second integration does not know well enough, says nothing
+    ratios.retain(|ratio| ratio.allowed.is_finite() && ratio.uncertainty <= 0.1 * ratio.error.max(ratio.allowed));
     ratios
 }
 
-/// A second run of the first integration: by extrapolation at a tenth of the tolerance, or with half the step.
-fn stated(scene: &Scene, outcome: &Outcome) -> Option<Stated> {
-    let mut other = scene.clone();
-    match scene.control {
+/// What a run states: its difference from a second one by the same code, by extrapolation (`dop853` if it is that) at a
+/// tenth of the tolerance, or with half the step; and the roundings that both have in common.
+pub fn of(scene: &Scene, outcome: &Outcome) -> Stated {
+    let end = outcome.statistics.time;
+    let mut other = Scene { t_end: end, ..scene.clone() };
+    let factor = match scene.control {
         Control::Adaptive { tolerance } => {
             let tighter = 0.1 * tolerance;
             other.method = if scene.method == Method::Extrapolation { Method::Dop853 } else { Method::Extrapolation };
             other.control = Control::Adaptive { tolerance: if tighter > 1e-15 { tighter } else { 1e-15 } };
+            1.0
         }
-        // a step longer than the run is cut
         Control::Fixed { step } => {
+            // a step longer than the run is cut
             other.control = Control::Fixed { step: 0.5 * if step < scene.t_end { step } else { scene.t_end } };
+            2.0
         }
-    }
-    let other = run(&other).ok()?;
-    let factor = if matches!(scene.control, Control::Fixed { .. }) { 2.0 } else { 1.0 };
-    let apart = |a: &[f64], b: &[f64]| factor * largest(a.iter().zip(b).map(|(a, b)| a - b));
-    let std = |outcome: &Outcome| outcome.std.rows().map(|row| row[1]).collect::<Vec<f64>>();
-    let deviations = std(outcome);
-    let (x, v) = (largest(outcome.positions.iter().copied()), largest(outcome.speeds.iter().copied()));
-    // roundings that both runs have: of what std is the difference of, and of positions in every fixed step
-    let shared = if scene.form == FormKind::Deviations { largest(deviations.iter().copied()) } else { v };
+    };
+    let other = match run(&other) {
+        Ok(other) => other,
+        Err(broken) => *broken.outcome,
+    };
+    let (rows, other_rows) = (cells(outcome), cells(&other));
+    let is_whole = other.statistics.time == end;
+    let apart = |a: &[f64], b: &[f64]| {
+        if a.len() > b.len() || !is_whole {
+            f64::INFINITY
+        } else {
+            factor * largest(a.iter().zip(b).map(|(a, b)| a - b))
+        }
+    };
+    let (x, v) = (largest(rows.positions.iter().copied()), largest(rows.speeds.iter().copied()));
+    // of what std is the difference of, and of positions in every fixed step
+    let shared = if scene.form == FormKind::Deviations { largest(rows.std.iter().copied()) } else { v };
     let gathered = match scene.control {
         Control::Fixed { .. } => 0.5 * f64::EPSILON * outcome.statistics.steps as f64,
         Control::Adaptive { .. } => 0.0,
     };
     let events = outcome.events.iter().map(|happening| {
-        let twin =
-            other.events.iter().find(|twin| (twin.event, twin.pedestrian) == (happening.event, happening.pedestrian));
+        let is_twin =
+            |twin: &&jam::events::Happening| (twin.event, twin.pedestrian) == (happening.event, happening.pedestrian);
+        let twin = other.events.iter().find(is_twin);
         twin.map_or(f64::INFINITY, |twin| factor * (twin.time - happening.time).abs() + ROUNDING * happening.time)
     });
-    Some(Stated {
-        std: apart(&deviations, &std(&other)) + ROUNDING * shared + f64::MIN_POSITIVE,
-        position: apart(&outcome.positions, &other.positions) + (ROUNDING + gathered) * x,
-        speed: apart(&outcome.speeds, &other.speeds) + ROUNDING * v,
+    Stated {
+        std: apart(&rows.std, &other_rows.std) + ROUNDING * shared + f64::MIN_POSITIVE,
+        position: apart(&rows.positions, &other_rows.positions) + (ROUNDING + gathered) * x,
+        speed: apart(&rows.speeds, &other_rows.speeds) + ROUNDING * v,
         events: events.collect(),
-    })
+    }
 }
 
 /// A few roundings.
 const ROUNDING: f64 = 1e-15;
+
+/// All numbers of a kind: those of the table, then those at the end.
+struct Cells {
+    std: Vec<f64>,
+    positions: Vec<f64>,
+    speeds: Vec<f64>,
+}
+
+fn cells(outcome: &Outcome) -> Cells {
+    let column = |i: usize, end: &[f64]| {
+        outcome.trajectories.rows().map(|row| row[i]).chain(end.iter().copied()).collect::<Vec<f64>>()
+    };
+    Cells {
+        std: outcome.std.rows().map(|row| row[1]).collect(),
+        positions: column(2, &outcome.positions),
+        speeds: column(3, &outcome.speeds),
+    }
+}
 
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, |largest, value| if value.abs() <= largest { largest } else { value.abs() })
