@@ -29,7 +29,7 @@ fn case(seed: u64, text: &str, panel: &recipe::Panel) -> Option<Value> {
     }
     let end = outcome.statistics.time;
     let (right, _) = answer.at(end)?;
-    let bound = Bound::new(&scene, &outcome, &answer, &stated::of(&scene, &outcome));
+    let bound = Bound::new(&stated::of(&scene, &outcome));
     let rows: Vec<&[f64]> = outcome.std.rows().filter(|row| row[0] > 0.0).collect();
     let right_std: Vec<f64> = rows.iter().filter_map(|row| Some(answer.at(row[0])?.0.std)).collect();
     let events: Vec<Value> = outcome
@@ -54,6 +54,6 @@ fn case(seed: u64, text: &str, panel: &recipe::Panel) -> Option<Value> {
                         "events": events,
         },
         "second": { "std": right_std, "x": right.positions, "v": right.speeds, "events": right_events },
-        "allowed": { "std": bound.std, "x": bound.position, "v": bound.speed },
+        "allowed": { "std": bound.std, "x": bound.end[0], "v": bound.end[1] },
     }))
 }

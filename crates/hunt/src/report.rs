@@ -93,16 +93,18 @@ fn honesty(all: &[Hunted]) -> String {
             }
         }
     }
-    for (what, ratios) in by_number {
+    for (what, all) in by_number {
+        let ratios: Vec<&Ratio> = all.iter().copied().filter(|ratio| ratio.allowed.is_finite()).collect();
         let share = |of: &[&Ratio], is: &dyn Fn(&Ratio) -> bool| {
             100.0 * of.iter().filter(|ratio| is(ratio)).count() as f64 / of.len().max(1) as f64
         };
         let visible: Vec<&Ratio> = ratios.iter().copied().filter(|ratio| ratio.error > 1e-14 * ratio.range).collect();
         let _ = writeln!(
             text,
-            "stated error of {what}: {} numbers, true error within 10 times of {:.2} %, within 3 times of {:.2} %; of {} with \
+            "stated error of {what}: {} numbers, {} without one; true error within 10 times of {:.2} %, within 3 times of {:.2} %; of {} with \
              a true error above 1e-14 of the range the stated one is at most 100 times that of {:.1} %; true / stated: {}",
             ratios.len(),
+            all.len() - ratios.len(),
             share(&ratios, &|ratio| ratio.value() <= 10.0),
             share(&ratios, &|ratio| ratio.value() <= 3.0),
             visible.len(),

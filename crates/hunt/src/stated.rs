@@ -2,6 +2,7 @@
 
 use crate::answer::Answer;
 use crate::judge::{Ratio, is_beyond, is_blown_up, kind};
+use files::table::Table;
 use jam::states::FormKind;
 use ode::{Control, Method};
 use scene::run::Scene;
@@ -12,10 +13,10 @@ use scene::simulation::{Outcome, run};
 pub struct Stated {
     /// The largest of the standard deviations in the table.
     pub std: f64,
-    /// The largest of the positions in the table and at the end.
-    pub position: f64,
-    /// The largest of the speeds there.
-    pub speed: f64,
+    /// The largest of the positions and of the speeds in the table.
+    pub table: [f64; 2],
+    /// The largest of the positions and of the speeds at the end.
+    pub end: [f64; 2],
     /// Of the time of each event.
     pub events: Vec<f64>,
 }
@@ -39,8 +40,8 @@ pub fn ratios(scene: &Scene, outcome: &Outcome, answer: &Answer, stated: &Stated
     }
     if let Some((right, twin)) = answer.at(end).filter(|_| !is_blown_up(outcome)) {
         let states = [
-            ("final positions", &outcome.positions, &right.positions, &twin.positions, stated.position),
-            ("final speeds", &outcome.speeds, &right.speeds, &twin.speeds, stated.speed),
+            ("final positions", &outcome.positions, &right.positions, &twin.positions, stated.end[0]),
+            ("final speeds", &outcome.speeds, &right.speeds, &twin.speeds, stated.end[1]),
         ];
         for (what, found, right, twin, allowed) in states {
             ratios.push(Ratio {
@@ -60,8 +61,8 @@ pub fn ratios(scene: &Scene, outcome: &Outcome, answer: &Answer, stated: &Stated
             ratios.push(Ratio { what: "events", error, allowed: *allowed, uncertainty, range: scene.t_end });
         }
     }
-    // what is not stated, and what the second integration does not know well enough, says nothing
-    ratios.retain(|ratio| ratio.allowed.is_finite() && ratio.uncertainty <= 0.1 * ratio.error.max(ratio.allowed));
+    // what the second integration does not know well enough says nothing
+    ratios.retain(|ratio| ratio.allowed.is_infinite() || ratio.uncertainty <= 0.1 * ratio.error.max(ratio.allowed));
     ratios
 }
 
@@ -87,18 +88,14 @@ pub fn of(scene: &Scene, outcome: &Outcome) -> Stated {
         Ok(other) => other,
         Err(broken) => *broken.outcome,
     };
-    let (rows, other_rows) = (cells(outcome), cells(&other));
     let is_whole = other.statistics.time == end;
     let apart = |a: &[f64], b: &[f64]| {
-        if a.len() > b.len() || !is_whole {
-            f64::INFINITY
-        } else {
-            factor * largest(a.iter().zip(b).map(|(a, b)| a - b))
-        }
+        if a.len() > b.len() { f64::INFINITY } else { factor * largest(a.iter().zip(b).map(|(a, b)| a - b)) }
     };
-    let (x, v) = (largest(rows.positions.iter().copied()), largest(rows.speeds.iter().copied()));
+    let (stds, other_stds) = (column(&outcome.std, 1), column(&other.std, 1));
+    let (x, v) = (largest(outcome.positions.iter().copied()), largest(outcome.speeds.iter().copied()));
     // of what std is the difference of, and of positions in every fixed step
-    let shared = if scene.form == FormKind::Deviations { largest(rows.std.iter().copied()) } else { v };
+    let shared = if scene.form == FormKind::Deviations { largest(stds.iter().copied()) } else { v };
     let gathered = match scene.control {
         Control::Fixed { .. } => 0.5 * f64::EPSILON * outcome.statistics.steps as f64,
         Control::Adaptive { .. } => 0.0,
@@ -109,10 +106,13 @@ pub fn of(scene: &Scene, outcome: &Outcome) -> Stated {
         let twin = other.events.iter().find(is_twin);
         twin.map_or(f64::INFINITY, |twin| factor * (twin.time - happening.time).abs() + ROUNDING * happening.time)
     });
+    let rounded = [(ROUNDING + gathered) * x, ROUNDING * v];
+    let table = [2, 3].map(|i| apart(&column(&outcome.trajectories, i), &column(&other.trajectories, i)));
+    let ends = [apart(&outcome.positions, &other.positions), apart(&outcome.speeds, &other.speeds)];
     Stated {
-        std: apart(&rows.std, &other_rows.std) + ROUNDING * shared + f64::MIN_POSITIVE,
-        position: apart(&rows.positions, &other_rows.positions) + (ROUNDING + gathered) * x,
-        speed: apart(&rows.speeds, &other_rows.speeds) + ROUNDING * v,
+        std: apart(&stds, &other_stds) + ROUNDING * shared + f64::MIN_POSITIVE,
+        table: [table[0] + rounded[0], table[1] + rounded[1]],
+        end: if is_whole { [ends[0] + rounded[0], ends[1] + rounded[1]] } else { [f64::INFINITY; 2] },
         events: events.collect(),
     }
 }
@@ -120,22 +120,8 @@ pub fn of(scene: &Scene, outcome: &Outcome) -> Stated {
 /// A few roundings.
 const ROUNDING: f64 = 1e-15;
 
-/// All numbers of a kind: those of the table, then those at the end.
-struct Cells {
-    std: Vec<f64>,
-    positions: Vec<f64>,
-    speeds: Vec<f64>,
-}
-
-fn cells(outcome: &Outcome) -> Cells {
-    let column = |i: usize, end: &[f64]| {
-        outcome.trajectories.rows().map(|row| row[i]).chain(end.iter().copied()).collect::<Vec<f64>>()
-    };
-    Cells {
-        std: outcome.std.rows().map(|row| row[1]).collect(),
-        positions: column(2, &outcome.positions),
-        speeds: column(3, &outcome.speeds),
-    }
+fn column(table: &Table, i: usize) -> Vec<f64> {
+    table.rows().map(|row| row[i]).collect()
 }
 
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
