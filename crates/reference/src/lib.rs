@@ -5,11 +5,17 @@
 //! method is extrapolation of a much higher order, in twofold numbers.
 
 pub mod cascade;
+pub mod collocation;
 pub mod events;
 pub mod extrapolation;
+pub mod flow;
+pub mod formula;
 pub mod growth;
 pub mod laws;
+pub mod number;
 pub mod ring;
 pub mod run;
 pub mod scenes;
+pub mod solution;
+pub mod solver;
 pub mod table;

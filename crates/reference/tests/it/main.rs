@@ -2,5 +2,7 @@
 
 mod laws;
 mod method;
+mod number;
 mod published;
+mod solution;
 mod tables;

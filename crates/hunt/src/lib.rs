@@ -1,0 +1,13 @@
+//! A test that hunts: random scenes ([`draw`]) are run as their users would run them and judged ([`judge`]) by a second
+//! integration ([`answer`], `crates/reference`) that shares nothing with the first but the formula: not the reader of
+//! scenes, not the laws, not the methods, not the elementary functions.
+
+pub mod answer;
+pub mod bound;
+pub mod case;
+pub mod draw;
+pub mod judge;
+pub mod question;
+pub mod random;
+pub mod report;
+pub mod stated;

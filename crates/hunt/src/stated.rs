@@ -1,0 +1,129 @@
+//! The errors that a run states, and how honest they are.
+
+use crate::answer::Answer;
+use crate::judge::{Ratio, is_beyond, is_blown_up, kind};
+use files::table::Table;
+use jam::states::FormKind;
+use ode::{Control, Method};
+use scene::run::Scene;
+use scene::simulation::{Outcome, run};
+
+/// The errors that a run states. Infinite: it states none.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stated {
+    /// The largest of the standard deviations in the table.
+    pub std: f64,
+    /// The largest of the positions and of the speeds in the table.
+    pub table: [f64; 2],
+    /// The largest of the positions and of the speeds at the end.
+    pub end: [f64; 2],
+    /// Of the time of each event.
+    pub events: Vec<f64>,
+}
+
+/// True errors over stated ones: of std, of positions and speeds at the end, of the time of each event.
+pub fn ratios(scene: &Scene, outcome: &Outcome, answer: &Answer, stated: &Stated) -> Vec<Ratio> {
+    let end = outcome.statistics.time;
+    if is_beyond(scene, outcome) || !answer.is_settled(end) {
+        return Vec::new();
+    }
+    let mut ratios = Vec::new();
+    let rows: Vec<_> = outcome.std.rows().filter_map(|row| Some((row[1], answer.at(row[0])?))).collect();
+    if !rows.is_empty() {
+        ratios.push(Ratio {
+            what: "std",
+            error: largest(rows.iter().map(|(found, (right, _))| found - right.std)),
+            allowed: stated.std,
+            uncertainty: largest(rows.iter().map(|(_, (right, twin))| right.std - twin.std)),
+            range: largest(rows.iter().map(|(_, (right, _))| right.std)),
+        });
+    }
+    if let Some((right, twin)) = answer.at(end).filter(|_| !is_blown_up(outcome)) {
+        let states = [
+            ("final positions", &outcome.positions, &right.positions, &twin.positions, stated.end[0]),
+            ("final speeds", &outcome.speeds, &right.speeds, &twin.speeds, stated.end[1]),
+        ];
+        for (what, found, right, twin, allowed) in states {
+            ratios.push(Ratio {
+                what,
+                error: largest(found.iter().zip(right).map(|(a, b)| a - b)),
+                allowed,
+                uncertainty: largest(right.iter().zip(twin).map(|(a, b)| a - b)),
+                range: largest(right.iter().copied()),
+            });
+        }
+    }
+    for (happening, allowed) in outcome.events.iter().zip(&stated.events) {
+        let Some(kind) = kind(happening.event) else { continue };
+        let crossings = answer.crossings(kind);
+        if let Some((_, time, uncertainty, _)) = crossings.into_iter().find(|(n, ..)| *n == happening.pedestrian) {
+            let error = (happening.time - time).abs();
+            ratios.push(Ratio { what: "events", error, allowed: *allowed, uncertainty, range: scene.t_end });
+        }
+    }
+    // what the second integration does not know well enough says nothing
+    ratios.retain(|ratio| ratio.allowed.is_infinite() || ratio.uncertainty <= 0.1 * ratio.error.max(ratio.allowed));
+    ratios
+}
+
+/// What a run states: its difference from a second one by the same code, by extrapolation (`dop853` if it is that) at a
+/// tenth of the tolerance, or with half the step; and the roundings that both have in common.
+pub fn of(scene: &Scene, outcome: &Outcome) -> Stated {
+    let end = outcome.statistics.time;
+    let mut other = Scene { t_end: end, ..scene.clone() };
+    let factor = match scene.control {
+        Control::Adaptive { tolerance } => {
+            let tighter = 0.1 * tolerance;
+            other.method = if scene.method == Method::Extrapolation { Method::Dop853 } else { Method::Extrapolation };
+            other.control = Control::Adaptive { tolerance: if tighter > 1e-15 { tighter } else { 1e-15 } };
+            1.0
+        }
+        Control::Fixed { step } => {
+            // a step longer than the run is cut
+            other.control = Control::Fixed { step: 0.5 * if step < scene.t_end { step } else { scene.t_end } };
+            2.0
+        }
+    };
+    let other = match run(&other) {
+        Ok(other) => other,
+        Err(broken) => *broken.outcome,
+    };
+    let is_whole = other.statistics.time == end;
+    let apart = |a: &[f64], b: &[f64]| {
+        if a.len() > b.len() { f64::INFINITY } else { factor * largest(a.iter().zip(b).map(|(a, b)| a - b)) }
+    };
+    let (stds, other_stds) = (column(&outcome.std, 1), column(&other.std, 1));
+    let (x, v) = (largest(outcome.positions.iter().copied()), largest(outcome.speeds.iter().copied()));
+    // of what std is the difference of, and of positions in every fixed step
+    let shared = if scene.form == FormKind::Deviations { largest(stds.iter().copied()) } else { v };
+    let gathered = match scene.control {
+        Control::Fixed { .. } => 0.5 * f64::EPSILON * outcome.statistics.steps as f64,
+        Control::Adaptive { .. } => 0.0,
+    };
+    let events = outcome.events.iter().map(|happening| {
+        let is_twin =
+            |twin: &&jam::events::Happening| (twin.event, twin.pedestrian) == (happening.event, happening.pedestrian);
+        let twin = other.events.iter().find(is_twin);
+        twin.map_or(f64::INFINITY, |twin| factor * (twin.time - happening.time).abs() + ROUNDING * happening.time)
+    });
+    let rounded = [(ROUNDING + gathered) * x, ROUNDING * v];
+    let table = [2, 3].map(|i| apart(&column(&outcome.trajectories, i), &column(&other.trajectories, i)));
+    let ends = [apart(&outcome.positions, &other.positions), apart(&outcome.speeds, &other.speeds)];
+    Stated {
+        std: apart(&stds, &other_stds) + ROUNDING * shared + f64::MIN_POSITIVE,
+        table: [table[0] + rounded[0], table[1] + rounded[1]],
+        end: if is_whole { [ends[0] + rounded[0], ends[1] + rounded[1]] } else { [f64::INFINITY; 2] },
+        events: events.collect(),
+    }
+}
+
+/// A few roundings.
+const ROUNDING: f64 = 1e-15;
+
+fn column(table: &Table, i: usize) -> Vec<f64> {
+    table.rows().map(|row| row[i]).collect()
+}
+
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |largest, value| if value.abs() <= largest { largest } else { value.abs() })
+}

@@ -1,0 +1,43 @@
+//! The judge sees a fault: a run is judged as if its scene had said something slightly else.
+
+use hunt::draw;
+use hunt::judge::{self, Verdict};
+
+const SCENE: &str = "title = \"two laws\"\n[law]\nkind = \"exponential\"\na = 3.0\nb = 1.5\nc = 4.0\na_v = 0.1\nepsilon = 0.01\nv0 = 1.2\n[ring]\npedestrians = 12\nlength = 36.0\n[start]\nshift = 0.3\n[run]\nmethod = \"dop853\"\ntolerance = 1e-12\nt_end = 20.0\nsample = 2.0\n";
+
+fn judged_as(other: &str) -> Verdict {
+    judge::scene_as(SCENE, other).pop().expect("a panel")
+}
+
+#[test]
+fn a_right_run_is_right() {
+    let verdict = judged_as(SCENE);
+    assert!(verdict.findings.is_empty() && verdict.undecided.is_empty(), "{verdict:#?}");
+    assert!(verdict.ratios.len() > 30 && verdict.ratios.iter().all(|ratio| ratio.value() <= 1.0), "{verdict:#?}");
+}
+
+#[test]
+fn every_number_of_a_law_matters_to_the_judge() {
+    let changes = [
+        ("a = 3.0", "a = 3.000001"),
+        ("b = 1.5", "b = 1.500001"),
+        ("a_v = 0.1", "a_v = 0.10001"),
+        ("v0 = 1.2", "v0 = 1.200001"),
+        ("length = 36.0", "length = 36.00001"),
+        ("shift = 0.3", "shift = 0.300001"),
+        ("pedestrians = 12", "pedestrians = 13"),
+    ];
+    for (from, to) in changes {
+        let other = SCENE.replace(from, to);
+        assert_ne!(other, SCENE, "{from}");
+        assert!(!judged_as(&other).findings.is_empty(), "{to} goes unseen");
+    }
+}
+
+#[test]
+fn the_same_seed_draws_the_same_scene() {
+    for seed in 0..50 {
+        assert_eq!(draw::scene(seed), draw::scene(seed));
+    }
+    assert_ne!(draw::scene(1), draw::scene(2));
+}

@@ -1,0 +1,184 @@
+//! A ring of pedestrians, as differences from its uniform flow or as clearances.
+
+use crate::formula::{Formula, smooth_ramp};
+use crate::number::{Difference, Number, Parted, Real};
+
+/// What the numbers of a state are differences from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// The uniform flow: a perturbation keeps its digits however small it is.
+    Differences,
+    /// Contact and rest: a room near a singular force keeps its digits.
+    Clearances,
+}
+
+/// A ring under a law.
+///
+/// A state is `[u_0 .. u_{N-1}, w_0 .. w_{N-1}, y_0, X, V]`: spacings `S + u_n`, speeds `V + w_n`, and the position
+/// `X + y_0` of pedestrian 0. In [`Form::Differences`] `X` and `V` are those of the uniform flow that starts at rest and
+/// `S = L / N`; in [`Form::Clearances`] they stay 0 and `S = 2`, where standing pedestrians touch.
+#[derive(Clone, Copy, Debug)]
+pub struct Flow<T> {
+    /// The law.
+    pub formula: Formula,
+    /// `N`.
+    pub pedestrians: usize,
+    /// `L / N`.
+    pub headway: T,
+    /// The form of the state.
+    pub form: Form,
+}
+
+impl<T: Real> Flow<T> {
+    /// A ring of this length.
+    pub fn new(formula: Formula, pedestrians: usize, length: f64, form: Form) -> Flow<T> {
+        Flow { formula, pedestrians, headway: T::from(length) / T::from(pedestrians as f64), form }
+    }
+
+    /// How many numbers a state has.
+    pub fn dimension(&self) -> usize {
+        2 * self.pedestrians + 3
+    }
+
+    /// What spacings are differences from.
+    fn base(&self) -> T {
+        match self.form {
+            Form::Differences => self.headway,
+            Form::Clearances => T::from(2.0),
+        }
+    }
+
+    /// Equal spacings, all at rest, pedestrian 0 moved forward.
+    pub fn start(&self, shift: f64) -> Vec<T> {
+        let (n, shift) = (self.pedestrians, T::from(shift));
+        let mut state = vec![T::from(0.0); self.dimension()];
+        state[..n].fill(self.headway - self.base());
+        state[0] = state[0] - shift;
+        state[n - 1] = state[n - 1] + shift;
+        state[2 * n] = shift;
+        state
+    }
+
+    /// The same ring with clearances for its state, and a state in that form.
+    pub fn by_clearances(&self, state: &[T]) -> (Flow<T>, Vec<T>) {
+        let n = self.pedestrians;
+        let flow = Flow { form: Form::Clearances, ..*self };
+        let mut clearances: Vec<T> = state[..n].iter().map(|u| (self.base() - flow.base()) + *u).collect();
+        clearances.extend((0..n).map(|i| self.speed(state, i)));
+        clearances.extend([state[2 * n] + state[2 * n + 1], T::from(0.0), T::from(0.0)]);
+        (flow, clearances)
+    }
+
+    /// Writes the rates of a state and, for each ramp in the law, how far its argument is from the kink, in units of its
+    /// width.
+    pub fn rates(&self, state: &[T], rates: &mut [T], kinks: &mut Vec<f64>) {
+        let n = self.pedestrians;
+        kinks.clear();
+        let base = state[2 * n + 2];
+        rates[2 * n + 2] = T::from(0.0);
+        for i in 0..n {
+            let (s, v, ahead) = (state[i], state[n + i], state[n + (i + 1) % n]);
+            rates[i] = ahead - v;
+            rates[n + i] = match self.form {
+                Form::Differences => {
+                    let speed = |change| Difference { base, change };
+                    let s = Difference { base: self.headway, change: s };
+                    let acceleration = self
+                        .formula
+                        .acceleration(s, speed(v), speed(ahead), &mut |x, epsilon| noted(x, epsilon, kinks));
+                    rates[2 * n + 2] = acceleration.base;
+                    acceleration.change
+                }
+                Form::Clearances => {
+                    let speed = |rest| Parted { base, rest };
+                    let s = Parted { base: self.base(), rest: s };
+                    let ramp = &mut |x, epsilon| noted(x, epsilon, kinks);
+                    self.formula.acceleration(s, speed(v), speed(ahead), ramp).whole()
+                }
+            };
+        }
+        rates[2 * n] = state[n];
+        rates[2 * n + 1] = base;
+    }
+
+    /// The room of pedestrian `n`.
+    pub fn room(&self, state: &[T], n: usize) -> T {
+        let count = self.pedestrians;
+        let speed = |i: usize| Parted { base: state[2 * count + 2], rest: state[count + i] };
+        let spacing = Parted { base: self.base(), rest: state[n] };
+        self.formula.room(spacing, speed(n), speed((n + 1) % count)).whole()
+    }
+
+    /// The spacing of pedestrian `n`.
+    pub fn spacing(&self, state: &[T], n: usize) -> T {
+        self.base() + state[n]
+    }
+
+    /// The speed of pedestrian `n`.
+    pub fn speed(&self, state: &[T], n: usize) -> T {
+        state[2 * self.pedestrians + 2] + state[self.pedestrians + n]
+    }
+
+    /// The unwrapped positions.
+    pub fn positions(&self, state: &[T]) -> Vec<T> {
+        let n = self.pedestrians;
+        let mut behind = T::from(0.0);
+        (0..n)
+            .map(|i| {
+                let position = state[2 * n + 1] + state[2 * n] + (self.base() * T::from(i as f64) + behind);
+                behind = behind + state[i];
+                position
+            })
+            .collect()
+    }
+
+    /// The standard deviation of the speeds, divided by `N`. Scaled: speeds of 1e-200 have squares.
+    pub fn std(&self, state: &[T]) -> T {
+        let changes = &state[self.pedestrians..2 * self.pedestrians];
+        let largest = changes.iter().fold(0.0_f64, |largest, w| largest.max(w.value().abs()));
+        if largest == 0.0 || !largest.is_finite() {
+            return T::from(largest);
+        }
+        let (count, scale) = (T::from(changes.len() as f64), T::from(largest));
+        let scaled: Vec<T> = changes.iter().map(|w| *w / scale).collect();
+        let mean = scaled.iter().fold(T::from(0.0), |sum, w| sum + *w) / count;
+        let squares = scaled.iter().fold(T::from(0.0), |sum, w| sum + (*w - mean) * (*w - mean));
+        (squares / count).root() * scale
+    }
+
+    /// The largest difference of a spacing from the mean, or of speeds from each other.
+    pub fn perturbation(&self, state: &[T]) -> f64 {
+        let n = self.pedestrians;
+        let shift = self.headway - self.base();
+        let first = state[n];
+        let spacings = state[..n].iter().map(|u| *u - shift);
+        let speeds = state[n..2 * n].iter().map(|w| if self.form == Form::Differences { *w } else { *w - first });
+        spacings.chain(speeds).fold(0.0, |largest, part| largest.max(part.value().abs()))
+    }
+
+    /// The largest spacing or speed in the form of the state.
+    pub fn size(&self, state: &[T]) -> f64 {
+        let parts = &state[..2 * self.pedestrians];
+        parts.iter().fold(0.0_f64, |largest, part| largest.max(part.value().abs()))
+    }
+
+    /// The largest acceleration, in size.
+    pub fn acceleration(&self, state: &[T]) -> f64 {
+        let n = self.pedestrians;
+        let mut rates = vec![T::from(0.0); self.dimension()];
+        self.rates(state, &mut rates, &mut Vec::new());
+        let of_flow = rates[2 * n + 2];
+        rates[n..2 * n].iter().fold(0.0, |largest, rate| largest.max((of_flow + *rate).value().abs()))
+    }
+
+    /// The least room.
+    pub fn least_room(&self, state: &[T]) -> f64 {
+        (0..self.pedestrians).fold(f64::INFINITY, |least, n| least.min(self.room(state, n).value()))
+    }
+}
+
+/// The smooth ramp; how far its argument is from the kink is noted.
+fn noted<T: Number>(x: T, epsilon: f64, kinks: &mut Vec<f64>) -> T {
+    kinks.push(x.value() / epsilon);
+    smooth_ramp(x, epsilon)
+}

@@ -1,0 +1,67 @@
+//! Differences against subtraction in numbers of twice the digits; the laws in every kind of number.
+
+use math::twofold::Twofold;
+use reference::formula::{Formula, smooth_ramp};
+use reference::number::{Difference, Number, Parted};
+
+fn whole(x: Difference<Twofold>) -> Twofold {
+    x.whole()
+}
+
+#[test]
+fn differences_are_those_of_longer_numbers() {
+    type Function = (&'static str, fn(Difference<f64>) -> Difference<f64>, fn(Twofold) -> Twofold);
+    let functions: [Function; 6] = [
+        ("exp", Number::exp, Number::exp),
+        ("softplus", Number::softplus, Number::softplus),
+        ("ln_1p", Number::ln_1p, Number::ln_1p),
+        ("power", |x| x.power(-0.7), |x| x.power(-0.7)),
+        ("product", |x| x * x, |x| x * x),
+        ("quotient", |x| Difference::from(3.0) / x, |x| Twofold::from(3.0) / x),
+    ];
+    for (name, difference, long) in functions {
+        for base in [0.03, 0.7, 2.0, 30.0] {
+            for change in [1e-12, -3e-9, 2e-5, -1e-3, 0.02, -0.029, 0.9, 1.1, 20.0] {
+                let x = Difference { base, change };
+                let expected = long(Twofold::sum(base, change)) - long(Twofold::from(base));
+                let error = (difference(x).change - f64::from(expected)).abs();
+                // a few roundings of the difference; of the values where the change is large
+                let size = f64::from(expected).abs();
+                let value = f64::from(long(Twofold::from(base))).abs();
+                let allowed = 2e-14 * size + if change.abs() < 0.02 { 0.0 } else { 2e-15 * value };
+                assert!(error <= allowed, "{name}({base} + {change}): off by {error:e}, allowed {allowed:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_law_in_differences_and_in_parts_is_the_law() {
+    let laws = [
+        Formula::Algebraic { mu: 0.7, delta: 0.4, q: 1.3, a_v: 0.2, epsilon: 0.01, v0: 1.5 },
+        Formula::Exponential { a: 3.0, b: 0.4, c: 7.0, a_v: 0.1, epsilon: 0.02, v0: 1.5 },
+        Formula::Logarithmic { a_v: 0.3, epsilon: 0.05, v0: 0.8 },
+    ];
+    for law in laws {
+        for (u, w, w_ahead) in [(1e-9, -2e-9, 1e-10), (0.3, 0.1, -0.2), (-0.4, 0.05, 0.06)] {
+            let (s, v) = (3.1, 0.6);
+            let number =
+                |base: f64, change: f64| Difference { base: Twofold::from(base), change: Twofold::from(change) };
+            let ramp = &mut |x, epsilon| smooth_ramp(x, epsilon);
+            let by_difference =
+                whole(law.acceleration(number(s, u), number(v, w), number(v, w_ahead), &mut |x, e| smooth_ramp(x, e)));
+            let part = |base: f64, rest: f64| Parted { base, rest };
+            let by_parts = law.acceleration(part(s, u), part(v, w), part(v, w_ahead), &mut |x, e| smooth_ramp(x, e));
+            let plain: f64 = law.acceleration(s + u, v + w, v + w_ahead, ramp);
+            assert!((f64::from(by_difference) - plain).abs() < 2e-14, "{law:?}");
+            assert!((by_parts.whole() - plain).abs() < 2e-14, "{law:?}");
+        }
+    }
+}
+
+#[test]
+fn a_small_room_keeps_its_digits_in_parts() {
+    let law = Formula::Algebraic { mu: 1.0, delta: 0.0, q: 2.0, a_v: 0.0, epsilon: 0.1, v0: 1.0 };
+    let (s, v) = (Parted { base: 2.0, rest: 1e-40 }, Parted { base: 0.0, rest: 0.0 });
+    assert_eq!(law.room(s, v, v).whole(), 1e-40);
+}
