@@ -366,7 +366,8 @@ pub fn kind(event: Event) -> Option<Kind> {
         Event::Overlap => Some(Kind::Overlap),
         Event::NegativeSpeed => Some(Kind::NegativeSpeed),
         Event::Exchange => Some(Kind::Exchange),
-        Event::BlowUp => None,
+        // of formulas, which the hunt does not draw
+        Event::Undefined | Event::BlowUp => None,
     }
 }
 
