@@ -28,9 +28,6 @@ pub struct Arguments {
     json: bool,
 }
 
-/// Ends of the colour bar: the smallest that holds all values is taken, or the last.
-const LIMITS: [f64; 6] = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5];
-
 /// Computes the maps and writes what was asked for.
 ///
 /// # Errors
@@ -72,9 +69,7 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn picture(map: &scene::map::Map, numbers: &Computed, values: &[f64]) -> Result<Picture, Failure> {
-    let largest = values.iter().fold(0.0, |most: f64, value| if value.abs() > most { value.abs() } else { most });
-    let limit = LIMITS.into_iter().find(|&limit| largest <= limit).unwrap_or(0.5);
     let symbol = if map.columns()[2] == "phi" { "$\\Phi$" } else { "$\\mathrm{Re}\\,z^+$" };
     let panel = map_panel(map, &numbers.table, Labels { horizontal: true, vertical: true })?;
-    Ok(Picture::new(COLUMN_WIDTH, 70.0).scale(ColorScale::diverging(symbol, limit)).panel(panel))
+    Ok(Picture::new(COLUMN_WIDTH, 70.0).scale(ColorScale::diverging(symbol, values.iter().copied())).panel(panel))
 }

@@ -8,7 +8,7 @@ use files::table::Table;
 use files::write::atomic_all;
 use ode::Control;
 use plot::style::COLUMN_WIDTH;
-use plot::{Axis, ColorScale, Legend, Lines, Picture, Series, SpaceTime};
+use plot::{Axis, ColorScale, Lines, Picture, Series, SpaceTime};
 use scene::Overrides;
 use scene::run::Scene;
 use scene::simulation::Outcome;
@@ -131,12 +131,12 @@ fn pictures(folder: &Path, scene: &Scene, outcome: &Outcome) -> Result<Vec<(Path
     // a run that a stop ends is drawn up to its last sample
     let last = std.last().map_or(0.0, |&(t, _)| t);
     let times = Axis::linear("$t$", 0.0, if last > 0.0 { last } else { scene.t_end }).steps(4);
-    let heights = Axis::around("std of speeds", std.iter().map(|&(_, std)| std));
-    let panel = Lines::new(times.clone(), heights).legend(Legend::Hidden).series(Series::line("", std));
+    let heights = Axis::from_zero("std of speeds", std.iter().map(|&(_, std)| std));
+    let panel = Lines::new(times.clone(), heights).series(Series::line("", std));
     let mut files = rendered(folder, "std", Picture::new(COLUMN_WIDTH, 60.0).panel(panel))?;
     if scene.keeps_trajectories {
         let length = scene.ring.length;
-        let speeds = ColorScale::sequential("speed $v_n$", 0.0, scene.model.desired_speed());
+        let speeds = ColorScale::sequential("speed $v_n$", outcome.trajectories.column("v")?);
         let places = Axis::linear("$x'$", 0.0, length).steps(4);
         let panel = SpaceTime::new(times, places, length, &trajectories(&outcome.trajectories)?);
         files.extend(rendered(folder, "trajectories", Picture::new(COLUMN_WIDTH, 80.0).scale(speeds).panel(panel))?);
