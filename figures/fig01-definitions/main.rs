@@ -33,7 +33,7 @@ const FILL: Color = Color(0xdc, 0xe6, 0xf0);
 fn picture(_job: &Job) -> Result<Picture, Failure> {
     let (behind, ahead) = (BEHIND, AHEAD);
     let (gap_from, gap_to) = (behind.centre + behind.half, ahead.centre - ahead.half);
-    let drawing = Drawing::new().line(&[(2.0, LANE), (81.0, LANE)], 0.8);
+    let drawing = Drawing::new().line((2.0, LANE), (81.0, LANE), 0.8);
     let drawing = pedestrian(pedestrian(drawing, &behind), &ahead)
         .dimension((behind.centre, ABOVE), (ahead.centre, ABOVE))
         .label("$\\Delta x_n$", middle(behind.centre, ahead.centre, ABOVE + 2.6))
@@ -49,12 +49,12 @@ fn pedestrian(drawing: Drawing, pedestrian: &Pedestrian) -> Drawing {
     let Pedestrian { centre, half, index } = *pedestrian;
     let middle_height = 0.5 * (LANE + TOP);
     drawing
-        .rectangle((centre - half, LANE), (centre + half, TOP), Some(FILL))
-        .dashed(&[(centre, AXIS + 2.5), (centre, ABOVE + 1.0)])
+        .rectangle((centre - half, LANE), (centre + half, TOP), FILL)
+        .dashed((centre, AXIS + 2.5), (centre, ABOVE + 1.0))
         .dot((centre, middle_height), 0.7)
         .label(&format!("$x_{{{index}}}$"), (centre, AXIS))
         .dimension((centre - half, BELOW), (centre, BELOW))
-        .dashed(&[(centre - half, BELOW - 1.0), (centre - half, LANE)])
+        .dashed((centre - half, BELOW - 1.0), (centre - half, LANE))
         .label(&format!("$a_{{{index}}}$"), (centre - 0.5 * half, BELOW + 2.4))
         .arrow((centre + 1.5, middle_height), (centre + 7.0, middle_height), 1.0)
 }

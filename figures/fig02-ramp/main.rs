@@ -1,6 +1,7 @@
 //! Figure 2 (fig:theta): the ramp and its smooth approximations.
 
 use figures::panels::points;
+use figures::titles::{title, value};
 use figures::{Failure, Job, figure};
 use plot::style::COLUMN_WIDTH;
 use plot::{Axis, Lines, Picture, Series};
@@ -10,17 +11,25 @@ fn main() -> ExitCode {
     figure(env!("CARGO_BIN_NAME"), Job::compute_panels, picture)
 }
 
-/// Tables and names of the approximations, the one of the simulations first.
-const CURVES: [(&str, &str); 3] =
-    [("eps_01", "$\\varepsilon = 0.1$"), ("eps_03", "$\\varepsilon = 0.3$"), ("eps_05", "$\\varepsilon = 0.5$")];
+/// Places in the cycle of looks: the ramp's, and those of the approximations in the order of the scene's panels.
+const RAMP: usize = 2;
+const LOOKS: [usize; 3] = [0, 1, 3];
 
 fn picture(job: &Job) -> Result<Picture, Failure> {
-    let mut panel =
-        Lines::new(Axis::linear("$x$", -1.0, 1.0).steps(4), Axis::linear("$r_\\varepsilon(x)$", 0.0, 1.2).steps(4));
-    let ramp = points(&job.read(CURVES[0].0)?, "x", "ramp")?;
-    panel = panel.series(Series::line("ramp $r(x)$", ramp).look(2).solid().thick(2.0));
-    for (look, (table, name)) in [0, 1, 3].into_iter().zip(CURVES) {
-        panel = panel.series(Series::line(name, points(&job.read(table)?, "x", "smooth")?).look(look));
+    let mut curves = Vec::new();
+    let mut ramp = Vec::new();
+    for panel in &job.recipe.panels {
+        let table = job.read(&panel.name)?;
+        ramp = points(&table, "x", "ramp")?;
+        curves.push((title(panel, &["curve.epsilon"]), points(&table, "x", "smooth")?));
+    }
+    let range = |key| job.recipe.panels.first().and_then(|panel| value(&panel.tables, key)).unwrap_or(0.0);
+    let heights = curves.iter().flat_map(|(_, curve)| curve).map(|point| point.1);
+    let x = Axis::linear("$x$", range("curve.from"), range("curve.to")).steps(4);
+    let mut panel = Lines::new(x, Axis::from_zero("$r_\\varepsilon(x)$", heights))
+        .series(Series::line("ramp $r(x)$", ramp).look(RAMP).solid().thick(2.0));
+    for (look, (name, curve)) in LOOKS.into_iter().cycle().zip(curves) {
+        panel = panel.series(Series::line(&name, curve).look(look));
     }
     Ok(Picture::new(COLUMN_WIDTH, 60.0).panel(panel))
 }

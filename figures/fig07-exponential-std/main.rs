@@ -1,6 +1,7 @@
 //! Figure 7 (fig:vstd_exp): standard deviation of the speeds, exponential force.
 
-use figures::panels::{StdPanel, std_column};
+use figures::panels::std_column;
+use figures::titles::title;
 use figures::{Failure, Job, figure};
 use plot::Picture;
 use std::process::ExitCode;
@@ -10,27 +11,6 @@ fn main() -> ExitCode {
 }
 
 fn picture(job: &Job) -> Result<Picture, Failure> {
-    std_column(
-        job,
-        &[
-            StdPanel {
-                name: "stable",
-                title: "$a = 1.5,\\; b = 1.5$",
-                t_end: 2000.0,
-                top: 5.0,
-                power: -6,
-                decades: (1e-8, 1e-5),
-                inset: [0.3, 0.26, 0.97, 0.96],
-            },
-            StdPanel {
-                name: "unstable",
-                title: "$a = 3,\\; b = 1.5$",
-                t_end: 500.0,
-                top: 0.4,
-                power: 0,
-                decades: (1e-6, 1e0),
-                inset: [0.03, 0.26, 0.7, 0.96],
-            },
-        ],
-    )
+    let insets = [("stable", [0.3, 0.26, 0.97, 0.96]), ("unstable", [0.03, 0.26, 0.7, 0.96])];
+    std_column(job, &insets, |panel| title(panel, &["law.a", "law.b"]))
 }

@@ -3,7 +3,7 @@
 use figures::panels::points;
 use figures::{Failure, Job, figure};
 use plot::style::COLUMN_WIDTH;
-use plot::{Axis, Legend, Lines, Picture, Series};
+use plot::{Axis, Lines, Picture, Series};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -12,14 +12,10 @@ fn main() -> ExitCode {
 
 fn picture(job: &Job) -> Result<Picture, Failure> {
     // the critical distance a = a_n + a_{n+1} of pedestrians at rest is 2
-    let force = points(&job.read("force")?, "gap", "force")?.into_iter().map(|(gap, force)| (gap / 2.0, force));
-    let panel = Lines::new(
-        Axis::linear("$\\Delta x_n / a$", 0.0, 2.0).steps(4),
-        Axis::linear("$|f| \\, \\tau / v_0$", 0.0, 1.2).steps(4),
-    )
-    .legend(Legend::Hidden)
-    .vertical(1.0)
-    .horizontal(1.0)
-    .series(Series::line("", force.collect()));
+    let force: Vec<_> =
+        points(&job.read("force")?, "gap", "force")?.into_iter().map(|(gap, force)| (gap / 2.0, force)).collect();
+    let distances = Axis::around("$\\Delta x_n / a$", force.iter().map(|point| point.0));
+    let forces = Axis::from_zero("$|f| \\, \\tau / v_0$", force.iter().map(|point| point.1));
+    let panel = Lines::new(distances.steps(4), forces).vertical(1.0).horizontal(1.0).series(Series::line("", force));
     Ok(Picture::new(COLUMN_WIDTH, 58.0).panel(panel))
 }

@@ -1,8 +1,9 @@
 //! Figure 15 (fig:d-k-exp): growth rates of the exponential model over distance and wave number.
 
-use figures::panels::{MapPanel, map_grid};
+use figures::panels::map_grid;
+use figures::titles;
 use figures::{Failure, Job, figure};
-use plot::{ColorScale, Picture};
+use plot::Picture;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -12,30 +13,9 @@ fn main() -> ExitCode {
 fn picture(job: &Job) -> Result<Picture, Failure> {
     map_grid(
         job,
-        ColorScale::diverging("$\\mathrm{Re}\\,z^+$", 0.5),
-        2,
-        84.0,
-        &[
-            MapPanel {
-                name: "top_left",
-                title: "$\\langle 12, 1, 0, 0\\rangle$",
-                regions: &[("grows", (1.2, 1.2)), ("decays", (4.5, 2.0))],
-            },
-            MapPanel {
-                name: "top_right",
-                title: "$\\langle 12, 1, 0, 0.2\\rangle$",
-                regions: &[("grows", (1.2, 1.2)), ("decays", (4.5, 2.0))],
-            },
-            MapPanel {
-                name: "bottom_left",
-                title: "$\\langle 12, 2, 0, 0\\rangle$",
-                regions: &[("grows", (1.2, 1.2)), ("decays", (4.5, 2.6))],
-            },
-            MapPanel {
-                name: "bottom_right",
-                title: "$\\langle 12, 2, 0, 0.2\\rangle$",
-                regions: &[("grows", (1.2, 1.2)), ("decays", (4.5, 2.6))],
-            },
-        ],
+        "$\\mathrm{Re}\\,z^+$",
+        (2, 84.0),
+        &["top_left", "top_right", "bottom_left", "bottom_right"],
+        titles::law,
     )
 }

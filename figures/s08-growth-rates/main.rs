@@ -4,7 +4,7 @@
 use figures::panels::points;
 use figures::{Failure, Job, figure};
 use plot::style::FULL_WIDTH;
-use plot::{Axis, Corner, Legend, Lines, Marker, Picture, Series};
+use plot::{Axis, Corner, Lines, Marker, Picture, Series};
 use std::f64::consts::PI;
 use std::process::ExitCode;
 
@@ -43,8 +43,8 @@ const LAWS: [Law; 3] = [
 
 /// Ticks of an axis of wave numbers.
 const WAVE_NUMBERS: [(f64, &str); 3] = [(0.0, "0"), (0.5 * PI, "$\\pi/2$"), (PI, "$\\pi$")];
-/// The ends of the axis of residuals, in units of 1e-15.
-const RESIDUALS: f64 = 2.0;
+/// The ends of the axis of residuals.
+const RESIDUALS: f64 = 2e-15;
 
 fn tables(job: &mut Job) -> Result<(), Failure> {
     for law in &LAWS {
@@ -75,7 +75,7 @@ fn rates(job: &Job, law: &Law, is_labelled: bool) -> Result<Lines, Failure> {
         Axis::linear("", 0.0, PI).ticks(&WAVE_NUMBERS.map(|(k, _)| (k, ""))),
         Axis::linear(label, low, high),
     )
-    .legend(Legend::Corner(Corner::BottomLeft))
+    .legend(Corner::BottomLeft)
     .horizontal(0.0);
     for (index, (flow, name)) in law.flows.into_iter().enumerate() {
         let table = job.read(&format!("{}_{flow}", law.name))?;
@@ -89,17 +89,15 @@ fn rates(job: &Job, law: &Law, is_labelled: bool) -> Result<Lines, Failure> {
 const MARKERS: [Marker; 2] = [Marker::Circle, Marker::Square];
 
 fn residuals(job: &Job, law: &Law, is_labelled: bool) -> Result<Lines, Failure> {
-    let label = if is_labelled { "residual $/ 10^{-15}$" } else { "" };
+    let label = if is_labelled { "residual" } else { "" };
     let mut panel = Lines::new(
         Axis::linear("wave number $k$", 0.0, PI).ticks(&WAVE_NUMBERS),
         Axis::linear(label, -RESIDUALS, RESIDUALS).steps(4),
     )
-    .legend(Legend::Hidden)
     .horizontal(0.0);
     for (index, (flow, _)) in law.flows.into_iter().enumerate() {
-        let scaled = points(&job.read(&format!("{}_{flow}", law.name))?, "k", "residual")?;
-        let scaled = scaled.into_iter().map(|(k, residual)| (k, residual / 1e-15)).collect();
-        panel = panel.series(Series::points("", MARKERS[index], scaled).look(index));
+        let left = points(&job.read(&format!("{}_{flow}", law.name))?, "k", "residual")?;
+        panel = panel.series(Series::points("", MARKERS[index], left).look(index));
     }
     Ok(panel)
 }

@@ -2,10 +2,11 @@
 //! the curve of the paper's scheme, steps of 1e-5 in positions, on top of the true one.
 
 use figures::panels::points;
+use figures::titles::number;
 use figures::{Failure, Job, figure};
 use files::table::Table;
 use plot::style::COLUMN_WIDTH;
-use plot::{Axis, Corner, Legend, Lines, Marker, Picture, Series};
+use plot::{Axis, Corner, Lines, Marker, Picture, Series};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -37,7 +38,7 @@ fn tables(job: &mut Job) -> Result<(), Failure> {
 fn picture(job: &Job) -> Result<Picture, Failure> {
     Ok(Picture::new(COLUMN_WIDTH, 165.0)
         .columns(1)
-        .titled("error of the gaps at $t = 1000$", against_step(job, "error_gap")?)
+        .titled(&format!("error of the gaps at $t = {}$", number(TIME)), against_step(job, "error_gap")?)
         .titled("of it, rounding; hollow: compensated sums", against_step(job, "rounding_gap")?)
         .titled("figure 4, stable: the scheme of the paper", verbatim(job)?))
 }
@@ -47,26 +48,23 @@ fn against_step(job: &Job, column: &str) -> Result<Lines, Failure> {
     let is_total = column == "error_gap";
     let (label, low) = if is_total { ("largest error", 1e-19) } else { ("largest rounding", 1e-21) };
     let mut panel = Lines::new(Axis::log10("step $\\Delta t$", 1e-5, 1e-1), Axis::log10(label, low, 1e-6));
-    panel = if is_total {
-        panel.legend(Legend::Corner(Corner::BottomRight)).note("slope 2", (2e-2, 1e-12))
-    } else {
-        panel.legend(Legend::Hidden)
-    };
+    panel = if is_total { panel.legend(Corner::BottomRight).note("slope 2", (2e-2, 1e-12)) } else { panel };
     for (index, (state, marker)) in STATES.into_iter().enumerate() {
         for sum in SUMS {
             let along = points(&job.read(&format!("{state}_{sum}"))?, "dt", column)?;
-            let (is_plain, name) = if sum == "plain" { (true, state) } else { (false, "") };
+            let is_plain = sum == "plain";
+            let name = if is_plain { state } else { "" };
             let curve = Series::line(name, along).marker(marker).look(index).solid();
             panel = panel.series(if is_plain { curve.filled() } else { curve });
         }
     }
-    Ok(panel)
+    Ok(if is_total { panel } else { panel.unnamed() })
 }
 
 fn verbatim(job: &Job) -> Result<Lines, Failure> {
     let table = job.read("verbatim")?;
     Ok(Lines::new(Axis::linear("$t$", 0.0, 2000.0).steps(4), Axis::log10("std of speeds", 1e-9, 1e-5))
-        .legend(Legend::Corner(Corner::TopRight))
+        .legend(Corner::TopRight)
         .series(Series::line("true", points(&table, "t", "exact")?).look(0).thick(2.0))
         .series(Series::line("Heun, $\\Delta t = 10^{-5}$, positions", points(&table, "t", "std")?).look(1)))
 }

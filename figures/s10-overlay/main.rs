@@ -8,7 +8,7 @@ use figures::{Failure, Job, figure};
 use files::table::Table;
 use ode::Method;
 use plot::style::FULL_WIDTH;
-use plot::{Axis, Corner, Legend, Lines, Marker, Picture, Series};
+use plot::{Axis, Corner, Lines, Marker, Picture, Series};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -81,7 +81,7 @@ fn speeds(job: &Job) -> Result<Lines, Failure> {
     let table = job.read("speeds")?;
     let axes = (Axis::linear("pedestrian $n$", 0.0, 140.0).steps(4), Axis::linear("speed", 0.55, 0.75).steps(4));
     Ok(Lines::new(axes.0, axes.1)
-        .legend(Legend::Corner(Corner::TopLeft))
+        .legend(Corner::TopLeft)
         .series(Series::line("regenerated", points(&job.read("profile")?, "n", "accurate")?))
         .series(Series::points("published", Marker::Circle, points(&table, "n", "published")?).every(3)))
 }
@@ -90,20 +90,19 @@ fn deviations(job: &Job) -> Result<Lines, Failure> {
     let table = job.read("deviations")?;
     let axes = (Axis::linear("$t$", 0.0, 3000.0).steps(3), Axis::linear("std of speeds", 0.0, 0.4).steps(4));
     Ok(Lines::new(axes.0, axes.1)
-        .legend(Legend::Corner(Corner::BottomRight))
+        .legend(Corner::BottomRight)
         .series(Series::line("regenerated", points(&job.read("curve")?, "t", "accurate")?))
         .series(Series::points("published", Marker::Circle, points(&table, "t", "published")?).every(8)))
 }
 
 fn differences(job: &Job) -> Result<Lines, Failure> {
     let table = job.read("deviations")?;
-    let axes = (Axis::linear("$t$", 0.0, 3000.0).steps(3), Axis::linear("difference $/ 10^{-3}$", -3.0, 3.0).steps(6));
-    let mut panel = Lines::new(axes.0, axes.1).horizontal(0.0).legend(Legend::Corner(Corner::TopRight));
+    let axes = (Axis::linear("$t$", 0.0, 3000.0).steps(3), Axis::linear("difference", -3e-3, 3e-3).steps(6));
+    let mut panel = Lines::new(axes.0, axes.1).horizontal(0.0).legend(Corner::TopRight);
     for (name, column, marker) in
         [("accurate run", "from_accurate", Marker::Circle), ("Euler, steps of $10^{-3}$", "from_euler", Marker::Square)]
     {
-        let scaled = points(&table, "t", column)?.into_iter().map(|(t, d)| (t, d / 1e-3)).collect();
-        panel = panel.series(Series::points(name, marker, scaled).every(2));
+        panel = panel.series(Series::points(name, marker, points(&table, "t", column)?).every(2));
     }
     Ok(panel)
 }
@@ -112,7 +111,7 @@ fn steps(job: &Job) -> Result<Lines, Failure> {
     let table = job.read_rows("schemes")?;
     let axes = (Axis::log10("step $\\Delta t$", 3e-4, 6e-3), Axis::log10("root mean square", 1e-5, 1e-2));
     let mut panel = Lines::new(axes.0, axes.1)
-        .legend(Legend::Corner(Corner::TopLeft))
+        .legend(Corner::TopLeft)
         .note("accurate run, std", (3.2e-4, 6.6e-4))
         .note("accurate run, speeds", (3.2e-4, 1.8e-5));
     for (name, column, marker) in

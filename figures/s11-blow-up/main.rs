@@ -5,7 +5,7 @@ use figures::panels::points;
 use figures::{Failure, Job, figure};
 use files::table::Table;
 use plot::style::COLUMN_WIDTH;
-use plot::{Axis, Corner, Legend, Lines, Marker, Picture, Series};
+use plot::{Axis, Corner, Lines, Marker, Picture, Series};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -41,7 +41,6 @@ fn speeds(cascade: &Table) -> Result<Lines, Failure> {
     let doublings = points(cascade, "k", "speed")?.into_iter().map(|(k, v)| (k, math::ln(v) / std::f64::consts::LN_2));
     let axis = Axis::linear("throw $k$", 0.0, 36.0).steps(4);
     Ok(Lines::new(axis, Axis::linear("$\\mathrm{log}_2 (-v)$", 0.0, 40.0).steps(4))
-        .legend(Legend::Hidden)
         .guide(&[(4.0, 4.0 + FIRST), (36.0, 36.0 + FIRST)])
         .note("doubling", (22.0, 16.0))
         .series(Series::points("", Marker::Circle, doublings.collect()).look(0)))
@@ -55,7 +54,7 @@ fn rooms(job: &Job, cascade: &Table) -> Result<Lines, Failure> {
     let throws = points(cascade, "remaining", "room")?;
     let slope = |remaining: f64| (remaining, SQUARE * remaining * remaining);
     Ok(Lines::new(Axis::log10("time left $T^* - t$", 1e-11, 1.0), Axis::log10("smallest gap $d$", 1e-24, 1e2))
-        .legend(Legend::Corner(Corner::BottomRight))
+        .legend(Corner::BottomRight)
         .guide(&[slope(1e-11), slope(1.0)])
         .note("slope 2", (1e-5, 1e-13))
         .series(Series::line("so far", along).look(0))
@@ -70,7 +69,7 @@ fn steps(job: &Job) -> Result<Lines, Failure> {
     let cube_root = |step: f64| (step, 0.85 * math::pow(step, 1.0 / 3.0));
     let mut panel =
         Lines::new(Axis::log10("step $\\Delta t$", 1e-5, 1e-1), Axis::log10("$T^* - t$ at the report", 1e-3, 1.0))
-            .legend(Legend::Corner(Corner::BottomRight))
+            .legend(Corner::BottomRight)
             .guide(&[cube_root(1e-5), cube_root(1e-1)])
             .note("slope 1/3", (2e-5, 5e-2));
     for ((method, name), marker) in METHODS.into_iter().zip(markers) {

@@ -3,7 +3,7 @@
 use figures::panels::points;
 use figures::{Failure, Job, figure};
 use plot::style::COLUMN_WIDTH;
-use plot::{Axis, Corner, Legend, Lines, Picture, Series};
+use plot::{Axis, Corner, Lines, Picture, Series};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -30,8 +30,7 @@ fn picture(job: &Job) -> Result<Picture, Failure> {
 fn panel(job: &Job, law: &str, (low, high): (f64, f64), corner: Corner) -> Result<Lines, Failure> {
     let table = job.read("scale")?;
     let axis = Axis::log10("pedestrians $N$", 10.0, 1e7);
-    let mut lines =
-        Lines::new(axis, Axis::log10("ns for a pedestrian and step", low, high)).legend(Legend::Corner(corner));
+    let mut lines = Lines::new(axis, Axis::log10("ns for a pedestrian and step", low, high)).legend(corner);
     for (variant, name) in
         [("four", "in one piece, AVX2"), ("eight", "in one piece, AVX-512"), ("blocks", "in blocks, AVX2")]
     {

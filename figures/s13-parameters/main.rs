@@ -2,7 +2,7 @@
 
 use figures::{Failure, Job, figure, parameters};
 use plot::style::FULL_WIDTH;
-use plot::{Axis, Corner, Legend, Lines, Marker, Picture, Series};
+use plot::{Axis, Corner, Lines, Marker, Picture, Series};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -42,7 +42,7 @@ fn onset(job: &Job) -> Result<Lines, Failure> {
     for (word, name, marker) in STARTS {
         panel = panel.series(Series::points(name, marker, pairs(job, "shift", &[("start", word)], "shift", "onset")?));
     }
-    Ok(panel.legend(Legend::Corner(Corner::TopRight)))
+    Ok(panel.legend(Corner::TopRight))
 }
 
 fn jams_by_shift(job: &Job) -> Result<Lines, Failure> {
@@ -50,22 +50,19 @@ fn jams_by_shift(job: &Job) -> Result<Lines, Failure> {
     for (word, name, marker) in STARTS {
         panel = panel.series(Series::points(name, marker, pairs(job, "shift", &[("start", word)], "shift", "jams")?));
     }
-    Ok(panel.legend(Legend::Corner(Corner::BottomLeft)))
+    Ok(panel.legend(Corner::BottomLeft))
 }
 
 fn jams_by_time(job: &Job) -> Result<Lines, Failure> {
     let (times, jams) = (Axis::linear("$t / 1000$", 0.0, 10.0).steps(5), Axis::linear("jams", 0.0, 12.0).steps(4));
     let points = pairs(job, "time", &[], "t", "jams")?.into_iter().map(|(t, jams)| (t / 1000.0, jams)).collect();
-    Ok(Lines::new(times, jams).legend(Legend::Hidden).vertical(3.0).series(Series::line("", points)))
+    Ok(Lines::new(times, jams).vertical(3.0).series(Series::line("", points)))
 }
 
 fn jam_speed(job: &Job) -> Result<Lines, Failure> {
     let axes = (Axis::linear("$v_0'$", 0.8, 1.4).steps(3), Axis::linear("speed of the jams", -0.3, 0.1).steps(4));
     let points = pairs(job, "speed", &[], "v0", "jam_speed")?;
-    Ok(Lines::new(axes.0, axes.1)
-        .legend(Legend::Hidden)
-        .horizontal(0.0)
-        .series(Series::line("", points).marker(Marker::Circle)))
+    Ok(Lines::new(axes.0, axes.1).horizontal(0.0).series(Series::line("", points).marker(Marker::Circle)))
 }
 
 fn flow(job: &Job) -> Result<Lines, Failure> {
@@ -73,7 +70,7 @@ fn flow(job: &Job) -> Result<Lines, Failure> {
     let uniform: Vec<(f64, f64)> =
         pairs(job, "length", &[], "headway", "steady_speed")?.into_iter().map(|(dy, v)| (dy, v / dy)).collect();
     Ok(Lines::new(axes.0, axes.1)
-        .legend(Legend::Corner(Corner::TopLeft))
+        .legend(Corner::TopLeft)
         .series(Series::line("with jams", pairs(job, "length", &[], "headway", "flow")?).marker(Marker::Circle))
         .series(Series::line("uniform", uniform)))
 }
@@ -83,7 +80,6 @@ fn plateau(job: &Job) -> Result<Lines, Failure> {
     let eps = Axis::log10("$\\varepsilon$", 7e-4, 0.15).ticks(&ticks);
     let points = pairs(job, "eps", &[], "epsilon", "plateau")?;
     Ok(Lines::new(eps, Axis::linear("std of speeds, late", 0.0, 0.4).steps(4))
-        .legend(Legend::Hidden)
         .vertical(0.01)
         .series(Series::line("", points).marker(Marker::Circle)))
 }

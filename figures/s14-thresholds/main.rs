@@ -3,7 +3,7 @@
 use figures::thresholds::{self, monotone};
 use figures::{Failure, Job, figure};
 use plot::style::FULL_WIDTH;
-use plot::{Axis, Corner, Legend, Lines, Marker, Picture, Series};
+use plot::{Axis, Corner, Lines, Marker, Picture, Series};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -54,7 +54,7 @@ fn ring(job: &Job) -> Result<Lines, Failure> {
         let points = pairs(job, "ring", &[("quantity", word)], "pedestrians", "above")?;
         panel = panel.series(Series::points(name, marker, points));
     }
-    Ok(panel.legend(Legend::Corner(Corner::BottomLeft)))
+    Ok(panel.legend(Corner::BottomLeft))
 }
 
 fn relative_speed(job: &Job) -> Result<Lines, Failure> {
@@ -62,7 +62,6 @@ fn relative_speed(job: &Job) -> Result<Lines, Failure> {
         (Axis::linear("$\\delta$", -1.5, 1.5).steps(6), Axis::linear("critical $\\mu$ at $d' = 1$", 0.0, 1.0).steps(5));
     let points = pairs(job, "minus_delta", &[], "delta", "critical_mu")?;
     Ok(Lines::new(axes.0, axes.1)
-        .legend(Legend::Hidden)
         .note("unstable", (-1.2, 0.75))
         .note("stable", (0.9, 0.2))
         .series(Series::line("", points).marker(Marker::Circle)))
@@ -83,7 +82,7 @@ fn widening(job: &Job) -> Result<Lines, Failure> {
         let points = pairs(job, "widening", &[("law", law), ("fixed", fixed)], "a_v", "margin")?;
         panel = panel.series(Series::line(name, points));
     }
-    Ok(panel.legend(Legend::Corner(Corner::BottomLeft)))
+    Ok(panel.legend(Corner::BottomLeft))
 }
 
 fn contact(job: &Job) -> Result<Lines, Failure> {
@@ -92,7 +91,7 @@ fn contact(job: &Job) -> Result<Lines, Failure> {
         .fold(f64::INFINITY, |least, p| f64::min(least, p.0));
     let axes = (Axis::linear("$v_0'$", 0.0, 10.0).steps(5), Axis::log10("time", 1.0, 1e4));
     Ok(Lines::new(axes.0, axes.1)
-        .legend(Legend::Corner(Corner::TopRight))
+        .legend(Corner::TopRight)
         .vertical(begin)
         .series(Series::line("first contact", pairs(job, "contact", &[], "v0", "contact_t")?).marker(Marker::Circle))
         .series(Series::points("first backwards", Marker::Square, pairs(job, "contact", &[], "v0", "negative_t")?)))

@@ -6,7 +6,7 @@ use figures::{Failure, Job, figure};
 use files::table::Table;
 use jam::uniform::steady_speed;
 use plot::style::COLUMN_WIDTH;
-use plot::{Axis, Corner, Legend, Lines, Marker, Picture, Series};
+use plot::{Axis, Corner, Lines, Marker, Picture, Series};
 use scene::run::Scene;
 use std::process::ExitCode;
 
@@ -60,11 +60,10 @@ fn picture(job: &Job) -> Result<Picture, Failure> {
     let scene = scene::run::read(&job.recipe.file, &job.panel("main")?.tables)?;
     let mean = 1.0 / scene.ring.headway();
     let speeds = panel(job, "speed", Axis::linear("speed $v$", 0.0, 1.2).steps(4), mean)?;
-    let flows = panel(job, "flow", Axis::linear("flow $\\rho v$", 0.0, 0.6).steps(3), mean)?;
-    Ok(Picture::new(COLUMN_WIDTH, 110.0).columns(1).panel(speeds.legend(Legend::Corner(Corner::BottomLeft))).panel(
+    let flows = panel(job, "flow", Axis::linear("flow $\\rho v$", 0.0, 0.6).steps(3), mean)?.unnamed();
+    Ok(Picture::new(COLUMN_WIDTH, 110.0).columns(1).panel(speeds.legend(Corner::BottomLeft)).panel(
         // who is faster than the uniform flow at the same headway slows down: the law says so
         flows
-            .legend(Legend::Hidden)
             .note("mean density", (mean + 0.02, 0.03))
             .note("slowing down", (0.8, 0.525))
             .note("speeding up", (0.8, 0.29)),

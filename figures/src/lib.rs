@@ -1,5 +1,5 @@
 //! What the figures' binaries share: the command line and where tables and pictures go ([`job`]), panels that several
-//! figures draw ([`panels`], [`precision_panel`]), exit codes ([`failure`]); the two programs for scenes of one's own
+//! figures draw ([`panels`], [`precision_panel`]) and their titles ([`titles`]), exit codes ([`failure`]); the two programs for scenes of one's own
 //! ([`simulate`] with [`checkpoint`] and [`steps`], [`map`]); and the tables of the report of accuracy: error against work
 //! ([`precision`]), rounding and growth ([`studies`]), hard cases ([`hard`]). What the jams depend on
 //! ([`parameters`]), where stability ends ([`thresholds`]), and published curves beside
@@ -20,6 +20,7 @@ pub mod simulate;
 pub mod steps;
 pub mod studies;
 pub mod thresholds;
+pub mod titles;
 
 pub use failure::Failure;
 pub use job::{Job, figure};

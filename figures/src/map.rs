@@ -82,14 +82,13 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
 const BLANK: &str = "the paper's criterion differs there from the exact one by more than 0.1 %; `margin` is exact";
 
 fn picture(map: &scene::map::Map, numbers: &Computed, values: &[f64]) -> Result<Picture, Failure> {
-    let largest = values.iter().fold(0.0, |most: f64, value| if value.abs() > most { value.abs() } else { most });
     let symbol = match map.value {
         Value::Margin => "margin",
         Value::Criterion => "$\\Phi$",
         Value::GrowthRate => "$\\mathrm{Re}\\,z^+$",
     };
     let panel = map_panel(map, &numbers.values(), Labels { horizontal: true, vertical: true })?;
-    let picture = Picture::new(COLUMN_WIDTH, 70.0).scale(ColorScale::diverging(symbol, limit(largest)));
+    let picture = Picture::new(COLUMN_WIDTH, 70.0).scale(ColorScale::diverging(symbol, values.iter().copied()));
     Ok(if numbers.blank.is_empty() {
         picture.panel(panel)
     } else {
@@ -97,14 +96,3 @@ fn picture(map: &scene::map::Map, numbers: &Computed, values: &[f64]) -> Result<
         picture.titled(&format!("grey, {percent:.1} %: criterion not exact to 0.1 %"), panel)
     })
 }
-
-/// The end of the colour bar: 1, 2 or 5 times a power of ten that holds all values, 0.5 at most.
-fn limit(largest: f64) -> f64 {
-    let largest = if largest > 1e-300 { largest } else { 1e-300 };
-    let decade = math::pow(10.0, math::log10(largest).floor());
-    let rounded = [1.0, 2.0, 5.0, 10.0].map(|step| step * decade).into_iter().find(|&limit| largest <= limit);
-    rounded.filter(|&limit| limit < WIDEST).unwrap_or(WIDEST)
-}
-
-/// The widest colour bar.
-const WIDEST: f64 = 0.5;

@@ -6,7 +6,7 @@ use crate::job::Job;
 use files::table::Table;
 use ode::Method;
 use plot::style::COLUMN_WIDTH;
-use plot::{Axis, Corner, Legend, Lines, Marker, Picture, Point, Series};
+use plot::{Axis, Corner, Lines, Marker, Picture, Point, Series};
 
 /// How a method is drawn: fixed steps as dashed lines with filled markers, adaptive ones as solid lines with hollow
 /// markers, like orders in like colours.
@@ -94,7 +94,7 @@ fn panel(table: &Table, cost: &str, label: &str, is_first: bool) -> Result<Lines
     // room for the legend, at the left of all curves
     let x = Axis::log10(label, decade_below(least_cost / 200.0), decade_above(most));
     let y = Axis::log10("largest error of a gap or speed", decade_below(least_error), decade_above(largest));
-    let mut lines = Lines::new(x, y).legend(Legend::Corner(Corner::BottomLeft));
+    let mut lines = Lines::new(x, y).legend(Corner::BottomLeft);
     for (look, curve) in LOOKS.iter().zip(&curves).filter(|(look, _)| SLOPES.contains(&look.method)) {
         if let Some(guide) = slope(curve, look.method.order()) {
             lines = lines.guide(&guide);

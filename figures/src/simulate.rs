@@ -9,7 +9,7 @@ use files::write::atomic_all;
 use jam::events::Happening;
 use ode::{Control, Method};
 use plot::style::COLUMN_WIDTH;
-use plot::{Axis, ColorScale, Legend, Lines, Picture, Series, SpaceTime};
+use plot::{Axis, ColorScale, Lines, Picture, Series, SpaceTime};
 use scene::Overrides;
 use scene::check::{self, Errors};
 use scene::run::Scene;
@@ -155,8 +155,8 @@ fn pictures(
     // a run that a stop ends is drawn up to its last sample
     let last = std.last().map_or(0.0, |&(t, _)| t);
     let times = Axis::linear("$t$", 0.0, if last > 0.0 { last } else { scene.t_end }).steps(4);
-    let heights = Axis::around("std of speeds", std.iter().map(|&(_, std)| std));
-    let panel = Lines::new(times.clone(), heights).legend(Legend::Hidden).series(Series::line("", std));
+    let heights = Axis::from_zero("std of speeds", std.iter().map(|&(_, std)| std));
+    let panel = Lines::new(times.clone(), heights).series(Series::line("", std));
     let picture = Picture::new(COLUMN_WIDTH, 60.0);
     let picture = match errors.and_then(|errors| errors.std) {
         Some(error) => picture.titled(&format!("error of the std: about {error:.0e}"), panel),
@@ -165,7 +165,7 @@ fn pictures(
     let mut files = rendered(folder, "std", picture)?;
     if scene.keeps_trajectories {
         let length = scene.ring.length;
-        let speeds = ColorScale::sequential("speed $v_n$", 0.0, scene.model.desired_speed());
+        let speeds = ColorScale::sequential("speed $v_n$", outcome.trajectories.column("v")?);
         let places = Axis::linear("$x'$", 0.0, length).steps(4);
         let panel = SpaceTime::new(times, places, length, &trajectories(&outcome.trajectories)?);
         files.extend(rendered(folder, "trajectories", Picture::new(COLUMN_WIDTH, 80.0).scale(speeds).panel(panel))?);

@@ -3,15 +3,14 @@
 use crate::geometry::Point;
 use std::collections::BTreeMap;
 
-/// An edge of the grid between neighbouring cell centres: its lower or left end, and whether it
-/// runs upwards.
+/// An edge of the grid between neighbouring cell centres: its lower or left end, and whether it runs upwards.
 type Edge = (usize, usize, bool);
 
 /// Lines where the bilinear surface through the cells' values crosses zero.
 ///
-/// `values[row * columns + column]`; points are (column, row) with the first cell's centre at
-/// (0.5, 0.5), so that cells are unit squares. The outermost half cells take the value of their
-/// cell, so that lines reach the border. Squares with a NaN corner are left out.
+/// `values[row * columns + column]`; points are (column, row) with the first cell's centre at (0.5, 0.5), so that cells
+/// are unit squares. The outermost half cells take the value of their cell, so that lines reach the border. Squares
+/// with a NaN corner are left out.
 pub(crate) fn zero_lines(columns: usize, rows: usize, values: &[f64]) -> Vec<Vec<Point>> {
     let padded = Padded { columns, rows, values };
     let mut segments: Vec<[Edge; 2]> = Vec::new();
@@ -69,7 +68,9 @@ impl Padded<'_> {
     fn crossing(&self, (column, row, upwards): Edge) -> Point {
         let (next_column, next_row) = if upwards { (column, row + 1) } else { (column + 1, row) };
         let (start, end) = (self.value(column, row), self.value(next_column, next_row));
-        let share = crossing_share(start, end);
+        let share = start / (start - end);
+        // beside an infinite value it lies in the middle
+        let share = if share.is_finite() && start.is_finite() && end.is_finite() { share } else { 0.5 };
         let (x, y) = self.position(column, row);
         let (next_x, next_y) = self.position(next_column, next_row);
         (x + share * (next_x - x), y + share * (next_y - y))
@@ -82,13 +83,6 @@ impl Padded<'_> {
     }
 }
 
-/// Share of the way from a value to one of the other sign at which zero lies; infinite values
-/// count as the middle.
-fn crossing_share(start: f64, end: f64) -> f64 {
-    let share = start / (start - end);
-    if share.is_finite() && start.is_finite() && end.is_finite() { share } else { 0.5 }
-}
-
 /// Joins segments that share an edge into chains; a ring ends at the edge where it starts.
 fn join(segments: &[[Edge; 2]]) -> Vec<Vec<Edge>> {
     let mut at: BTreeMap<Edge, Vec<usize>> = BTreeMap::new();
@@ -98,29 +92,20 @@ fn join(segments: &[[Edge; 2]]) -> Vec<Vec<Edge>> {
         }
     }
     let mut used = vec![false; segments.len()];
-    let mut chains = Vec::new();
     // Open chains first, from their ends; what remains are rings.
     let ends = at.iter().filter(|(_, list)| list.len() == 1).map(|(edge, _)| *edge);
-    let starts: Vec<Edge> = ends.chain(at.keys().copied()).collect();
-    for start in starts {
-        let chain = walk(start, segments, &at, &mut used);
-        if chain.len() > 1 {
-            chains.push(chain);
+    let mut chains: Vec<Vec<Edge>> = ends.chain(at.keys().copied()).map(|start| vec![start]).collect();
+    for chain in &mut chains {
+        let mut edge = chain[0];
+        while let Some(&index) = at[&edge].iter().find(|&&index| !used[index]) {
+            used[index] = true;
+            let [a, b] = segments[index];
+            edge = if a == edge { b } else { a };
+            chain.push(edge);
         }
     }
+    chains.retain(|chain| chain.len() > 1);
     chains
-}
-
-fn walk(start: Edge, segments: &[[Edge; 2]], at: &BTreeMap<Edge, Vec<usize>>, used: &mut [bool]) -> Vec<Edge> {
-    let mut chain = vec![start];
-    let mut edge = start;
-    while let Some(&index) = at.get(&edge).and_then(|list| list.iter().find(|&&index| !used[index])) {
-        used[index] = true;
-        let [a, b] = segments[index];
-        edge = if a == edge { b } else { a };
-        chain.push(edge);
-    }
-    chain
 }
 
 #[cfg(test)]
@@ -130,6 +115,10 @@ mod tests {
     fn matrix(columns: usize, rows: usize, value: impl Fn(f64, f64) -> f64) -> Vec<f64> {
         let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
         cells.map(|(column, row)| value(column as f64 + 0.5, row as f64 + 0.5)).collect()
+    }
+
+    fn square(x: f64) -> f64 {
+        x * x
     }
 
     #[test]
@@ -143,11 +132,11 @@ mod tests {
 
     #[test]
     fn a_circle_gives_one_closed_ring_near_the_radius() {
-        let lines = zero_lines(40, 40, &matrix(40, 40, |x, y| (x - 20.0).powi_2() + (y - 20.0).powi_2() - 144.0));
+        let lines = zero_lines(40, 40, &matrix(40, 40, |x, y| square(x - 20.0) + square(y - 20.0) - 144.0));
         assert_eq!(lines.len(), 1);
         assert_eq!(lines[0].first(), lines[0].last());
         for &(x, y) in &lines[0] {
-            let radius = ((x - 20.0).powi_2() + (y - 20.0).powi_2()).sqrt();
+            let radius = (square(x - 20.0) + square(y - 20.0)).sqrt();
             // Linear interpolation of x^2 over a unit step errs by at most 1/4: 1/4 / (2 r) = 0.0104.
             assert!((radius - 12.0).abs() < 0.0105, "{radius}");
         }
@@ -156,15 +145,5 @@ mod tests {
     #[test]
     fn cells_without_value_hide_the_line() {
         assert!(zero_lines(3, 3, &[f64::NAN; 9]).is_empty());
-    }
-
-    trait Square {
-        fn powi_2(self) -> f64;
-    }
-
-    impl Square for f64 {
-        fn powi_2(self) -> f64 {
-            self * self
-        }
     }
 }

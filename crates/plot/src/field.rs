@@ -13,15 +13,14 @@ impl Snapshot {
     /// Positions and speeds of all trajectories that have begun and not ended at `time`.
     pub fn new(trajectories: &[Trajectory], length: f64, time: f64) -> Self {
         let at_time = |walk: &Trajectory| {
-            let next = walk.time.partition_point(|sample| *sample <= time).clamp(1, walk.time.len().max(2) - 1);
-            let (start, end) = (walk.time.get(next - 1)?, walk.time.get(next)?);
-            if !(*start..=*end).contains(&time) {
+            let next = walk.partition_point(|sample| sample[0] <= time).clamp(1, walk.len().max(2) - 1);
+            let (start, end) = (walk.get(next - 1)?, walk.get(next)?);
+            if !(start[0]..=end[0]).contains(&time) {
                 return None;
             }
-            let share = (time - start) / (end - start);
-            let between = |values: &[f64]| values[next - 1] + share * (values[next] - values[next - 1]);
-            let position = between(&walk.position);
-            Some((position - (position / length).floor() * length, between(&walk.speed)))
+            let share = (time - start[0]) / (end[0] - start[0]);
+            let [position, speed] = [1, 2].map(|of| start[of] + share * (end[of] - start[of]));
+            Some((position - (position / length).floor() * length, speed))
         };
         let mut samples: Vec<(f64, f64)> = trajectories.iter().filter_map(at_time).collect();
         samples.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -47,11 +46,7 @@ mod tests {
 
     #[test]
     fn speed_is_linear_between_neighbours_and_across_the_seam() {
-        let walk = |start: f64, speed: f64| Trajectory {
-            time: vec![0.0, 1.0],
-            position: vec![start, start + 10.0],
-            speed: vec![speed, speed],
-        };
+        let walk = |start: f64, speed: f64| vec![[0.0, start, speed], [1.0, start + 10.0, speed]];
         let now = Snapshot::new(&[walk(2.0, 1.0), walk(8.0, 3.0)], 10.0, 1.0);
         assert_eq!(now.speed(2.0), 1.0);
         assert_eq!(now.speed(5.0), 2.0);

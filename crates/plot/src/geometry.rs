@@ -1,11 +1,24 @@
 //! Plane geometry of polylines: clipping to a box and leaving out points that do not show.
 
-/// A point (x, y); on the page in millimetres from the upper left corner, y downwards.
+use crate::page::units;
+use plotters_backend::BackendCoord;
+
+/// A point (x, y); on the page from the upper left corner, y downwards.
 pub type Point = (f64, f64);
 
-/// A box on the page in millimetres.
+/// The larger of two numbers; the first if they compare equal or not at all.
+pub(crate) fn larger(one: f64, other: f64) -> f64 {
+    if other > one { other } else { one }
+}
+
+/// The largest of numbers that are not negative; 0 if there is none.
+pub(crate) fn largest(numbers: impl IntoIterator<Item = f64>) -> f64 {
+    numbers.into_iter().fold(0.0, larger)
+}
+
+/// A box on the page.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Rect {
+pub struct Rect {
     pub left: f64,
     pub top: f64,
     pub width: f64,
@@ -25,14 +38,12 @@ impl Rect {
         x >= self.left && x <= self.right() && y >= self.top && y <= self.bottom()
     }
 
-    /// The four corners, clockwise from the upper left.
-    pub fn corners(&self) -> [Point; 4] {
-        let (right, bottom) = (self.right(), self.bottom());
-        [(self.left, self.top), (right, self.top), (right, bottom), (self.left, bottom)]
+    /// The upper left and the lower right corner of a box in millimetres, on the page.
+    pub fn corners(&self) -> [BackendCoord; 2] {
+        [(units(self.left), units(self.top)), (units(self.right()), units(self.bottom()))]
     }
 
-    /// A part given by fractions of width (from the left) and height (from the bottom):
-    /// `[x from, y from, x to, y to]`.
+    /// A part given by fractions of width (from the left) and height (from the bottom): `[x from, y from, x to, y to]`.
     pub fn part(&self, [x0, y0, x1, y1]: [f64; 4]) -> Self {
         Self {
             left: self.left + x0 * self.width,
@@ -75,9 +86,9 @@ fn clip_segment(a: Point, b: Point, rect: &Rect) -> Option<(Point, Point)> {
                 return None;
             }
         } else if step < 0.0 {
-            enter = f64::max(enter, room / step);
+            enter = larger(enter, room / step);
         } else {
-            leave = f64::min(leave, room / step);
+            leave = -larger(-leave, -room / step);
         }
     }
     if enter > leave {
@@ -89,8 +100,8 @@ fn clip_segment(a: Point, b: Point, rect: &Rect) -> Option<(Point, Point)> {
     Some((start, end))
 }
 
-/// Leaves out points so that no left-out point is further than `tolerance` from the line
-/// (Douglas and Peucker). First and last point stay.
+/// Leaves out points so that no left-out point is further than `tolerance` from the line (Douglas and Peucker). First
+/// and last point stay.
 pub(crate) fn simplify(points: &[Point], tolerance: f64) -> Vec<Point> {
     if points.len() < 3 {
         return points.to_vec();

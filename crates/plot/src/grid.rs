@@ -1,8 +1,8 @@
 //! Where the boxes of a picture's panels go.
 
-use crate::axes::Margins;
 use crate::error::PlotError;
-use crate::geometry::Rect;
+use crate::frame::Margins;
+use crate::geometry::{Rect, larger};
 use crate::style::{PAGE_EDGE, PANEL_GAP, ROW_GAP};
 
 /// Least side of a box, in millimetres.
@@ -10,7 +10,7 @@ const LEAST: f64 = 5.0;
 
 /// A panel's box and the room around it, which panels of one column and row share.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Cell {
+pub struct Cell {
     pub rect: Rect,
     pub room: Margins,
 }
@@ -21,8 +21,6 @@ pub(crate) struct Grid<'a> {
     pub height: f64,
     /// Panels in a row, at least 1.
     pub columns: usize,
-    /// Relative widths of boxes; empty for equal ones.
-    pub column_shares: &'a [f64],
     /// Relative heights of boxes; empty for equal ones.
     pub row_shares: &'a [f64],
     /// Width that the colour bar takes at the right, with its distance from the boxes.
@@ -38,11 +36,10 @@ struct Track {
 }
 
 impl Grid<'_> {
-    /// The cell of each panel, row by row: those of a column share left and width, those of a row
-    /// top and height.
+    /// The cell of each panel, row by row: those of a column share left and width, those of a row top and height.
     ///
     /// # Errors
-    /// [`PlotError::Layout`] if shares are wrong or a box would be smaller than 5 mm.
+    /// Shares are wrong, or a box would be smaller than 5 mm.
     pub fn cells(&self, margins: &[Margins]) -> Result<Vec<Cell>, PlotError> {
         let rows = margins.len().div_ceil(self.columns);
         let (mut across, mut down) = (Track::new(self.columns), Track::new(rows));
@@ -54,7 +51,7 @@ impl Grid<'_> {
             // The bar's distance has made room for what stands right of the last column.
             across.after[self.columns - 1] = 0.0;
         }
-        across.divide(self.width - self.bar.unwrap_or(0.0), self.column_shares, PANEL_GAP)?;
+        across.divide(self.width - self.bar.unwrap_or(0.0), &[], PANEL_GAP)?;
         down.divide(self.height, self.row_shares, ROW_GAP)?;
         let cell = |index: usize| {
             let (column, row) = (index % self.columns, index / self.columns);
@@ -74,8 +71,8 @@ impl Track {
     }
 
     fn widen(&mut self, index: usize, before: f64, after: f64) {
-        self.before[index] = f64::max(self.before[index], before);
-        self.after[index] = f64::max(self.after[index], after);
+        self.before[index] = larger(self.before[index], before);
+        self.after[index] = larger(self.after[index], after);
     }
 
     /// Divides what margins, gaps and the page's edges leave of a length among the boxes.
@@ -84,7 +81,7 @@ impl Track {
         let equal = vec![1.0; count];
         let shares = if shares.is_empty() { &equal } else { shares };
         if shares.len() != count || shares.iter().any(|share| !(share.is_finite() && *share > 0.0)) {
-            return Err(PlotError::Layout(format!("{count} positive shares needed, given: {shares:?}")));
+            return Err(PlotError(format!("layout: {count} positive shares needed, given: {shares:?}")));
         }
         let margins: f64 = self.before.iter().chain(&self.after).sum();
         let free = length - 2.0 * PAGE_EDGE - margins - gap * (count - 1) as f64;
@@ -92,7 +89,7 @@ impl Track {
         self.lengths = shares.iter().map(|share| free * share / total).collect();
         if self.lengths.iter().any(|length| *length < LEAST) {
             let lengths = &self.lengths;
-            return Err(PlotError::Layout(format!("boxes of {lengths:.1?} mm; at least {LEAST} mm each needed")));
+            return Err(PlotError(format!("layout: boxes of {lengths:.1?} mm; at least {LEAST} mm each needed")));
         }
         let mut place = PAGE_EDGE;
         for index in 0..count {
@@ -113,19 +110,13 @@ mod tests {
 
     #[test]
     fn boxes_of_a_row_and_of_a_column_align() -> Result<(), PlotError> {
-        let grid = Grid {
-            width: 178.0,
-            height: 120.0,
-            columns: 2,
-            column_shares: &[2.0, 1.0],
-            row_shares: &[],
-            bar: Some(20.0),
-        };
+        let grid = Grid { width: 178.0, height: 120.0, columns: 2, row_shares: &[2.0, 1.0], bar: Some(20.0) };
         let cells = grid.cells(&[NARROW, WIDE, WIDE, NARROW])?;
         let [a, b, c, d] = [0, 1, 2, 3].map(|index| cells[index].rect);
         assert_eq!((a.left, a.width, b.left, b.width), (c.left, c.width, d.left, d.width));
         assert_eq!((a.top, a.height, c.top, c.height), (b.top, b.height, d.top, d.height));
-        assert!((a.width - 2.0 * b.width).abs() < 1e-12);
+        assert!((a.width - b.width).abs() < 1e-12);
+        assert!((a.height - 2.0 * c.height).abs() < 1e-12);
         assert!((b.right() - (178.0 - 20.0 - PAGE_EDGE)).abs() < 1e-12, "{b:?}");
         Ok(())
     }

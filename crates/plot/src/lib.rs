@@ -1,10 +1,10 @@
 //! House style and pictures: data in, the bytes of a PNG and an SVG out.
 //!
-//! A [`Picture`] is a page in millimetres with panels in a grid: [`Lines`], [`Map`], [`SpaceTime`]
-//! or a free [`Drawing`]. Panels take numbers and labels; this crate knows no physics, opens no
-//! file and asks the host for no font. The same data give the same bytes on every machine.
+//! A [`Picture`] is a page in millimetres with panels in a grid: [`Lines`], [`Map`], [`SpaceTime`] or a free
+//! [`Drawing`]. Panels take numbers and labels; this crate knows no physics, opens no file and asks the host for no
+//! font. The same data give the same bytes on every machine.
 //!
-//! plotters draws an SVG, resvg turns it into pixels and into an SVG with outlines for text.
+//! Panels are charts of plotters, drawn once for both files: on a page whose surfaces write SVG and paint pixels.
 //!
 //! ```
 //! use plot::{Axis, Lines, Picture, Series};
@@ -17,44 +17,44 @@
 //! # Ok::<(), plot::PlotError>(())
 //! ```
 //!
-//! Labels are plain text with math between dollar signs: `"$\\tilde a_v$"`, `"$\\Delta x'_n$"`,
-//! `"$10^{-4}$"`, `"$\\mathrm{Re}\\,z^+$"`.
+//! Labels are plain text with math between dollar signs: `"$\\tilde a_v$"`, `"$\\Delta x'_n$"`, `"$10^{-4}$"`,
+//! `"$\\mathrm{Re}\\,z^+$"`.
 
-mod axes;
 mod axis;
-mod canvas;
 mod color;
 mod color_scale;
 mod contour;
 mod drawing;
+mod elements;
 mod error;
 mod field;
 mod font;
+mod frame;
 mod geometry;
 mod grid;
 mod label;
 mod lines;
 mod map;
-mod markup;
+mod page;
 mod picture;
+mod pixels;
 mod raster;
-mod render;
+mod regions;
 mod series;
 mod space_time;
 pub mod style;
+mod svg;
 #[cfg(test)]
 mod vision;
 
 pub use axis::Axis;
-pub use color::Color;
 pub use color_scale::ColorScale;
 pub use drawing::Drawing;
 pub use error::PlotError;
 pub use geometry::Point;
-pub use lines::{Corner, Legend, Lines};
+pub use lines::{Corner, Lines};
 pub use map::Map;
-pub use picture::{Panel, Picture};
-pub use raster::{Pixels, decode};
-pub use render::Rendered;
+pub use picture::{Panel, Picture, Rendered};
 pub use series::{Marker, Series};
 pub use space_time::{SpaceTime, Trajectory};
+pub use style::Color;

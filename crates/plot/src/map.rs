@@ -1,103 +1,109 @@
 //! Panels of a matrix in colours with its zero contour, region names and curves over it.
 
-use crate::axes::{Axes, Margins, Place};
 use crate::axis::Axis;
-use crate::canvas::{Align, Canvas, Stroke};
-use crate::color::Color;
 use crate::color_scale::ColorScale;
 use crate::contour::zero_lines;
+use crate::elements::{Area, Shape, sides};
 use crate::error::PlotError;
-use crate::font::X_HEIGHT;
-use crate::geometry::{Point, Rect, clip, simplify};
+use crate::frame::{Frame, Margins};
+use crate::geometry::{Point, Rect};
+use crate::grid::Cell;
 use crate::label::Label;
+use crate::page::Pen;
+use crate::picture::Panel;
 use crate::raster::Raster;
-use crate::style::{AXIS_WIDTH, CONTOUR_WIDTH, INK, MARKER_RADIUS, PANEL, PAPER, REFERENCE_DASH, REGION};
+use crate::regions::widest_spot;
+use crate::style::{CONTOUR_WIDTH, Color, INK, PANEL, PAPER, REGION, text};
+use plotters_backend::text_anchor::{HPos, VPos};
+use std::iter::once;
 
 /// Pixels of the embedded image per cell, in each direction: values are interpolated in between.
 const FINER: usize = 2;
-/// Largest distance of a left-out contour point from the drawn line, in millimetres.
-const TOLERANCE: f64 = 0.005;
-
-/// Least distance of a region's name from the box, in millimetres.
-const TEXT_EDGE: f64 = 0.7;
+/// Least space around a region's name, and step in which more is looked for, in millimetres.
+const NAME_MARGIN: f64 = 0.2;
 
 /// A panel of values over two axes.
 #[derive(Debug, Clone)]
+#[must_use]
 pub struct Map {
     x: Axis,
     y: Axis,
     columns: usize,
     rows: usize,
     values: Vec<f64>,
-    contour: bool,
-    curves: Vec<Vec<Point>>,
-    regions: Vec<(String, Point)>,
-    points: Vec<(String, Point)>,
+    names: [String; 2],
 }
 
-impl Map {
-    /// Values at the centres of `columns` x `rows` cells of equal size on paper that fill the ranges
-    /// of the axes: `values[row * columns + column]`, the first row lowest. NaN marks a cell without value.
-    #[must_use]
-    pub fn new(x: Axis, y: Axis, columns: usize, rows: usize, values: Vec<f64>) -> Self {
-        Self { x, y, columns, rows, values, contour: true, curves: vec![], regions: vec![], points: vec![] }
+impl Panel for Map {
+    fn margins(&self) -> Result<Margins, PlotError> {
+        self.frame().margins()
     }
 
-    /// Leaves out the zero contour (drawn as a solid black line by default).
-    #[must_use]
-    pub fn without_contour(mut self) -> Self {
-        self.contour = false;
-        self
-    }
-
-    /// Adds a dashed curve through data points.
-    #[must_use]
-    pub fn curve(mut self, points: Vec<Point>) -> Self {
-        self.curves.push(points);
-        self
-    }
-
-    /// Writes a region's name (markup) centred at a data point, moved inside the box if it would stick
-    /// out; black or white as the ground asks.
-    #[must_use]
-    pub fn region(mut self, name: &str, at: Point) -> Self {
-        self.regions.push((name.to_owned(), at));
-        self
-    }
-
-    /// Marks a data point by a small white disc, with a name (markup, may be empty) at its right.
-    #[must_use]
-    pub fn point(mut self, name: &str, at: Point) -> Self {
-        self.points.push((name.to_owned(), at));
-        self
-    }
-
-    fn axes(&self) -> Axes<'_> {
-        Axes { x: &self.x, y: &self.y, sizes: PANEL }
-    }
-
-    pub(crate) fn margins(&self) -> Result<Margins, PlotError> {
-        self.axes().margins()
-    }
-
-    pub(crate) fn draw(
-        &self,
-        canvas: &mut Canvas,
-        rect: Rect,
-        room: Margins,
-        scale: &ColorScale,
-    ) -> Result<(), PlotError> {
+    fn draw(&self, page: &Area, cell: &Cell, scale: Option<&ColorScale>) -> Result<(), PlotError> {
+        let Cell { rect, room } = cell;
+        let scale = scale.ok_or_else(|| PlotError("layout: this panel needs Picture::scale".to_owned()))?;
         let expected = self.columns * self.rows;
         if self.values.len() != expected || expected == 0 {
             let what = format!("a map of {} x {} cells", self.columns, self.rows);
-            return Err(PlotError::Length { what, expected, found: self.values.len() });
+            return Err(PlotError::length(&what, expected, self.values.len()));
         }
-        let place = Place { rect, x: &self.x, y: &self.y };
-        canvas.image(&self.raster(scale), &rect)?;
-        self.draw_lines(canvas, &place);
-        self.axes().draw(canvas, rect, room)?;
-        self.draw_points(canvas, &place, scale)?;
-        self.draw_regions(canvas, &place, scale)
+        let mut chart = self.frame().chart(page, rect, room)?;
+        page.draw(&Shape::image(self.raster(scale), rect.corners()))?;
+        chart.draw_series(once(Shape::line(self.contour(), Pen::solid(INK, CONTOUR_WIDTH), sides(&chart))))?;
+        self.frame().draw(page, &mut chart)?;
+        for (name, positive) in self.names.iter().zip([false, true]).filter(|(name, _)| !name.is_empty()) {
+            let width = Label::new(name, REGION)?.width;
+            let Some((spot, color)) = self.place(rect, width, positive, scale) else { continue };
+            let style = text(REGION, color, HPos::Center, VPos::Center);
+            page.draw_text(name, &style, chart.backend_coord(&self.at(spot)))?;
+        }
+        Ok(())
+    }
+}
+
+impl Map {
+    /// Values at the centres of `columns` x `rows` cells of equal size on paper that fill the ranges of the axes (both
+    /// linear): `values[row * columns + column]`, the first row lowest. NaN marks a cell without value.
+    pub fn new(x: Axis, y: Axis, columns: usize, rows: usize, values: Vec<f64>) -> Self {
+        Self { x, y, columns, rows, values, names: Default::default() }
+    }
+
+    /// Names (markup) of the regions where values are negative and where they are positive. Each stands once, where its
+    /// region is widest, black or white as the ground asks; a region without room for it has none.
+    pub fn names(mut self, negative: &str, positive: &str) -> Self {
+        self.names = [negative.to_owned(), positive.to_owned()];
+        self
+    }
+
+    fn frame(&self) -> Frame<'_> {
+        Frame { x: &self.x, y: &self.y, sizes: PANEL }
+    }
+
+    /// The place, counted in cells, and the colour of a region's name so many millimetres wide.
+    fn place(&self, rect: &Rect, width: f64, positive: bool, scale: &ColorScale) -> Option<(Point, Color)> {
+        // from millimetres to cells
+        let (across, up) = (self.columns as f64 / rect.width, self.rows as f64 / rect.height);
+        let room = ((width + 2.0 * NAME_MARGIN) * across, (REGION + 2.0 * NAME_MARGIN) * up);
+        let margin = (NAME_MARGIN * across, NAME_MARGIN * up);
+        let spot = widest_spot((self.columns, self.rows), &self.values, positive, room, margin)?;
+        // black or white, whichever reads better on most of the name
+        let dark = |tenth: &u32| {
+            let along = spot.0 + (f64::from(*tenth) / 10.0 - 0.5) * width * across;
+            is_dark(scale.color(self.value(along, spot.1)))
+        };
+        Some((spot, if (0..=10).filter(dark).count() > 5 { PAPER } else { INK }))
+    }
+
+    /// The data point at a place counted in cells from the lower left corner.
+    fn at(&self, (x, y): Point) -> Point {
+        (self.x.value(x / self.columns as f64), self.y.value(y / self.rows as f64))
+    }
+
+    /// The zero lines in data coordinates, broken where one ends.
+    fn contour(&self) -> Vec<Point> {
+        let lines = zero_lines(self.columns, self.rows, &self.values);
+        let broken = |line: Vec<Point>| line.into_iter().map(|point| self.at(point)).chain([(f64::NAN, f64::NAN)]);
+        lines.into_iter().flat_map(broken).collect()
     }
 
     /// The colours of the bilinear surface through the cells' values.
@@ -120,57 +126,6 @@ impl Map {
         let upper = blend(cell(left, above), cell(right, above), across);
         blend(lower, upper, up)
     }
-
-    fn draw_lines(&self, canvas: &mut Canvas, place: &Place) {
-        let rect = place.rect;
-        for points in &self.curves {
-            let pieces = clip(&place.all(points), &rect);
-            canvas.lines(&pieces, &Stroke::dashed(INK, CONTOUR_WIDTH, REFERENCE_DASH));
-        }
-        if !self.contour {
-            return;
-        }
-        let on_paper = |&(x, y): &Point| {
-            (rect.left + x / self.columns as f64 * rect.width, rect.bottom() - y / self.rows as f64 * rect.height)
-        };
-        let contours = zero_lines(self.columns, self.rows, &self.values);
-        let smooth = |line: &Vec<Point>| simplify(&line.iter().map(on_paper).collect::<Vec<_>>(), TOLERANCE);
-        canvas.lines(&contours.iter().map(smooth).collect::<Vec<_>>(), &Stroke::solid(INK, CONTOUR_WIDTH));
-    }
-
-    fn draw_points(&self, canvas: &mut Canvas, place: &Place, scale: &ColorScale) -> Result<(), PlotError> {
-        for (name, at) in &self.points {
-            let center = place.at(*at);
-            canvas.circle(center, MARKER_RADIUS, PAPER, None);
-            canvas.circle(center, MARKER_RADIUS, INK, Some(1.4 * AXIS_WIDTH));
-            let start = (center.0 + 2.0 * MARKER_RADIUS, center.1);
-            self.write(canvas, &place.rect, &Label::new(name, REGION)?, start, scale);
-        }
-        Ok(())
-    }
-
-    fn draw_regions(&self, canvas: &mut Canvas, place: &Place, scale: &ColorScale) -> Result<(), PlotError> {
-        for (name, at) in &self.regions {
-            let (label, (x, y)) = (Label::new(name, REGION)?, place.at(*at));
-            let start = x - label.width / 2.0;
-            let room = place.rect.right() - TEXT_EDGE - label.width;
-            let inside = start.min(room).max(place.rect.left + TEXT_EDGE);
-            self.write(canvas, &place.rect, &label, (inside, y), scale);
-        }
-        Ok(())
-    }
-
-    /// Writes a label whose middle line starts at a point, black or white, whichever reads better
-    /// on most of its length.
-    fn write(&self, canvas: &mut Canvas, rect: &Rect, label: &Label, (x, y): Point, scale: &ColorScale) {
-        let row = (rect.bottom() - y) / rect.height * self.rows as f64;
-        let dark = |tenth: &u32| {
-            let along = x + label.width * f64::from(*tenth) / 10.0;
-            is_dark(scale.color(self.value((along - rect.left) / rect.width * self.columns as f64, row)))
-        };
-        let color = if (0..=10).filter(dark).count() > 5 { PAPER } else { INK };
-        canvas.text(label, (x, y + X_HEIGHT * REGION / 2.0), Align::Left, color);
-    }
 }
 
 /// The cells whose centres enclose a place counted in cells, and the share of the way to the second.
@@ -180,8 +135,8 @@ fn neighbours(place: f64, count: usize) -> (usize, usize, f64) {
     (first, (first + 1).min(count - 1), place - first as f64)
 }
 
-/// Whether white text reads better than black. The weights are those of Rec. 709 on the coded
-/// bytes; 115 of 255 is where both texts have about the same contrast.
+/// Whether white text reads better than black. The weights are those of Rec. 709 on the coded bytes; 115 of 255 is
+/// where both texts have about the same contrast.
 fn is_dark(color: Color) -> bool {
     let light = 0.2126 * f64::from(color.0) + 0.7152 * f64::from(color.1) + 0.0722 * f64::from(color.2);
     light < 115.0
@@ -214,8 +169,8 @@ mod tests {
     }
 
     #[test]
-    fn text_is_white_on_dark_ends_and_black_on_the_middle() {
-        let scale = ColorScale::diverging("", 1.0);
-        assert!(is_dark(scale.color(-1.0)) && is_dark(scale.color(1.0)) && !is_dark(scale.color(0.0)));
+    fn text_is_white_on_the_dark_end_and_black_elsewhere() {
+        let scale = ColorScale::diverging("", [-1.0, 1.0]);
+        assert!(is_dark(scale.color(1.0)) && !is_dark(scale.color(0.0)) && !is_dark(scale.color(-1.0)));
     }
 }

@@ -1,144 +1,81 @@
 //! A page: panels in a grid, lettered, with boxes that align and one shared colour bar.
 
-use crate::axes::Margins;
-use crate::canvas::{Align, Canvas};
 use crate::color_scale::ColorScale;
-use crate::drawing::Drawing;
+use crate::elements::Area;
 use crate::error::PlotError;
-use crate::geometry::Rect;
+use crate::frame::Margins;
+use crate::geometry::{Rect, larger, largest};
 use crate::grid::{Cell, Grid};
-use crate::label::Label;
-use crate::lines::Lines;
-use crate::map::Map;
-use crate::render::{self, Rendered};
-use crate::space_time::SpaceTime;
-use crate::style::{INK, LETTER, PANEL_GAP, TITLE, TITLE_RISE, TITLE_ROW};
+use crate::page::{Page, units};
+use crate::pixels::Pixels;
+use crate::style::{INK, PANEL_GAP, PAPER, TITLE, TITLE_RISE, TITLE_ROW, text};
+use crate::svg::Svg;
+use plotters_backend::text_anchor::{HPos, VPos};
+use std::cell::RefCell;
+use std::rc::Rc;
 
-/// One panel of a picture.
-#[derive(Debug, Clone)]
-pub enum Panel {
-    /// Curves over an axis.
-    Lines(Lines),
-    /// A matrix of values in colours.
-    Map(Map),
-    /// Trajectories coloured by speed.
-    SpaceTime(SpaceTime),
-    /// A free sketch.
-    Drawing(Drawing),
+/// A finished picture: the bytes of two files that look alike everywhere.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Rendered {
+    /// SVG without text or fonts: letters are outlines.
+    pub svg: Vec<u8>,
+    /// PNG of 400 dots per inch, 8-bit colours, with its physical size.
+    pub png: Vec<u8>,
 }
 
-impl From<Lines> for Panel {
-    fn from(panel: Lines) -> Self {
-        Self::Lines(panel)
-    }
-}
-
-impl From<Map> for Panel {
-    fn from(panel: Map) -> Self {
-        Self::Map(panel)
-    }
-}
-
-impl From<SpaceTime> for Panel {
-    fn from(panel: SpaceTime) -> Self {
-        Self::SpaceTime(panel)
-    }
-}
-
-impl From<Drawing> for Panel {
-    fn from(panel: Drawing) -> Self {
-        Self::Drawing(panel)
-    }
-}
-
-impl Panel {
-    fn margins(&self) -> Result<Margins, PlotError> {
-        match self {
-            Self::Lines(panel) => panel.margins(),
-            Self::Map(panel) => panel.margins(),
-            Self::SpaceTime(panel) => panel.margins(),
-            Self::Drawing(_) => Ok(Margins::default()),
-        }
-    }
-
-    fn draw(&self, canvas: &mut Canvas, cell: &Cell, scale: Option<&ColorScale>) -> Result<(), PlotError> {
-        let none = || PlotError::Layout("a map or a space-time panel needs Picture::scale".to_owned());
-        let Cell { rect, room } = *cell;
-        match self {
-            Self::Lines(panel) => panel.draw(canvas, rect, room),
-            Self::Map(panel) => panel.draw(canvas, rect, room, scale.ok_or_else(none)?),
-            Self::SpaceTime(panel) => panel.draw(canvas, rect, room, scale.ok_or_else(none)?),
-            Self::Drawing(panel) => panel.draw(canvas, rect),
-        }
-    }
+/// One panel of a picture: [`Lines`](crate::Lines), [`Map`](crate::Map), [`SpaceTime`](crate::SpaceTime) or
+/// [`Drawing`](crate::Drawing).
+pub trait Panel {
+    #[doc(hidden)]
+    fn margins(&self) -> Result<Margins, PlotError>;
+    #[doc(hidden)]
+    fn draw(&self, page: &Area, cell: &Cell, scale: Option<&ColorScale>) -> Result<(), PlotError>;
 }
 
 /// A picture in the making.
-#[derive(Debug, Clone)]
+#[must_use]
 pub struct Picture {
     width: f64,
     height: f64,
     columns: usize,
-    column_shares: Vec<f64>,
     row_shares: Vec<f64>,
     scale: Option<ColorScale>,
-    panels: Vec<(Panel, String)>,
+    panels: Vec<(Box<dyn Panel>, String)>,
 }
 
 impl Picture {
-    /// An empty page; both sides in millimetres, from 5 to 2000. All panels go in one row until
-    /// [`Picture::columns`] says otherwise.
-    #[must_use]
+    /// An empty page; both sides in millimetres, from 5 to 2000. All panels go in one row until [`Picture::columns`]
+    /// says otherwise.
     pub fn new(width: f64, height: f64) -> Self {
-        Self {
-            width,
-            height,
-            columns: usize::MAX,
-            column_shares: vec![],
-            row_shares: vec![],
-            scale: None,
-            panels: vec![],
-        }
+        Self { width, height, columns: usize::MAX, row_shares: vec![], scale: None, panels: vec![] }
     }
 
     /// Number of panels in a row, at least 1.
-    #[must_use]
     pub fn columns(mut self, columns: usize) -> Self {
         self.columns = columns.max(1);
         self
     }
 
-    /// Relative widths of the boxes in a row; equal by default.
-    #[must_use]
-    pub fn column_shares(mut self, shares: &[f64]) -> Self {
-        self.column_shares = shares.to_vec();
-        self
-    }
-
     /// Relative heights of the boxes in a column; equal by default.
-    #[must_use]
     pub fn row_shares(mut self, shares: &[f64]) -> Self {
         self.row_shares = shares.to_vec();
         self
     }
 
     /// The colour scale of all maps and space-time panels; its bar is drawn at the right.
-    #[must_use]
     pub fn scale(mut self, scale: ColorScale) -> Self {
         self.scale = Some(scale);
         self
     }
 
     /// Adds a panel, row by row.
-    #[must_use]
-    pub fn panel(self, panel: impl Into<Panel>) -> Self {
+    pub fn panel(self, panel: impl Panel + 'static) -> Self {
         self.titled("", panel)
     }
 
     /// Adds a panel with a title (markup) beside its letter.
-    #[must_use]
-    pub fn titled(mut self, title: &str, panel: impl Into<Panel>) -> Self {
-        self.panels.push((panel.into(), title.to_owned()));
+    pub fn titled(mut self, title: &str, panel: impl Panel + 'static) -> Self {
+        self.panels.push((Box::new(panel), title.to_owned()));
         self
     }
 
@@ -149,74 +86,68 @@ impl Picture {
     pub fn render(self) -> Result<Rendered, PlotError> {
         let valid = |side: f64| (5.0..=2000.0).contains(&side);
         if !valid(self.width) || !valid(self.height) {
-            return Err(PlotError::Room { what: "page".to_owned(), width: self.width, height: self.height });
+            return Err(PlotError::room("page", self.width, self.height));
         }
-        let mut svg = String::new();
-        let mut canvas = Canvas::new(&mut svg, self.width, self.height);
-        self.draw(&mut canvas)?;
-        let inserts = canvas.finish()?;
-        render::render(&svg, &inserts, self.width, self.height)
+        let surfaces = (Svg::new(self.width, self.height), Pixels::new(self.width, self.height)?);
+        let size = (units(self.width).unsigned_abs(), units(self.height).unsigned_abs());
+        let page = Rc::new(RefCell::new(Page::new(size, surfaces)));
+        self.draw(&Area::from(&page))?;
+        let (svg, pixels) = &mut page.borrow_mut().surface;
+        Ok(Rendered { svg: svg.finish(), png: pixels.png()? })
     }
 
-    fn draw(&self, canvas: &mut Canvas) -> Result<(), PlotError> {
+    fn draw(&self, page: &Area) -> Result<(), PlotError> {
+        page.fill(&PAPER)?;
         let cells = self.cells()?;
         for (index, (panel, title)) in self.panels.iter().enumerate() {
-            panel.draw(canvas, &cells[index], self.scale.as_ref())?;
-            self.head(canvas, index, title, &cells[index].rect)?;
+            panel.draw(page, &cells[index], self.scale.as_ref())?;
+            self.head(page, index, title, &cells[index].rect)?;
         }
         let (Some(scale), Some(first), Some(last)) = (&self.scale, cells.first(), cells.last()) else {
             return Ok(());
         };
-        let right = cells.iter().fold(0.0, |most, cell| f64::max(most, cell.rect.right()));
+        let right = largest(cells.iter().map(|cell| cell.rect.right()));
         let (left, top) = (right + self.bar_gap()?, first.rect.top);
-        scale.draw(canvas, &Rect { left, top, width: 0.0, height: last.rect.bottom() - top })
+        scale.draw(page, &Rect { left, top, width: 0.0, height: last.rect.bottom() - top })
     }
 
     /// Letter and title above a box.
-    fn head(&self, canvas: &mut Canvas, index: usize, title: &str, rect: &Rect) -> Result<(), PlotError> {
-        let baseline = rect.top - TITLE_RISE;
-        let mut start = rect.left;
-        if self.panels.len() > 1 {
-            let letter = Label::new(&format!("({})", char::from(b'a' + (index % 26) as u8)), LETTER)?;
-            canvas.text(&letter, (start, baseline), Align::Left, INK);
-            start += letter.width + 0.5 * LETTER;
-        }
-        canvas.text(&Label::new(title, TITLE)?, (start, baseline), Align::Left, INK);
-        Ok(())
+    fn head(&self, page: &Area, index: usize, title: &str, rect: &Rect) -> Result<(), PlotError> {
+        let letter = char::from(b'a' + (index % 26) as u8);
+        let head = if self.panels.len() > 1 { format!("({letter})$\\;\\,${title}") } else { title.to_owned() };
+        let place = (units(rect.left), units(rect.top - TITLE_RISE));
+        Ok(page.draw_text(&head, &text(TITLE, INK, HPos::Left, VPos::Bottom), place)?)
     }
 
     fn bar_gap(&self) -> Result<f64, PlotError> {
-        let last = self.margins()?.into_iter().fold(0.0, |most, margins| f64::max(most, margins.right));
-        Ok(f64::max(last + 1.0, PANEL_GAP))
+        let last = largest(self.margins()?.into_iter().map(|margins| margins.right));
+        Ok(larger(last + 1.0, PANEL_GAP))
     }
 
     /// Margins of each panel, with the room that letters and titles take.
     fn margins(&self) -> Result<Vec<Margins>, PlotError> {
         let above =
             self.scale.is_some() || self.panels.len() > 1 || self.panels.iter().any(|panel| !panel.1.is_empty());
-        let margins = |(panel, _): &(Panel, String)| {
+        let margins = |(panel, _): &(Box<dyn Panel>, String)| {
             let own = panel.margins()?;
-            Ok(Margins { top: if above { f64::max(own.top, TITLE_ROW) } else { own.top }, ..own })
+            Ok(Margins { top: if above { larger(own.top, TITLE_ROW) } else { own.top }, ..own })
         };
         self.panels.iter().map(margins).collect()
     }
 
     fn cells(&self) -> Result<Vec<Cell>, PlotError> {
         if self.panels.is_empty() {
-            return Err(PlotError::Layout("a picture needs at least one panel".to_owned()));
+            return Err(PlotError("layout: a picture needs at least one panel".to_owned()));
         }
-        let bar = match &self.scale {
-            Some(scale) => {
-                scale.check()?;
-                Some(self.bar_gap()? + scale.width()?)
-            }
-            None => None,
+        let room = |scale: &ColorScale| -> Result<f64, PlotError> {
+            scale.range.check()?;
+            Ok(self.bar_gap()? + scale.width()?)
         };
+        let bar = self.scale.as_ref().map(room).transpose()?;
         let grid = Grid {
             width: self.width,
             height: self.height,
             columns: self.columns.min(self.panels.len()),
-            column_shares: &self.column_shares,
             row_shares: &self.row_shares,
             bar,
         };

@@ -1,13 +1,12 @@
 //! One curve or set of points of a line panel, and its look.
 
-use crate::axes::Place;
-use crate::canvas::{Canvas, Stroke};
-use crate::color::Color;
-use crate::geometry::{Point, clip, simplify};
-use crate::style::{AXIS_WIDTH, DASHES, MARKER_RADIUS, PAPER, SERIES, SERIES_WIDTH};
-
-/// Largest distance of a left-out point from the drawn line, in millimetres.
-const TOLERANCE: f64 = 0.005;
+use crate::elements::{Area, Chart, EVERYWHERE, Mark, Shape, sides};
+use crate::error::PlotError;
+use crate::geometry::{Point, Rect};
+use crate::page::Pen;
+use crate::style::{Color, DASHES, MARKER_RADIUS, SERIES, SERIES_WIDTH};
+use plotters_backend::BackendCoord;
+use std::iter::once;
 
 /// Shape of a point marker.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,6 +27,7 @@ pub enum Marker {
 
 /// A series of points in data coordinates, drawn as a line, as markers, or both.
 #[derive(Debug, Clone)]
+#[must_use]
 pub struct Series {
     pub(crate) name: String,
     points: Vec<Point>,
@@ -42,9 +42,8 @@ pub struct Series {
 }
 
 impl Series {
-    /// A line through points; a NaN (or a value not positive on a logarithmic axis) breaks it.
-    /// A name (markup) puts it in the legend; empty for none.
-    #[must_use]
+    /// A line through points; a NaN (or a value not positive on a logarithmic axis) breaks it. A name (markup) puts it
+    /// in the legend; empty for none.
     pub fn line(name: &str, points: Vec<Point>) -> Self {
         Self {
             name: name.to_owned(),
@@ -61,55 +60,47 @@ impl Series {
     }
 
     /// Hollow markers without a line, as for published data.
-    #[must_use]
     pub fn points(name: &str, marker: Marker, points: Vec<Point>) -> Self {
         Self { line: false, marker: Some(marker), ..Self::line(name, points) }
     }
 
     /// Adds markers to a line.
-    #[must_use]
     pub fn marker(mut self, marker: Marker) -> Self {
         self.marker = Some(marker);
         self
     }
 
     /// Fills the markers with the series colour.
-    #[must_use]
     pub fn filled(mut self) -> Self {
         self.filled = true;
         self
     }
 
     /// Draws a marker at every `step`-th point only.
-    #[must_use]
     pub fn every(mut self, step: usize) -> Self {
         self.every = step.max(1);
         self
     }
 
     /// Takes the colour and dashes of the series at this place of the house cycle, instead of its own.
-    #[must_use]
     pub fn look(mut self, index: usize) -> Self {
         self.look = Some(index);
         self
     }
 
     /// Draws the line solid, whatever its place in the cycle.
-    #[must_use]
     pub fn solid(mut self) -> Self {
         self.dash = Some(0);
         self
     }
 
     /// Draws the line `factor` times as thick as usual.
-    #[must_use]
     pub fn thick(mut self, factor: f64) -> Self {
         self.width = SERIES_WIDTH * factor;
         self
     }
 
     /// Draws the markers `factor` times as large as usual.
-    #[must_use]
     pub fn marker_size(mut self, factor: f64) -> Self {
         self.radius = MARKER_RADIUS * factor;
         self
@@ -119,76 +110,49 @@ impl Series {
         SERIES[self.look.unwrap_or(index) % SERIES.len()]
     }
 
-    fn stroke(&self, index: usize) -> Stroke {
+    fn pen(&self, index: usize) -> Pen {
         let dash = self.dash.or(self.look).unwrap_or(index);
-        Stroke::dashed(self.color(index), self.width, DASHES[dash % DASHES.len()])
+        Pen::dashed(self.color(index), self.width, DASHES[dash % DASHES.len()])
+    }
+
+    fn mark<C>(&self, at: C, index: usize, sides: Rect) -> Option<Shape<C>> {
+        let (color, radius, filled) = (self.color(index), self.radius, self.filled);
+        self.marker.map(|marker| Shape::mark(at, Mark { marker, radius, color, filled }, sides))
     }
 
     /// Draws the series that stands at place `index` of its panel.
-    pub(crate) fn draw(&self, canvas: &mut Canvas, place: &Place, index: usize) {
-        let points = place.all(&self.points);
+    pub(crate) fn draw(&self, chart: &mut Chart, index: usize) -> Result<(), PlotError> {
+        let sides = sides(chart);
         if self.line {
-            let pieces: Vec<Vec<Point>> =
-                clip(&points, &place.rect).iter().map(|piece| simplify(piece, TOLERANCE)).collect();
-            canvas.lines(&pieces, &self.stroke(index));
+            chart.draw_series(once(Shape::line(self.points.clone(), self.pen(index), sides)))?;
         }
-        for point in points.iter().step_by(self.every) {
-            if place.rect.contains(*point) {
-                self.draw_marker(canvas, *point, index);
-            }
-        }
+        let points = self.points.iter().step_by(self.every);
+        chart.draw_series(points.filter_map(|point| self.mark(*point, index, sides)))?;
+        Ok(())
     }
 
-    /// Draws a sample of the series from `start` to `end`, both on one height.
-    pub(crate) fn sample(&self, canvas: &mut Canvas, start: Point, end: Point, index: usize) {
+    /// Draws a sample of the series between two points of one height.
+    pub(crate) fn sample(&self, page: &Area, ends: [BackendCoord; 2], index: usize) -> Result<(), PlotError> {
+        let [start, end] = ends;
         if self.line {
-            canvas.line(&[start, end], &self.stroke(index));
+            page.draw(&Shape::line(ends.to_vec(), self.pen(index), EVERYWHERE))?;
         }
-        self.draw_marker(canvas, ((start.0 + end.0) / 2.0, start.1), index);
-    }
-
-    /// The last point that lies in the box, on paper.
-    pub(crate) fn end(&self, place: &Place) -> Option<Point> {
-        place.all(&self.points).into_iter().rev().find(|point| place.rect.contains(*point))
-    }
-
-    fn draw_marker(&self, canvas: &mut Canvas, center: Point, index: usize) {
-        let Some(marker) = self.marker else { return };
-        let color = self.color(index);
-        let corners = corners(marker, center, self.radius);
-        match marker {
-            Marker::Circle if self.filled => canvas.circle(center, self.radius, color, None),
-            Marker::Circle => {
-                canvas.circle(center, self.radius, PAPER, None);
-                canvas.circle(center, self.radius, color, Some(1.4 * AXIS_WIDTH));
-            }
-            Marker::Plus | Marker::Cross => {
-                let stroke = Stroke::solid(color, 1.4 * AXIS_WIDTH);
-                canvas.line(&[corners[0], corners[2]], &stroke);
-                canvas.line(&[corners[1], corners[3]], &stroke);
-            }
-            _ => {
-                canvas.polygon(&corners, if self.filled { color } else { PAPER });
-                canvas.closed(&corners, &Stroke::solid(color, 1.4 * AXIS_WIDTH));
-            }
+        if let Some(mark) = self.mark(((start.0 + end.0) / 2, start.1), index, EVERYWHERE) {
+            page.draw(&mark)?;
         }
+        Ok(())
     }
 }
 
-/// Corners of a marker; shapes are sized to cover about the same area as the circle.
-fn corners(marker: Marker, (x, y): Point, radius: f64) -> Vec<Point> {
-    match marker {
-        Marker::Square | Marker::Cross => {
-            let half = 0.89 * radius;
-            vec![(x - half, y - half), (x + half, y - half), (x + half, y + half), (x - half, y + half)]
-        }
-        Marker::Triangle => {
-            let (half, up, down) = (1.17 * radius, 1.35 * radius, 0.68 * radius);
-            vec![(x, y - up), (x + half, y + down), (x - half, y + down)]
-        }
-        Marker::Diamond | Marker::Circle | Marker::Plus => {
-            let half = 1.25 * radius;
-            vec![(x, y - half), (x + half, y), (x, y + half), (x - half, y)]
-        }
+impl Marker {
+    /// Corners around a point; shapes are sized to cover about the same area as the circle.
+    pub(crate) fn corners(self, (x, y): BackendCoord, radius: f64) -> Vec<BackendCoord> {
+        let corners: &[Point] = match self {
+            Marker::Square | Marker::Cross => &[(-0.89, -0.89), (0.89, -0.89), (0.89, 0.89), (-0.89, 0.89)],
+            Marker::Triangle => &[(0.0, -1.35), (1.17, 0.68), (-1.17, 0.68)],
+            _ => &[(0.0, -1.25), (1.25, 0.0), (0.0, 1.25), (-1.25, 0.0)],
+        };
+        let at = |&(right, down): &Point| (x + (right * radius).round() as i32, y + (down * radius).round() as i32);
+        corners.iter().map(at).collect()
     }
 }

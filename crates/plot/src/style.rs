@@ -1,14 +1,18 @@
 //! The house style: every size, stroke and colour of a picture, in one place.
 //!
-//! Lengths are millimetres on paper. The sizes follow what physics journals ask for: text of 7
-//! to 9 pt and lines of 0.5 to 1 pt at the printed size.
+//! Lengths are millimetres on paper. The sizes follow what physics journals ask for: text of 7 to 9 pt and lines of 0.5
+//! to 1 pt at the printed size.
 //!
-//! Choices of contrast, checked by tests in numbers: the series colours are at least 9 apart in
-//! L* (so a grey print tells them), at least 15 apart in CIELAB under simulated protanopia and
-//! deuteranopia, and each has a contrast of at least 3:1 on white; every series has its own dash
-//! pattern as well.
+//! Choices of contrast, checked by tests in numbers: the series colours are at least 9 apart in L* (so a grey print
+//! tells them), at least 15 apart in CIELAB under simulated protanopia and deuteranopia, and each has a contrast of at
+//! least 3:1 on white; every series has its own dash pattern as well.
 
-use crate::color::Color;
+use crate::font::FAMILY;
+use crate::page::units;
+use plotters::style::{Color as _, FontDesc, IntoFont, ShapeStyle, TextStyle, text_anchor};
+
+/// A colour in sRGB, one byte a channel: red, green, blue.
+pub use plotters::style::RGBColor as Color;
 
 /// One typographic point in millimetres.
 pub const POINT: f64 = 25.4 / 72.0;
@@ -27,18 +31,16 @@ pub(crate) struct Sizes {
     pub label: f64,
     /// Numbers at ticks, legends and notes.
     pub tick: f64,
-    /// Length of a tick.
+    /// Length of a tick; its number stands as far from its end again.
     pub tick_length: f64,
 }
 
 /// Sizes for a panel.
-pub(crate) const PANEL: Sizes = Sizes { label: 8.5 * POINT, tick: 7.5 * POINT, tick_length: 1.0 };
+pub(crate) const PANEL: Sizes = Sizes { label: 8.5 * POINT, tick: 7.5 * POINT, tick_length: 0.8 };
 /// Sizes for an inset.
-pub(crate) const INSET: Sizes = Sizes { label: 7.0 * POINT, tick: 6.5 * POINT, tick_length: 0.7 };
+pub(crate) const INSET: Sizes = Sizes { label: 7.0 * POINT, tick: 6.5 * POINT, tick_length: 0.6 };
 
-/// Panel letters: (a), (b).
-pub(crate) const LETTER: f64 = 9.0 * POINT;
-/// Titles beside the letters.
+/// Letters and titles of panels.
 pub(crate) const TITLE: f64 = 8.5 * POINT;
 /// Notes and legends.
 pub(crate) const NOTE: f64 = 7.5 * POINT;
@@ -47,8 +49,6 @@ pub(crate) const REGION: f64 = 6.5 * POINT;
 
 /// Space left free along the edge of the page.
 pub(crate) const PAGE_EDGE: f64 = 0.6;
-/// Space between a tick and its number.
-pub(crate) const TICK_GAP: f64 = 0.7;
 /// Space between the numbers at the ticks and the line of the axis label.
 pub(crate) const LABEL_GAP: f64 = 0.7;
 /// Space between neighbouring panels.
@@ -80,8 +80,7 @@ pub(crate) const PAPER: Color = Color(0xff, 0xff, 0xff);
 /// Cells of a map without a value.
 pub(crate) const MISSING: Color = Color(0xb8, 0xb8, 0xb0);
 
-/// Series colours in their order of use: blue, orange, near-black, teal, crimson
-/// (L* 30, 61, 10, 51, 40).
+/// Series colours in their order of use: blue, orange, near-black, teal, crimson (L* 30, 61, 10, 51, 40).
 pub(crate) const SERIES: [Color; 5] = [
     Color(0x00, 0x46, 0x8b),
     Color(0xd9, 0x7a, 0x00),
@@ -96,6 +95,22 @@ pub(crate) const DASHES: [&[f64]; 6] =
 
 /// Dashes of reference lines and of exact curves on maps.
 pub(crate) const REFERENCE_DASH: &[f64] = &[1.2, 0.8];
+
+/// A colour as SVG writes it, for instance `#0a141e`.
+pub(crate) fn hex(color: Color) -> String {
+    format!("#{:02x}{:02x}{:02x}", color.0, color.1, color.2)
+}
+
+/// plotters' style of a solid line, its width in millimetres.
+pub(crate) fn pen(color: Color, width: f64) -> ShapeStyle {
+    color.stroke_width(units(width).unsigned_abs())
+}
+
+/// plotters' style of a text, its size in millimetres.
+pub(crate) fn text(size: f64, color: Color, across: text_anchor::HPos, up: text_anchor::VPos) -> TextStyle<'static> {
+    let font: FontDesc<'static> = (FAMILY, f64::from(units(size))).into_font();
+    font.color(&color).pos(text_anchor::Pos::new(across, up))
+}
 
 #[cfg(test)]
 mod tests {

@@ -1,6 +1,6 @@
 //! For tests: colours as people see them, in CIELAB under D65, with normal and colour-blind eyes.
 
-use crate::color::Color;
+use crate::style::Color;
 
 /// A linear map of linear red, green, blue.
 pub(crate) type Vision = [[f64; 3]; 3];
@@ -23,7 +23,7 @@ fn times(matrix: &Vision, vector: [f64; 3]) -> [f64; 3] {
 }
 
 fn linear(color: Color) -> [f64; 3] {
-    color.bytes().map(|byte| {
+    [color.0, color.1, color.2].map(|byte| {
         let coded = f64::from(byte) / 255.0;
         if coded <= 0.04045 { coded / 12.92 } else { math::pow((coded + 0.055) / 1.055, 2.4) }
     })
@@ -50,5 +50,5 @@ pub(crate) fn difference(one: Color, other: Color, vision: &Vision) -> f64 {
 pub(crate) fn contrast(one: Color, other: Color) -> f64 {
     let luminance = |color: Color| times(&TO_XYZ, linear(color))[1] + 0.05;
     let (p, q) = (luminance(one), luminance(other));
-    p.max(q) / p.min(q)
+    if p > q { p / q } else { q / p }
 }

@@ -3,6 +3,7 @@
 mod evidence;
 mod failures;
 mod hard;
+mod pictures;
 mod precision;
 mod resume;
 mod steps;

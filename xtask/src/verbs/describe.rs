@@ -13,8 +13,7 @@ use std::path::Path;
 use std::process::Command;
 
 /// Dependencies whose version may show in an output.
-const KEY_CRATES: [&str; 9] =
-    ["csv", "plotters", "plotters-svg", "png", "resvg", "tiny-skia", "toml", "ttf-parser", "usvg"];
+const KEY_CRATES: [&str; 7] = ["base64", "csv", "plotters", "png", "tiny-skia", "toml", "ttf-parser"];
 
 /// Runs the verb.
 ///

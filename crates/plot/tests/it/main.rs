@@ -1,5 +1,7 @@
 //! Pictures as a caller gets them.
 
 mod faults;
+#[path = "../../examples/gallery.rs"]
+#[expect(dead_code, reason = "the page's own main function")]
+mod gallery;
 mod pages;
-mod samples;
