@@ -6,4 +6,5 @@ pub mod reader;
 pub mod recipe;
 pub mod steps;
 pub mod table;
+pub mod text;
 pub mod write;
