@@ -1,5 +1,6 @@
 //! Failures of a binary, and the exit codes that tell them apart.
 
+use files::table::TableError;
 use std::io::Write as _;
 use std::process::ExitCode;
 
@@ -36,9 +37,12 @@ impl From<std::io::Error> for Failure {
     }
 }
 
-impl From<files::table::TableError> for Failure {
-    fn from(error: files::table::TableError) -> Failure {
-        Failure::work(error)
+impl From<TableError> for Failure {
+    fn from(error: TableError) -> Failure {
+        match error {
+            TableError::Io(_) => Failure::work(error),
+            TableError::Malformed { .. } | TableError::NoColumn { .. } => Failure::input(error),
+        }
     }
 }
 

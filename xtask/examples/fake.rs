@@ -22,6 +22,7 @@ fn main() -> io::Result<()> {
     }
     match name.as_str() {
         "cargo" if arguments.get(1).is_some_and(|verb| verb == "vendor") => vendor(&arguments),
+        "cargo" if arguments.get(1).is_some_and(|verb| verb == "clean") => Ok(()),
         "cargo" => cargo(),
         "simulate" => simulate(&arguments),
         "map" => exit(3),
@@ -33,7 +34,10 @@ fn main() -> io::Result<()> {
 
 fn note(name: &str, arguments: &[String]) -> io::Result<()> {
     let mut log = fs::OpenOptions::new().create(true).append(true).open("calls.log")?;
-    let panel = value(arguments, "--panel").unwrap_or_default();
+    let panel = match arguments.get(1) {
+        Some(verb) if verb == "clean" => verb.clone(),
+        _ => value(arguments, "--panel").unwrap_or_default(),
+    };
     let check = if arguments.iter().any(|argument| argument == "--check") { " check" } else { "" };
     let scheme = if arguments.iter().any(|argument| argument == "--scheme") { " scheme" } else { "" };
     let resumed = if checkpoint(arguments).exists() { " resumed" } else { "" };

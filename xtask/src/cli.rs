@@ -299,9 +299,9 @@ pub struct ExportArgs {
     /// tau in seconds, the relaxation time; the default is what the paper calls typical
     #[arg(long, value_name = "SECONDS", default_value = "0.5", value_parser = positive, allow_negative_numbers = true)]
     pub tau: f64,
-    /// Frames a second
-    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(8..=100_000))]
-    pub fps: u32,
+    /// Frames a second: 1 to 1000, decimals too
+    #[arg(long, value_name = "N", default_value_t = 8.0, value_parser = rate, allow_negative_numbers = true)]
+    pub fps: f64,
     /// Time at which the run ends, in units of tau; by default that of the scene
     #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
     pub t_end: Option<f64>,
@@ -323,6 +323,12 @@ pub enum Format {
 fn positive(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0);
     number.ok_or_else(|| format!("{text}: must be a number above 0"))
+}
+
+/// A frame rate.
+fn rate(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number: &f64| (1.0..=1000.0).contains(number));
+    number.ok_or_else(|| format!("{text}: must be a number from 1 to 1000"))
 }
 
 /// Options of verbs that only print.

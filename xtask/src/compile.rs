@@ -9,9 +9,8 @@ use crate::paths::{FONT_SUMS, FONTS_REMEDY, Paths};
 use crate::sources::{Inputs, Sources};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use std::fs::File;
 use std::path::Path;
-use std::time::{Duration, SystemTime, UNIX_EPOCH};
+use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Binaries beside those of the figures.
 pub const TOOLS: [&str; 5] = ["simulate", "map", "precision", "hard", "studies"];
@@ -26,6 +25,10 @@ struct Built {
 
 /// The command that builds the binaries, as a user would type it.
 pub const COMMAND: &str = "cargo build --release --locked -p figures";
+
+/// Removes what is built of our own sources.
+const CLEAN: &str =
+    "clean --quiet --release --locked -p math -p ode -p jam -p files -p scene -p plot -p reference -p figures";
 
 /// Whether the binaries are older than their sources, or missing.
 ///
@@ -45,7 +48,7 @@ pub fn ensure(paths: &Paths, figures: &[Figure], sources: &Sources) -> Result<()
         return Ok(());
     }
     check_fonts(paths)?;
-    redate(paths, figures, &recorded(paths).sources, sources)?;
+    forget_newer(paths, figures, &recorded(paths).sources, sources)?;
     disk::remove(&paths.build_record())?;
     let mut cargo = child::cargo();
     cargo.args(COMMAND.split(' ').skip(1)).current_dir(&paths.root).env("CARGO_TARGET_DIR", &paths.target);
@@ -65,18 +68,17 @@ fn recorded(paths: &Paths) -> Built {
 }
 
 /// Cargo compares dates. A source that has changed since the last build and yet is older than what was built then (the
-/// clock was set back, or an archive has kept its dates) would leave the binary as it was: it gets a later date.
-fn redate(paths: &Paths, figures: &[Figure], built_from: &Inputs, sources: &Sources) -> Result<(), Failure> {
-    let Some(newest) = names(figures).filter_map(|name| date(&paths.binary(name))).max() else { return Ok(()) };
+/// clock was set back, or an archive has kept its dates) would leave the binary as it was: then what was built goes.
+fn forget_newer(paths: &Paths, figures: &[Figure], built_from: &Inputs, sources: &Sources) -> Result<(), Failure> {
+    let newest = names(figures).filter_map(|name| date(&paths.binary(name))).max();
     let changed = |(name, hash): &(&String, &String)| built_from.get(*name) != Some(*hash);
-    for (name, _) in sources.files.iter().filter(|_| !built_from.is_empty()).filter(changed) {
-        let path = paths.root.join(name);
-        if date(&path).is_some_and(|date| date <= newest) {
-            let later = File::open(&path).and_then(|file| file.set_modified(newest + Duration::from_secs(1)));
-            later.map_err(Failure::at(&path))?;
-        }
+    let mut changed = sources.files.iter().filter(|_| !built_from.is_empty()).filter(changed);
+    if !changed.any(|(name, _)| date(&paths.root.join(name)) <= newest) {
+        return Ok(());
     }
-    Ok(())
+    let mut cargo = child::cargo();
+    cargo.args(CLEAN.split(' ')).current_dir(&paths.root).env("CARGO_TARGET_DIR", &paths.target);
+    child::run_shown(&mut cargo).map_err(|_| Failure::Failed(format!("cargo {CLEAN} failed")))
 }
 
 /// Whether the fonts that the pictures embed are there, byte for byte.

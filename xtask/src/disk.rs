@@ -115,13 +115,26 @@ pub fn remove(path: &Path) -> Result<(), Failure> {
     }
 }
 
-/// Moves `from` to `to` on the same file system, in place of whatever was there.
+/// Moves a folder to `to` on the same file system, in place of whatever was there: that goes aside first and is removed
+/// last, so that between two renames alone neither is in the place.
 ///
 /// # Errors
-/// The old one cannot be removed, or the new one not be renamed.
-pub fn replace(from: &Path, to: &Path) -> Result<(), Failure> {
-    remove(to)?;
-    fs::rename(from, to).map_err(Failure::at(to))
+/// The old one cannot be moved aside or removed, or the new one not be renamed: then the old one is back in its place.
+pub fn replace_folder(from: &Path, to: &Path) -> Result<(), Failure> {
+    let name = to.file_name().unwrap_or_default().to_string_lossy();
+    let aside = to.with_file_name(files::write::draft_name(&name));
+    let is_there = match fs::rename(to, &aside) {
+        Ok(()) => true,
+        Err(error) if error.kind() == ErrorKind::NotFound => false,
+        Err(error) => return Err(Failure::at(to)(error)),
+    };
+    if let Err(error) = fs::rename(from, to) {
+        if is_there {
+            fs::rename(&aside, to).map_err(Failure::at(to))?;
+        }
+        return Err(Failure::at(to)(error));
+    }
+    remove(&aside)
 }
 
 /// The names in a folder, sorted; none when there is no such folder or something else has its name. Names that are not UTF-8 are left out.

@@ -157,8 +157,6 @@ pub const RUN_STEPS: &str = "steps.csv";
 
 /// How the names of scratch folders begin.
 const SCRATCH: &str = "verify-";
-/// What stands before the process number in a temporary name, as in crate `files`.
-const TEMPORARY: &str = ".tmp-";
 
 impl Paths {
     /// The checkout around `root`, or, without it, around the manifest that cargo names or the current folder.
@@ -202,13 +200,12 @@ impl Paths {
 
     /// The name under which something is made before it is put in its place; files are written under such names too.
     pub fn temporary(name: &str) -> String {
-        format!("{name}{TEMPORARY}{}", std::process::id())
+        files::write::draft_name(name)
     }
 
     /// Whether a name is one of [`Paths::temporary`], of any process.
     pub fn is_temporary(name: &str) -> bool {
-        let process = name.rsplit_once(TEMPORARY).map_or("", |(_, process)| process);
-        !process.is_empty() && process.bytes().all(|byte| byte.is_ascii_digit())
+        files::write::is_draft_name(name)
     }
 
     /// The folder of the figures' sources.

@@ -18,12 +18,12 @@ const DIAGRAM: &str = "s17";
 /// Its tables.
 const TABLES: [&str; 2] = ["states.csv", "steady.csv"];
 /// Exports: name, frames a second, end in units of tau; the beginning at several rates, and the whole run.
-const EXPORTS: [(&str, u32, Option<f64>); 5] = [
-    ("fps8", 8, Some(60.0)),
-    ("fps16", 16, Some(60.0)),
-    ("fps32", 32, Some(60.0)),
-    ("fps64", 64, Some(60.0)),
-    ("whole", 8, None),
+const EXPORTS: [(&str, f64, Option<f64>); 5] = [
+    ("fps8", 8.0, Some(60.0)),
+    ("fps16", 16.0, Some(60.0)),
+    ("fps32", 32.0, Some(60.0)),
+    ("fps64", 64.0, Some(60.0)),
+    ("whole", 8.0, None),
 ];
 
 /// Runs the check if PedPy has been installed and the tables are there; else says what is skipped.

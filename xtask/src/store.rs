@@ -58,5 +58,5 @@ pub fn adopt(fresh: &Path, folder: &Path) -> Result<(), Failure> {
     let hashes = hashing::hash_all(&paths)?;
     let by_name = names.into_iter().zip(hashes).filter_map(|(name, hash)| Some((name, hash?))).collect();
     disk::write(&fresh.join(STORE_SUMS), Sums { by_name }.to_text().as_bytes())?;
-    disk::replace(fresh, folder)
+    disk::replace_folder(fresh, folder)
 }

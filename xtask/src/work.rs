@@ -169,7 +169,7 @@ fn put_in_place(paths: &Paths, survey: &Survey<'_>, fresh: &Path) -> Result<Hash
         disk::remove(fresh)?;
         disk::remove(&tables)?;
     } else {
-        disk::replace(fresh, &tables)?;
+        disk::replace_folder(fresh, &tables)?;
     }
     let hashes = outputs::hash(paths, &[survey.figure])?.swap_remove(0);
     match outputs::pictures(paths, survey.figure).into_iter().find(|name| !hashes.contains_key(name)) {

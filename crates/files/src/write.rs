@@ -22,13 +22,18 @@ impl Draft {
     /// A draft for `place`, in the same folder, so that the last step is a rename.
     ///
     /// # Errors
-    /// Something that a rename would destroy has this name: a folder, a pipe, a device.
+    /// Something that a rename would destroy has this name: a folder, a pipe, a device. A leftover cannot be removed.
     pub fn new(place: &Path) -> io::Result<Draft> {
         if let Some(kind) = fs::metadata(place).ok().and_then(|data| not_a_file(data.file_type())) {
             let problem = format!("{kind}; the name of a file is needed, which is replaced as a whole");
             return Err(with_path(io::Error::new(io::ErrorKind::InvalidInput, problem), place));
         }
         let beside = place.with_file_name(draft_name(&place.file_name().unwrap_or_default().to_string_lossy()));
+        // an earlier process of this number may have been killed
+        match fs::remove_file(&beside) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(with_path(error, &beside)),
+            _ => {}
+        }
         Ok(Draft { place: place.to_path_buf(), beside })
     }
 

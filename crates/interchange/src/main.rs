@@ -3,11 +3,10 @@
 
 use clap::{Parser, ValueEnum};
 use files::recipe;
-use files::write::with_path;
+use files::write::{self, Draft, with_path};
 use interchange::Problem;
-use interchange::draft::Draft;
 use interchange::frames::Frames;
-use interchange::header::Header;
+use interchange::header::{Header, RATES};
 use interchange::{sqlite, text};
 use std::io::Write as _;
 use std::path::PathBuf;
@@ -36,8 +35,8 @@ struct Arguments {
     #[arg(long, value_name = "SECONDS", value_parser = positive, allow_negative_numbers = true)]
     tau: f64,
     /// Frames a second
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    fps: u32,
+    #[arg(long, value_name = "N", value_parser = rate, allow_negative_numbers = true)]
+    fps: f64,
     /// Only the text that PedPy reads, or only JuPedSim's sqlite file
     #[arg(long)]
     format: Option<Format>,
@@ -55,6 +54,11 @@ enum Format {
 fn positive(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0);
     number.ok_or_else(|| format!("{text}: must be a number above 0"))
+}
+
+fn rate(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number| RATES.contains(number));
+    number.ok_or_else(|| format!("{text}: must be a number from {} to {}", RATES.start(), RATES.end()))
 }
 
 fn main() -> ExitCode {
@@ -94,11 +98,11 @@ fn run(arguments: &Arguments) -> Result<(), Problem> {
 /// All files or none, unless a rename fails half-way; then what was written, on stdout.
 fn publish(drafts: Vec<(Draft, u64)>, header: &Header) -> Result<(), Problem> {
     let mut words = String::new();
-    for (draft, rows) in drafts {
-        let (file, frames) = (draft.place().display().to_string(), rows / u64::from(header.pedestrians));
+    for (draft, rows) in &drafts {
+        let (file, frames) = (draft.place().display(), rows / u64::from(header.pedestrians));
         words.push_str(&format!("{file}: {frames} frames of {} pedestrians\n", header.pedestrians));
-        draft.publish()?;
     }
+    write::publish(drafts.into_iter().map(|(draft, _)| draft).collect())?;
     let facts = header.facts();
     let fact = |name| facts.iter().find(|(known, _)| *known == name).map_or("", |(_, value)| value);
     let units =

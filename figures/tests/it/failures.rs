@@ -75,3 +75,23 @@ fn a_run_that_ends_in_an_event_ends_well() {
 fn files_in(folder: &Path) -> usize {
     std::fs::read_dir(folder).expect("a folder").count()
 }
+
+#[test]
+fn a_figure_says_what_is_wrong_with_a_table() {
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    let folder = scratch.path().to_str().expect("UTF-8");
+    let scene = "figures/fig08-logarithmic-force/scene.toml";
+    for (table, line, words) in [
+        ("d;f\n1;2\n", 1, "semicolons"),
+        ("d,f\n1,2\n3,NaN\n", 3, "\"NaN\""),
+        ("\"\",\"d\",\"f\"\n\"1\",1,2\n", 1, "row names of R"),
+    ] {
+        std::fs::write(scratch.path().join("force.csv"), table).expect("a table");
+        let arguments = ["--scene", scene, "--tables", folder, "--pictures", folder, "--draw-only"];
+        let output = run("fig08-logarithmic-force", &arguments);
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{told}");
+        assert!(told.contains(&format!("force.csv:{line}: ")) && told.contains(words), "{told}");
+        assert!(!scratch.path().join("fig08.svg").exists());
+    }
+}

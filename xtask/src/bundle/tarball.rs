@@ -4,6 +4,7 @@ use super::{Content, Member, Members, SUMS};
 use crate::disk;
 use crate::failure::Failure;
 use crate::sums::Sums;
+use files::write::{Draft, publish};
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
@@ -20,12 +21,9 @@ pub fn write(archive: &Path, top: &str, seconds: u64, members: &Members) -> Resu
     if let Some(folder) = archive.parent() {
         disk::create_folder(folder)?;
     }
-    let fresh = archive.with_extension(format!("tar.tmp-{}", std::process::id()));
-    let written = append_all(&fresh, top, seconds, &all);
-    written.and_then(|()| disk::replace(&fresh, archive)).inspect_err(|_| {
-        // the failure that is on its way says more than one of the clean-up
-        let _ = disk::remove(&fresh);
-    })
+    let draft = Draft::new(archive).map_err(Failure::failed)?;
+    append_all(draft.path(), top, seconds, &all)?;
+    publish(vec![draft]).map_err(Failure::failed)
 }
 
 fn append_all(file: &Path, top: &str, seconds: u64, members: &Members) -> Result<(), Failure> {

@@ -22,6 +22,7 @@ const BUILD: &str = "build --quiet --release --locked -p interchange";
 /// written.
 pub fn run(paths: &Paths, arguments: &ExportArgs) -> Result<(), Failure> {
     let scene = scene(paths, &arguments.scene)?;
+    refuse_too_many(&scene, arguments)?;
     build(paths)?;
     let folder = paths.exported();
     let result = simulate(paths, &scene, arguments, &folder).and_then(|table| write(paths, &scene, arguments, &table));
@@ -40,6 +41,40 @@ pub fn scene(paths: &Paths, wanted: &str) -> Result<PathBuf, Failure> {
     }
     let all = figure::discover(paths)?;
     Ok(paths.root.join(Paths::scene(&figure::find(&all, wanted)?.slug)))
+}
+
+/// As many rows as a run may have.
+const MOST_ROWS: f64 = 2e7;
+
+/// Refuses a frame rate that gives more rows than a run may have: `simulate` would speak of samples, which nobody asked for.
+fn refuse_too_many(scene: &Path, arguments: &ExportArgs) -> Result<(), Failure> {
+    let Some(determinants) = meant(scene, arguments)? else { return Ok(()) };
+    let number = |key: &str| {
+        let value = determinants.lines().find_map(|line| line.strip_prefix(key)?.strip_prefix(" = "));
+        value.and_then(|value| value.parse::<f64>().ok())
+    };
+    let end = arguments.t_end.or_else(|| number("run.t_end"));
+    // what is missing is told by `simulate`
+    let (Some(pedestrians), Some(end)) = (number("ring.pedestrians"), end) else { return Ok(()) };
+    let (fps, tau) = (arguments.fps, arguments.tau);
+    let most = MOST_ROWS / (pedestrians * end * tau);
+    if fps <= most {
+        return Ok(());
+    }
+    let rows = pedestrians * end * tau * fps;
+    Err(Failure::Usage(format!(
+        "--fps {fps:?}: {pedestrians} pedestrians up to t = {end:?} ({:?} s) are {rows:.3e} rows, more than {MOST_ROWS:e}; \
+         at most {most:.4} frames a second, or an earlier end (--t-end)",
+        end * tau
+    )))
+}
+
+/// What determines the numbers of the panel that is meant; nothing where none is, which `simulate` says.
+fn meant(scene: &Path, arguments: &ExportArgs) -> Result<Option<String>, Failure> {
+    let recipe = recipe::read(scene).map_err(|error| Failure::Usage(error.to_string()))?;
+    let is_meant =
+        |panel: &&Panel| arguments.panel.as_ref().map_or(recipe.panels.len() == 1, |name| *name == panel.name);
+    Ok(recipe.panels.iter().find(is_meant).map(Panel::determinants))
 }
 
 /// Builds what runs scenes and what writes the files.
@@ -63,7 +98,7 @@ pub fn build(paths: &Paths) -> Result<(), Failure> {
 /// # Errors
 /// The run fails.
 pub fn simulate(paths: &Paths, scene: &Path, arguments: &ExportArgs, folder: &Path) -> Result<PathBuf, Failure> {
-    let interval = 1.0 / (f64::from(arguments.fps) * arguments.tau);
+    let interval = 1.0 / (arguments.fps * arguments.tau);
     let mut program = Command::new(paths.binary("simulate"));
     match with_trajectories(scene, arguments)? {
         Some(text) => {
@@ -85,10 +120,7 @@ pub fn simulate(paths: &Paths, scene: &Path, arguments: &ExportArgs, folder: &Pa
 /// panel that is meant, which `simulate` will say).
 fn with_trajectories(scene: &Path, arguments: &ExportArgs) -> Result<Option<String>, Failure> {
     const STD: &str = "run.record = \"std\"";
-    let recipe = recipe::read(scene).map_err(|error| Failure::Usage(error.to_string()))?;
-    let is_meant =
-        |panel: &&Panel| arguments.panel.as_ref().map_or(recipe.panels.len() == 1, |name| *name == panel.name);
-    let determinants = recipe.panels.iter().find(is_meant).map(Panel::determinants).unwrap_or_default();
+    let determinants = meant(scene, arguments)?.unwrap_or_default();
     let is_left_out = determinants.lines().any(|line| line == STD);
     Ok(is_left_out.then(|| determinants.replace(STD, "run.record = \"trajectories\"")))
 }
@@ -100,7 +132,7 @@ fn with_trajectories(scene: &Path, arguments: &ExportArgs) -> Result<Option<Stri
 pub fn write(paths: &Paths, scene: &Path, arguments: &ExportArgs, table: &Path) -> Result<(), Failure> {
     let mut program = Command::new(paths.binary("export"));
     program.arg("--scene").arg(scene).arg("--table").arg(table).arg("--out").arg(&arguments.out);
-    program.args(["--tau", &format!("{:?}", arguments.tau), "--fps", &arguments.fps.to_string()]);
+    program.args(["--tau", &format!("{:?}", arguments.tau), "--fps", &format!("{:?}", arguments.fps)]);
     program.args(arguments.a0.iter().flat_map(|a0| ["--a0".to_owned(), format!("{a0:?}")]));
     program.args(arguments.panel.iter().flat_map(|panel| ["--panel", panel]));
     program.args(arguments.format.iter().flat_map(|format| {

@@ -246,7 +246,8 @@ pub fn forecast(nodes: &[Node], threads: usize, last: &dyn Fn(&Node) -> Option<f
         ends.push(before.unwrap_or(0.0) + own);
     }
     let chain = ends.into_iter().max_by(f64::total_cmp).unwrap_or(0.0);
-    let share = seconds.iter().sum::<f64>() / threads.max(1) as f64;
+    // the sum of no floats is -0
+    let share = seconds.iter().fold(0.0, |sum, one| sum + one) / threads.max(1) as f64;
     let unknown = nodes.iter().filter(|node| last(node).is_none()).count();
     Forecast { seconds: if chain > share { chain } else { share }, unknown }
 }

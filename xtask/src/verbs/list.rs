@@ -6,6 +6,7 @@ use crate::costs;
 use crate::failure::Failure;
 use crate::figure::{self, Figure};
 use crate::ledger;
+use crate::lock::Lock;
 use crate::outputs;
 use crate::paths::Paths;
 use crate::print;
@@ -24,6 +25,7 @@ pub fn run(paths: &Paths, arguments: &ListArgs) -> Result<(), Failure> {
     let ids = &arguments.selection.ids;
     let selected = if ids.is_empty() { all.iter().collect() } else { figure::select(&all, ids, false)? };
     if arguments.costs {
+        let _lock = Lock::take(paths)?;
         let text = costs::markdown(paths, &all)?;
         costs::put_in_document(paths, &text)?;
         return print::out(&text);

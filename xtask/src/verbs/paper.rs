@@ -8,6 +8,7 @@ use crate::figure::{self, Figure};
 use crate::gate;
 use crate::hashing;
 use crate::literals;
+use crate::lock::Lock;
 use crate::paths::{DOCUMENT, DOCUMENT_PDF, NUMBERS_JSON, NUMBERS_TEX, PAPER_SUMS, PDF_CHECK, PDF_CHECK_PIN};
 use crate::paths::{PICTURE_PDFS, PICTURE_SOURCE, Paths};
 use crate::print;
@@ -15,7 +16,8 @@ use crate::python;
 use crate::quantities::Quantities;
 use crate::sums::{State, Sums};
 use crate::typeset::{self, Typesetter};
-use std::path::PathBuf;
+use files::write::{Draft, publish};
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// How to accept what differs.
@@ -28,6 +30,7 @@ const REMEDY: &str = "cargo xtask paper --bless accepts it";
 /// not those of the tables, or the document has another sum. Stale: a figure is. Unsupported: there is no typesetter.
 pub fn run(paths: &Paths, arguments: &PaperArgs) -> Result<(), Failure> {
     let all = figure::discover(paths)?;
+    let _lock = Lock::take(paths)?;
     gate::figures_verify(paths, &all)?;
     literals::check(paths)?;
     // before the numbers are collected, which takes longer
@@ -73,7 +76,11 @@ fn install_python() {
         [&["update", "-qq"][..], &["install", "-y", "-qq", "--no-install-recommends", "python3", "python3-venv"]]
     {
         // whoever may not do this hears from the next step what is missing
-        let _ = Command::new("apt-get").args(words).env("DEBIAN_FRONTEND", "noninteractive").status();
+        match Command::new("apt-get").args(words).env("DEBIAN_FRONTEND", "noninteractive").status() {
+            Ok(status) if status.success() => {}
+            Ok(status) => eprintln!("ci: apt-get {}: {status}", words.join(" ")),
+            Err(error) => eprintln!("ci: apt-get: {error}"),
+        }
     }
 }
 
@@ -118,13 +125,12 @@ fn set(paths: &Paths, all: &[Figure], typesetter: &Typesetter) -> Result<Vec<Str
 }
 
 /// Lets a file be made beside its place, then puts it there.
-fn place(paths: &Paths, name: &str, make: impl Fn(&PathBuf) -> Result<(), Failure>) -> Result<(), Failure> {
-    let (place, beside) = (paths.root.join(name), paths.root.join(Paths::temporary(name)));
-    let made = make(&beside).and_then(|()| disk::replace(&beside, &place));
-    if made.is_err() {
-        disk::remove(&beside)?;
-    }
-    made
+fn place(paths: &Paths, name: &str, make: impl Fn(&Path) -> Result<(), Failure>) -> Result<(), Failure> {
+    let place = paths.root.join(name);
+    place.parent().map_or(Ok(()), disk::create_folder)?;
+    let draft = Draft::new(&place).map_err(Failure::failed)?;
+    make(draft.path())?;
+    draft.flush().and_then(|()| publish(vec![draft])).map_err(Failure::failed)
 }
 
 fn compare(paths: &Paths, made: &[String], bless: bool) -> Result<(), Failure> {

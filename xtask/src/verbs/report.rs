@@ -5,6 +5,7 @@ use crate::disk;
 use crate::failure::Failure;
 use crate::figure;
 use crate::gate;
+use crate::lock::Lock;
 use crate::page;
 use crate::paths::{PAGE, PAPER_SUMS, Paths};
 use crate::print;
@@ -15,6 +16,7 @@ use crate::sums;
 /// # Errors
 /// Stale, Differs: the figures do not verify. Failed: something that the page is made from is missing or malformed.
 pub fn run(paths: &Paths, arguments: &ReportArgs) -> Result<(), Failure> {
+    let _lock = Lock::take(paths)?;
     gate::figures_verify(paths, &figure::discover(paths)?)?;
     let html = page::render(paths)?;
     let hash = files::write::sha256(html.as_bytes());

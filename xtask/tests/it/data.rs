@@ -10,7 +10,7 @@ fn data() -> PathBuf {
 /// The header of every committed sample, by the path of its table in the description.
 fn headers() -> BTreeMap<String, String> {
     let mut headers = BTreeMap::new();
-    for folder in std::fs::read_dir(data().join("golden")).into_iter().flatten().flatten() {
+    for folder in std::fs::read_dir(data().join("golden")).expect("data/golden").flatten() {
         for file in std::fs::read_dir(folder.path()).expect("a folder of samples").flatten() {
             let text = std::fs::read_to_string(file.path()).expect("a sample");
             let path = format!("{}/{}", folder.file_name().to_string_lossy(), file.file_name().to_string_lossy());
@@ -23,10 +23,7 @@ fn headers() -> BTreeMap<String, String> {
 #[test]
 fn every_table_and_column_is_described() {
     let headers = headers();
-    if headers.is_empty() {
-        eprintln!("no committed samples yet");
-        return;
-    }
+    assert!(headers.len() > 30, "samples are missing: git restore data/golden");
     let text = std::fs::read_to_string(data().join("datapackage.json")).expect("data/datapackage.json");
     let package: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     let mut described = BTreeMap::new();

@@ -19,7 +19,7 @@ fn a_figure_is_sampled_at_every_frame() {
     shop.xtask(&["export", "fig:jams", "--out", "mine"]).expect(0);
     let words = words(&shop);
     assert!(value(&words, "--scene").is_some_and(|scene| scene.ends_with("figures/fig11-trajectories/scene.toml")));
-    assert_eq!(["--tau", "--fps", "--out"].map(|name| value(&words, name)), [Some("0.5"), Some("8"), Some("mine")]);
+    assert_eq!(["--tau", "--fps", "--out"].map(|name| value(&words, name)), [Some("0.5"), Some("8.0"), Some("mine")]);
     assert_eq!(["--a0", "--panel", "--format"].map(|name| value(&words, name)), [None; 3]);
     // the run lay in a folder of its own, which is gone
     let table = value(&words, "--table").expect("a table");
@@ -33,7 +33,7 @@ fn a_figure_is_sampled_at_every_frame() {
 fn a_scene_of_ones_own_with_every_option() {
     let shop = Shop::new("export-scene");
     shop.write("ring.toml", "title = \"ring\"\n[run]\n");
-    let options = ["--a0", "0.3", "--tau", "0.8", "--fps", "25", "--panel", "left", "--format", "pedpy"];
+    let options = ["--a0", "0.3", "--tau", "0.8", "--fps", "29.97", "--panel", "left", "--format", "pedpy"];
     shop.xtask(&[&["export", "ring.toml", "--out", "mine"][..], &options].concat()).expect(0);
     let words = words(&shop);
     assert_eq!(value(&words, "--scene"), Some("ring.toml"));
@@ -62,7 +62,7 @@ fn what_cannot_be_exported_is_bad_input() {
         (&["nothing.toml"][..], "nothing.toml"),
         (&["broken.toml"], "broken.toml:1"),
         (&["fig77"], "no figure fig77"),
-        (&["fig11", "--fps", "7"], "7 is not in 8..=100000"),
+        (&["fig11", "--fps", "0.9"], "0.9: must be a number from 1 to 1000"),
         (&["fig11", "--tau", "0"], "0: must be a number above 0"),
         (&["fig11", "--a0", "-1"], "-1: must be a number above 0"),
         (&["fig11", "--format", "csv"], "possible values: pedpy, jupedsim"),
@@ -78,4 +78,16 @@ fn what_writes_the_files_is_no_source_of_figures() {
     let shop = crate::shop::blessed("export-source");
     shop.write("crates/interchange/src/lib.rs", "//! Files.\n");
     shop.xtask(&["status", "--exit-code"]).expect(0);
+}
+
+#[test]
+fn too_many_frames_are_told_in_the_words_of_the_command() {
+    let shop = Shop::new("export-frames");
+    shop.write("ring.toml", "title = \"ring\"\n[ring]\npedestrians = 133\n[run]\nt_end = 3000\n");
+    let ended = shop.xtask(&["export", "ring.toml", "--out", "mine", "--fps", "120"]).expect(2);
+    for word in ["--fps 120", "133", "2e7", "100.25", "--t-end"] {
+        assert!(ended.err.contains(word), "{word}: {}", ended.err);
+    }
+    assert!(!ended.err.contains("sample"), "{}", ended.err);
+    shop.xtask(&["export", "ring.toml", "--out", "mine", "--fps", "120", "--t-end", "2000"]).expect(0);
 }

@@ -10,7 +10,10 @@ fn export(folder: &Path, scene: &str, table: &str, more: &[&str]) -> Output {
     fs::write(folder.join("scene.toml"), scene).expect("a file");
     fs::write(folder.join("run.csv"), table).expect("a file");
     let mut program = Command::new(env!("CARGO_BIN_EXE_export"));
-    program.args(["--scene", "scene.toml", "--table", "run.csv", "--out", "out", "--tau", "0.5", "--fps", "8"]);
+    program.args(["--scene", "scene.toml", "--table", "run.csv", "--out", "out", "--tau", "0.5"]);
+    if !more.contains(&"--fps") {
+        program.args(["--fps", "8"]);
+    }
     program.args(more).current_dir(folder).output().expect("the program starts")
 }
 
@@ -52,6 +55,9 @@ fn bad_input_is_told_and_leaves_nothing() {
         (map, TABLE, &[], "has no [run]"),
         (scene(), TABLE, &["--panel", "other"], "no panel other"),
         (scene(), TABLE, &["--a0", "0"], "must be a number above 0"),
+        (scene(), TABLE, &["--a0", "1e-16"], "a_0 = 1e-16 m: must be from 1e-15"),
+        (scene(), TABLE, &["--fps", "0.5"], "0.5: must be a number from 1 to 1000"),
+        (scene(), TABLE, &["--fps", "1001"], "1001: must be a number from 1 to 1000"),
         (scene(), TABLE, &["--format", "csv"], "possible values: pedpy, jupedsim"),
     ] {
         let folder = tempfile::tempdir().expect("a folder");
@@ -70,4 +76,17 @@ fn a_folder_that_cannot_be_made_is_a_failure() {
     let output = export(folder.path(), &scene(), TABLE, &[]);
     assert_eq!(output.status.code(), Some(4));
     assert!(String::from_utf8_lossy(&output.stderr).contains("out"));
+}
+
+#[test]
+fn frame_rates_of_cameras_are_taken_as_they_are() {
+    for rate in ["29.97", "2.5", "25.0", "5", "1000"] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let interval = 1.0 / (rate.parse::<f64>().expect("a number") * 0.5);
+        let table = format!("t,n,x,v\n0,0,0,0\n0,1,5,0\n{interval:?},0,0.3,0.1\n{interval:?},1,5.1,0.2\n");
+        let output = export(folder.path(), &scene(), &table, &["--fps", rate]);
+        assert!(output.status.success(), "{output:?}");
+        let text = fs::read_to_string(folder.path().join("out/trajectories.txt")).expect("text");
+        assert!(text.starts_with(&format!("# framerate: {}\n", rate.trim_end_matches(".0"))), "{text}");
+    }
 }
