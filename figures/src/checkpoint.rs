@@ -5,10 +5,9 @@
 //! another run or program is not believed, and the run begins anew.
 
 use crate::failure::Failure;
-use crate::steps::Steps;
 use cpu_time::ProcessTime;
 use files::write::{atomic, sha256, sha256_file};
-use ode::{Control, Step};
+use ode::Control;
 use scene::checkpoint::{Checkpoint, Underway};
 use scene::run::Scene;
 use scene::simulation::{Onlooker, Outcome, run_from};
@@ -29,9 +28,6 @@ pub struct Care {
     /// Say how far the run is, a line a second on stderr: `progress 0.42`, or `resumed 0.40` at the start
     #[arg(long)]
     progress: bool,
-    /// Write steps.csv too, a print of every step, where these are of adaptive length
-    #[arg(long)]
-    steps: bool,
 }
 
 fn seconds(text: &str) -> Result<Duration, String> {
@@ -48,8 +44,6 @@ pub struct Ended {
     pub seconds: f64,
     /// Steps that were taken from the checkpoint.
     pub resumed_steps: u64,
-    /// The prints of its steps, if they were asked for and are of adaptive length.
-    pub steps: Option<Steps>,
 }
 
 /// Writings take less than this part of the time.
@@ -71,7 +65,7 @@ impl Care {
         let outcome = run_from(scene, from, &mut keeper).map_err(Failure::work)?;
         keeper.end();
         let seconds = before.unwrap_or(0.0) + clock.elapsed().as_secs_f64();
-        Ok(Ended { outcome, seconds, resumed_steps: steps, steps: keeper.steps })
+        Ok(Ended { outcome, seconds, resumed_steps: steps })
     }
 
     /// Removes the checkpoint of a run whose results are safe.
@@ -100,7 +94,6 @@ struct Keeper<'a> {
     next_word: Instant,
     next_writing: Instant,
     is_bar_shown: bool,
-    steps: Option<Steps>,
 }
 
 impl<'a> Keeper<'a> {
@@ -116,8 +109,7 @@ impl<'a> Keeper<'a> {
         let (clock, now) = (ProcessTime::now(), Instant::now());
         let (next_word, next_writing) = (now + SILENCE, now + care.checkpoint_every);
         let (before, done, started) = (0.0, 0.0, now);
-        let steps = (care.steps && !is_fixed).then(|| Steps::new(scene.ring.pedestrians));
-        Ok(Keeper { care, run, before, clock, started, done, next_word, next_writing, is_bar_shown: false, steps })
+        Ok(Keeper { care, run, before, clock, started, done, next_word, next_writing, is_bar_shown: false })
     }
 
     /// The checkpoint and the seconds before it; `None` when there is none to believe.
@@ -178,12 +170,6 @@ impl<'a> Keeper<'a> {
 }
 
 impl Onlooker for Keeper<'_> {
-    fn after(&mut self, step: &Step<'_>) {
-        if let Some(steps) = &mut self.steps {
-            steps.push(step);
-        }
-    }
-
     fn between(&mut self, underway: &Underway<'_>) {
         let now = Instant::now();
         if now >= self.next_word {

@@ -56,7 +56,7 @@ pub struct Arguments {
     /// The independent run that estimates the error: another method at a tighter tolerance
     #[arg(long, conflicts_with_all = ["method", "tol", "dt"])]
     check: bool,
-    /// Progress, checkpoints, prints of steps.
+    /// Progress and checkpoints.
     #[command(flatten)]
     care: Care,
     /// Print the summary as JSON
@@ -72,11 +72,10 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     let scene = read_scene(arguments)?;
     let ended = arguments.care.run(&scene)?;
     let summary = summary(&scene, &ended);
-    let Ended { outcome, seconds, steps, .. } = ended;
+    let Ended { outcome, seconds, .. } = ended;
     let mut files = Vec::new();
     if let Some(folder) = &arguments.out {
         files.extend(tables(folder, &scene, &outcome));
-        files.extend(steps.map(|steps| (folder.join("steps.csv"), steps.to_csv().as_bytes().to_vec())));
         files.push((folder.join("summary.json"), pretty(&summary).into_bytes()));
         if !arguments.tables_only {
             files.extend(pictures(folder, &scene, &outcome)?);

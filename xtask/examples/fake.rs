@@ -6,7 +6,6 @@
 //! what figures without runs report, `spoil` holds lines `PROGRAM WHAT ROW` of what a program gets wrong (see [`spoilt`]),
 //! `slow` makes every program last long enough to be measured.
 
-use files::steps::Print;
 use std::env;
 use std::fs;
 use std::io::{self, Write};
@@ -126,9 +125,6 @@ fn simulate(arguments: &[String]) -> io::Result<()> {
     }
     fs::write(out.join("std.csv"), format!("t,std\n{}", rows.concat()))?;
     fs::write(out.join("trajectories.csv"), trajectories(shift))?;
-    if arguments.iter().any(|argument| argument == "--steps") && spoilt("simulate", "fixed").is_none() {
-        fs::write(out.join("steps.csv"), steps())?;
-    }
     let t: f64 = 12.5 + shift;
     let t = if spoilt("simulate", "event").is_some() { t.next_up() } else { t };
     fs::write(out.join("events.csv"), format!("event,t,n\noverlap,{t:?},7\n"))?;
@@ -145,28 +141,6 @@ fn trajectories(shift: f64) -> String {
     let row = |t: usize, n: usize| format!("{t},{n},{:?},1\n", value(t, n));
     let rows = (0..120).flat_map(|t| (0..3).map(move |n| (t, n))).map(|(t, n)| row(t, n));
     format!("t,n,x,v\n{}", rows.collect::<String>())
-}
-
-/// Two steps of these pedestrians from each sample to the next. `spoil` may ask that from a step on one of them is wrong (`step`),
-/// two are (`several`), what all share is (`shared`), steps are of another length (`length`) or there are none (`ends`);
-/// no sample is touched by it.
-fn steps() -> String {
-    let wrong = |what: &str, step: usize| spoilt("simulate", what).is_some_and(|from| step >= from);
-    let from = spoilt("simulate", "state").unwrap_or(usize::MAX);
-    let print = |step: usize| {
-        let mut state: Vec<f64> = (0..7).map(|component| (step + component) as f64).collect();
-        let moved = [(1, wrong("step", step) || step >= from.saturating_mul(2)), (5, wrong("several", step))];
-        for (component, _) in
-            moved.into_iter().chain([(0, wrong("several", step)), (6, wrong("shared", step))]).filter(|one| one.1)
-        {
-            state[component] = state[component].next_up();
-        }
-        let length = if wrong("length", step) { 0.25 } else { 0.5 };
-        Print::new(if step == 0 { 0.0 } else { length }, &state, 3)
-    };
-    let rows = (0..240).filter(|&step| !wrong("ends", step));
-    let rows = rows.map(|step| format!("{:?},{}\n", step as f64 / 2.0, print(step)));
-    format!("t,print\n{}", rows.collect::<String>())
 }
 
 /// Copies the curve of each run (or makes a table from the scene's title) and writes two pictures.

@@ -22,7 +22,6 @@ pub mod golden;
 pub mod hashing;
 pub mod judging;
 pub mod ledger;
-pub mod literals;
 pub mod lock;
 pub mod manifest;
 pub mod numbers;

@@ -81,8 +81,6 @@ pub const PICTURE_SOURCE: &str = "paper/picture.typ";
 pub const NUMBERS_JSON: &str = "paper/numbers.json";
 /// The same as LaTeX macros, by name.
 pub const NUMBERS_TEX: &str = "paper/numbers.tex";
-/// Numerals that may stand in the document's text, by name.
-pub const ALLOWED_NUMERALS: &str = "paper/numerals.txt";
 /// The typesetter's pinned wheel, by name.
 pub const TYPST_PIN: &str = "paper/requirements.txt";
 /// What makes the wheel behave as the program, by name.
@@ -151,9 +149,6 @@ pub const RUN_EVENTS: &str = "events.csv";
 pub const RUN_SUMMARY: &str = "summary.json";
 /// The tables of a stored run.
 pub const RUN_TABLES: [&str; 2] = ["std.csv", "trajectories.csv"];
-
-/// The prints of the steps of a stored run.
-pub const RUN_STEPS: &str = "steps.csv";
 
 /// How the names of scratch folders begin.
 const SCRATCH: &str = "verify-";
@@ -315,11 +310,6 @@ impl Paths {
     /// The hashes of the state of a run, by name.
     pub fn states(scene: &str) -> String {
         format!("data/states/{scene}.csv")
-    }
-
-    /// The prints of the steps of a run, by name.
-    pub fn steps(scene: &str) -> String {
-        format!("data/steps/{scene}.csv")
     }
 
     /// Where a run is made once more with its trajectories.
@@ -504,7 +494,6 @@ impl Paths {
             "data/SHA256SUMS",
             "data/golden/",
             "data/states/",
-            "data/steps/",
             "data/paper-scheme/",
             "data/manifest.json",
             EVENTS,

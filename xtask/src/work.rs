@@ -119,8 +119,7 @@ fn discard(fresh: &Path) {
 fn simulate(paths: &Paths, scene: &str, panel: &str, check: bool) -> Command {
     let mut command = Command::new(paths.binary("simulate"));
     command.current_dir(&paths.root).arg(scene).args(["--panel", panel, "--tables-only", "--progress"]);
-    // a check is compared with its run alone
-    command.arg(if check { "--check" } else { "--steps" });
+    command.args(check.then_some("--check"));
     if paths.scheme == Scheme::Paper {
         command.args(["--scheme", "paper"]);
     }

@@ -1,11 +1,10 @@
-//! The binaries as a user meets them: sums, redrawing, exit codes, what is left behind, prints of steps.
+//! The binaries as a user meets them: sums, redrawing, exit codes, what is left behind.
 
 mod evidence;
 mod failures;
 mod hard;
 mod precision;
 mod resume;
-mod steps;
 mod studies;
 mod sums;
 

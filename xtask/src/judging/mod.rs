@@ -10,7 +10,6 @@ pub mod pictures;
 pub mod pixels;
 pub mod reference;
 pub mod states;
-pub mod steps;
 pub mod tables;
 pub mod tolerances;
 pub mod verdict;

@@ -3,11 +3,10 @@
 //! `data/states/SCENE.csv` has a line for each checkpoint: `t`; `state`, the first 16 digits of a rolling SHA-256 over
 //! every sample (`t,n,x,v` as in a table of trajectories) from the start up to and with t; and `pedestrians`, four digits
 //! for each pedestrian's sample at t itself. The rolling hash tells whether anything differed up to t, the short ones
-//! who differs at t (one of 65536 is missed). The step itself, between two samples, is found by [`super::steps`]. A run
-//! that stores no trajectories is made once more with them.
+//! who differs at t (one of 65536 is missed). A run that stores no trajectories is made
+//! once more with them.
 
 use super::reference::Reference;
-use super::steps::{self, Steps};
 use crate::child;
 use crate::disk;
 use crate::failure::Failure;
@@ -47,14 +46,12 @@ pub struct Parted {
     pub scene: String,
     /// The last checkpoint up to which every sample is as committed; none when the first differs.
     pub same_until: Option<String>,
-    /// The first checkpoint that differs; none when steps differ and no sample does.
+    /// The first checkpoint that differs.
     pub at: Option<String>,
     /// Who differs there, from 0; empty when the difference lies before it, or the run ends elsewhere.
     pub pedestrians: Vec<usize>,
     /// All pedestrians of the run.
     pub of: usize,
-    /// The first step that differs.
-    pub steps: Steps,
 }
 
 /// The hashes of a table of trajectories.
@@ -120,14 +117,10 @@ pub fn parse(file: &str, text: &str) -> Result<Vec<Checkpoint>, Failure> {
     Ok(checkpoints)
 }
 
-/// Where two runs part, by their samples and by their steps; nothing when they do not.
-pub fn compare(scene: &str, committed: &[Checkpoint], found: &[Checkpoint], steps: Steps) -> Option<Parted> {
+/// Where two runs part; nothing when they do not.
+pub fn compare(scene: &str, committed: &[Checkpoint], found: &[Checkpoint]) -> Option<Parted> {
     let differs = |index: &usize| committed.get(*index) != found.get(*index);
-    let first = (0..committed.len().max(found.len())).find(differs);
-    if first.is_none() && !steps.differ() {
-        return None;
-    }
-    let same = first.unwrap_or(committed.len());
+    let same = (0..committed.len().max(found.len())).find(differs)?;
     let (one, other) = (committed.get(same), found.get(same));
     let short = |checkpoint: Option<&Checkpoint>| -> Vec<String> {
         let text = checkpoint.map_or("", |checkpoint| &checkpoint.pedestrians);
@@ -141,7 +134,6 @@ pub fn compare(scene: &str, committed: &[Checkpoint], found: &[Checkpoint], step
         at: one.or(other).map(|checkpoint| checkpoint.t.clone()),
         pedestrians: (0..ours.len()).filter(|&n| comparable && theirs.get(n) != ours.get(n)).collect(),
         of: pedestrians(committed).max(pedestrians(found)),
-        steps,
     })
 }
 
@@ -161,8 +153,7 @@ pub fn judge(paths: &Paths, made: &Paths, survey: &Survey<'_>, reference: &Refer
         let Some(text) = disk::read_text(&paths.root.join(&name))? else { continue };
         let committed = parse(&name, &text)?;
         let found = of_run(made, survey, panel, key)?;
-        let steps = steps::judge(paths, made, scene, key, pedestrians(&committed))?;
-        parted.extend(compare(scene, &committed, &found, steps));
+        parted.extend(compare(scene, &committed, &found));
     }
     Ok(parted)
 }
@@ -214,18 +205,17 @@ fn again(made: &Paths, survey: &Survey<'_>, panel: &str) -> Result<String, Failu
 impl Parted {
     /// In words.
     pub fn words(&self) -> String {
-        let Parted { scene, same_until, at, pedestrians, of, steps } = self;
+        let Parted { scene, same_until, at, pedestrians, of } = self;
         let until = same_until.as_deref().map_or("from the start".to_owned(), |t| format!("after t = {t}"));
         let first: Vec<String> = pedestrians.iter().take(5).map(usize::to_string).collect();
         let samples = match (at, pedestrians.len()) {
-            (None, _) => "has the same samples".to_owned(),
+            (None, _) => "ends elsewhere".to_owned(),
             (Some(at), 0) => format!("parts {until}; by t = {at}"),
             (Some(at), count) => {
                 let more = if count > 5 { " ..." } else { "" };
                 format!("parts {until}; at t = {at} {count} of {of} pedestrians differ: {}{more}", first.join(" "))
             }
         };
-        let step = steps.words().map_or(String::new(), |words| format!("; {words}"));
-        format!("run {scene} {samples}{step}")
+        format!("run {scene} {samples}")
     }
 }

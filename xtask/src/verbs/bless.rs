@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::figure;
 use crate::golden;
 use crate::judging::reference::Reference;
-use crate::judging::{self, states, steps, words};
+use crate::judging::{self, states, words};
 use crate::ledger;
 use crate::lock::Lock;
 use crate::outputs;
@@ -162,7 +162,7 @@ fn write_sums(
     disk::write_if_changed(&path, Sums { by_name }.to_text().as_bytes())
 }
 
-/// Samples of the tables, hashes of the states of the runs, prints of their steps.
+/// Samples of the tables, hashes of the states of the runs.
 fn write_samples(paths: &Paths, survey: &Survey<'_>, reference: &Reference) -> Result<(), Failure> {
     let folder = paths.root.join(Paths::golden(&survey.figure.id));
     let samples = golden::samples(paths, survey.figure)?;
@@ -175,11 +175,6 @@ fn write_samples(paths: &Paths, survey: &Survey<'_>, reference: &Reference) -> R
     for (scene, panel, key) in states::own_runs(survey, &reference.scenes) {
         let text = states::to_csv(&states::of_run(paths, survey, panel, key)?);
         disk::write_if_changed(&paths.root.join(Paths::states(scene)), text.as_bytes())?;
-        let file = paths.root.join(Paths::steps(scene));
-        match steps::to_keep(paths, key)? {
-            Some(prints) => disk::write_if_changed(&file, prints.as_bytes())?,
-            None => disk::remove(&file)?,
-        }
     }
     Ok(())
 }

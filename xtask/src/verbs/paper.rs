@@ -7,7 +7,6 @@ use crate::failure::Failure;
 use crate::figure::{self, Figure};
 use crate::gate;
 use crate::hashing;
-use crate::literals;
 use crate::lock::Lock;
 use crate::paths::{DOCUMENT, DOCUMENT_PDF, NUMBERS_JSON, NUMBERS_TEX, PAPER_SUMS, PDF_CHECK, PDF_CHECK_PIN};
 use crate::paths::{PICTURE_PDFS, PICTURE_SOURCE, Paths};
@@ -26,13 +25,12 @@ const REMEDY: &str = "cargo xtask paper --bless accepts it";
 /// Runs the verb.
 ///
 /// # Errors
-/// Differs: the figures are not the committed ones, a numeral in the text belongs to the data, the committed numbers are
+/// Differs: the figures are not the committed ones, the committed numbers are
 /// not those of the tables, or the document has another sum. Stale: a figure is. Unsupported: there is no typesetter.
 pub fn run(paths: &Paths, arguments: &PaperArgs) -> Result<(), Failure> {
     let all = figure::discover(paths)?;
     let _lock = Lock::take(paths)?;
     gate::figures_verify(paths, &all)?;
-    literals::check(paths)?;
     // before the numbers are collected, which takes longer
     let typesetter = typeset::find(paths)?;
     numbers(paths, &all, arguments.bless)?;

@@ -51,39 +51,3 @@ fn every_run_has_hashes_of_its_states() {
         assert!(xtask::judging::states::parse(&name, &text).expect("hashes").len() > 10, "{name}");
     }
 }
-
-#[test]
-fn every_run_has_prints_of_all_its_steps() {
-    let paths = xtask::paths::Paths::find(Some(data().join(".."))).expect("the checkout");
-    let manifest = std::fs::read_to_string(paths.manifest()).expect("the manifest");
-    let manifest: serde_json::Value = serde_json::from_str(&manifest).expect("JSON");
-    let steps_of = |start: &str| -> Vec<u64> {
-        let outputs = manifest["outputs"].as_object().expect("outputs").iter();
-        outputs.filter(|(name, _)| name.starts_with(start)).filter_map(|(_, one)| one["steps"].as_u64()).collect()
-    };
-    let names = xtask::disk::names(&data().join("steps")).expect("a folder");
-    assert_eq!(names, xtask::disk::names(&data().join("states")).expect("a folder"));
-    for name in names {
-        let text = std::fs::read_to_string(data().join("steps").join(&name)).expect("prints");
-        let taken = files::steps::parse(&text).expect("prints").len() as u64 - 1;
-        let figure = name.split('-').next().unwrap_or("");
-        // supplement 10 makes a run of figure 13 once more, and the manifest counts no steps for what it draws of it
-        let counted = steps_of(&format!("data/{}/", if figure == "s10" { "fig13" } else { figure }));
-        assert!(counted.contains(&taken), "{name}: {taken} steps, the manifest has {counted:?}");
-    }
-}
-
-#[test]
-fn the_costs_in_the_document_are_those_measured() {
-    let paths = xtask::paths::Paths::find(Some(data().join(".."))).expect("the checkout");
-    let all = xtask::figure::discover(&paths).expect("figures");
-    let text = std::fs::read_to_string(paths.root.join(xtask::paths::REPRODUCING)).expect("the document");
-    let (_, between, _) = xtask::costs::parts(&text).expect("marks around the tables");
-    let measured = xtask::costs::markdown(&paths, &all).expect("costs");
-    assert!(between == measured, "the tables are others: cargo xtask list --costs mends them");
-    let costs = xtask::costs::read(&paths).expect("costs");
-    let known = xtask::costs::of_figures(&all, &costs);
-    let missing: Vec<&str> =
-        all.iter().map(|one| &*one.id).filter(|id| known.iter().all(|(one, _)| one.id != *id)).collect();
-    assert!(missing.is_empty(), "not measured: {missing:?}; cargo xtask verify --all --costs");
-}

@@ -1,99 +1,16 @@
-//! The document: numerals in its text, how numbers are written, when it is refused, whether its bytes are always the same.
+//! The document: how numbers are written, when it is refused, whether its bytes are always the same.
 
-use crate::shop::{Shop, blessed};
+use crate::shop::blessed;
 use std::fs;
 use std::path::{Path, PathBuf};
 use xtask::figure;
-use xtask::literals::{allowed, check, said, strays};
 use xtask::paths::{DOCUMENT, NUMBERS_JSON, NUMBERS_TEX, Paths};
 use xtask::quantities::Quantities;
 use xtask::quantities::form::Form;
 use xtask::typeset::{self, Typesetter};
 
-fn numerals(text: &str) -> Vec<String> {
-    strays(text).into_iter().map(|stray| stray.numeral).collect()
-}
-
 fn checkout() -> Paths {
     Paths::find(Some(Path::new(env!("CARGO_MANIFEST_DIR")).join(".."))).expect("the checkout")
-}
-
-#[test]
-fn numbers_of_the_data_may_not_stand_in_text_captions_or_alternative_texts() {
-    assert_eq!(numerals("The run ends at 960.87."), ["960.87"]);
-    assert_eq!(numerals("#figure(caption: [With 67 pedestrians.])"), ["67"]);
-    assert_eq!(numerals("#image(\"a.svg\", alt: \"133 paths\")"), ["133"]);
-    assert_eq!(numerals("*bold 12* and _3_ and - 4"), ["12", "3", "4"]);
-    assert_eq!(numerals("`0.4888` and `1e-12`").len(), 2);
-    assert_eq!(numerals("#table([5], m($x$))"), ["5"]);
-    assert_eq!(numerals("#let x = [6]\n#if a [7] else [8]"), ["6", "7", "8"]);
-    assert_eq!(numerals("#str(0.25)"), ["0.25"]);
-    assert_eq!(
-        numerals("Fifteen figures, twenty-two methods, a hundred runs, two panels"),
-        ["Fifteen", "twenty", "hundred"]
-    );
-}
-
-#[test]
-fn what_names_a_number_is_none() {
-    for text in [
-        "#n(\"fig04.room\") and #said(\"2000 s\") of @fig04, DOP853, RK4 <fig:4>",
-        "#image(\"/figures/fig04.svg\", width: 100%)\n#v(1.5em) #columns(2)[a]",
-        "// 12 in a comment\n/* 13 */ `figures/fig04` #link(\"../x\")[y]",
-        "#include \"sections/01.typ\"\n#import \"a1-2.typ\": b",
-        "#set heading(numbering: \"1.1\")",
-        "#keys(\"0.1\", \"1e-5\").map(key => n(\"a.\" + key))",
-        "#m($x = #said($10^(-5)$)$)",
-    ] {
-        assert_eq!(numerals(text), Vec::<String>::new(), "{text}");
-    }
-}
-
-#[test]
-fn mathematics_keeps_the_digits_of_its_structure_and_no_others() {
-    for text in
-        ["$z^2 + 2 phi (1 - e^(i k)) = 0$", "$1 / (2 N^2)$", "$a = 1$, $k = 2 pi l \\/ N$", "$x_(n+1)$", "$y < -1$"]
-    {
-        assert_eq!(numerals(text), Vec::<String>::new(), "{text}");
-    }
-    assert_eq!(numerals("$v_0 = 3$"), ["3"]);
-    assert_eq!(numerals("$v_0 = 3, N = 67$"), ["3", "67"]);
-    assert_eq!(numerals("$mu > 0.45 + x$"), ["0.45"]);
-    assert_eq!(numerals("$d approx 2$"), ["2"]);
-    assert_eq!(numerals("$x \"of 9 people\"$"), ["9"]);
-}
-
-#[test]
-fn a_numeral_needs_a_reason_and_the_list_may_not_rot() {
-    assert_eq!(allowed("# about\n[10#super | the base\n").expect("a list"), ["[10#super"]);
-    assert_eq!(allowed("12 |  \n").expect_err("no reason").code(), 2);
-    let shop = Shop::new("paper-numerals");
-    let paths = Paths::find(Some(shop.root.clone())).expect("the shop");
-    shop.write("paper/main.typ", "PDF/A-2a\n");
-    assert!(check(&paths).expect_err("a numeral").text().contains("paper/main.typ:1: 2a"));
-    shop.write("paper/numerals.txt", "PDF/A-2a | the name of a standard\n");
-    check(&paths).expect("allowed");
-    shop.write("paper/main.typ", "nothing\n");
-    assert!(check(&paths).expect_err("an idle entry").text().contains("is not used"));
-}
-
-#[test]
-fn what_was_measured_is_not_said() {
-    assert_eq!(said("#said(\"2000 s\")\nand #said(\"0.45.\")"), [(1, "2000"), (2, "0.45")]);
-    let shop = Shop::new("paper-said");
-    let paths = Paths::find(Some(shop.root.clone())).expect("the shop");
-    let numbers = r#"{"numbers": {"a": {"from": "data/x.csv", "mantissa": "960.87(3)"}, "b": {"from": "figures/x", "mantissa": "2000"}}}"#;
-    shop.write("paper/numbers.json", numbers);
-    shop.write("paper/main.typ", "#said(\"2000\")\n");
-    check(&paths).expect("from a scene");
-    shop.write("paper/main.typ", "\n#said(\"T = 960.87\")\n");
-    let failure = check(&paths).expect_err("measured");
-    assert!(failure.text().contains("paper/main.typ:2: 960.87 was measured"), "{}", failure.text());
-}
-
-#[test]
-fn the_document_says_no_number_of_its_own() {
-    check(&checkout()).expect("every numeral comes from the data");
 }
 
 #[test]

@@ -23,34 +23,6 @@ fn files(ending: &str) -> Vec<String> {
     names.map(|path| path.to_string_lossy().into_owned()).filter(|name| name.ends_with(ending)).collect()
 }
 
-/// Lines of a manifest that bring in a dependency from elsewhere and do not say what for, behind it or on the line above.
-fn without_purpose(manifest: &str) -> Vec<&str> {
-    let (mut found, mut is_inside, mut above) = (Vec::new(), false, "");
-    for line in manifest.lines() {
-        if line.starts_with('[') {
-            is_inside = line.trim_end_matches(']').ends_with("dependencies");
-        } else if is_inside && line.contains('=') && !line.starts_with('#') {
-            // `math.workspace = true`: the purpose stands where the workspace names it
-            let is_said = line.contains(".workspace") || line.contains(" # ") || above.starts_with("# ");
-            found.extend((!is_said).then_some(line));
-        }
-        above = line;
-    }
-    found
-}
-
-#[test]
-fn every_dependency_says_what_for() {
-    let manifests = files("Cargo.toml");
-    assert!(manifests.len() > 9, "{manifests:?}");
-    for name in manifests {
-        let text = text(&name);
-        assert!(without_purpose(&text).is_empty(), "{name}: {:?}", without_purpose(&text));
-    }
-    let bad = "[dependencies]\n# sums\nsha2 = \"1\"\ntoml = \"1\"\n[dev-dependencies]\npng = { version = \"1\" }\n";
-    assert_eq!(without_purpose(bad), ["toml = \"1\"", "png = { version = \"1\" }"]);
-}
-
 /// Name and source of the build script of every crate that the lock file names and that has one.
 fn build_scripts() -> BTreeMap<String, PathBuf> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
