@@ -1,6 +1,6 @@
 //! Tables of error against work, with archived seconds behind an empty line.
 
-use xtask::precision::{COSTS, Scene};
+use verify::precision::{COSTS, Scene};
 
 /// Tries one pair of tables.
 pub fn read(bytes: &[u8]) {

@@ -15,6 +15,12 @@ use std::process::exit;
 fn main() -> io::Result<()> {
     let arguments: Vec<String> = env::args().collect();
     let name = Path::new(&arguments[0]).file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    // these are the real programs
+    match name.as_str() {
+        "verify" => exit(verify::cli::run(env::args_os())),
+        "publish" => exit(publish::cli::run(env::args_os())),
+        _ => {}
+    }
     note(&name, &arguments)?;
     if Path::new("slow").exists() {
         std::thread::sleep(std::time::Duration::from_millis(40));
@@ -82,7 +88,7 @@ fn cargo() -> io::Result<()> {
     let slugs = fs::read_dir("figures")?.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
     for name in slugs
         .filter(|slug| slug.contains('-'))
-        .chain(["simulate", "map", "precision", "hard", "studies", "export"].map(str::to_owned))
+        .chain(["simulate", "map", "precision", "hard", "studies", "export", "verify", "publish"].map(str::to_owned))
     {
         let binary = release.join(name);
         if !binary.exists() {

@@ -1,11 +1,12 @@
 //! Starting a program and waiting for it.
 
-use crate::disk;
-use crate::failure::Failure;
 use crate::lock;
 use crate::usage::Usage;
+use checkout::disk;
+use checkout::failure::Failure;
+use checkout::process::not_started;
 use std::fs::File;
-use std::io::{BufRead, BufReader, ErrorKind, Read, Write};
+use std::io::{BufRead, BufReader, Read, Write};
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -14,8 +15,10 @@ use std::time::{Duration, Instant};
 
 /// How long a waiting thread sleeps before it looks again whether its program has ended, at most.
 const PATIENCE: Duration = Duration::from_millis(3);
+
 /// And at least. Between the two, the part [`PART`] of the time so far, so that what the program used is known as well.
 const IMPATIENCE: Duration = Duration::from_micros(100);
+
 /// See [`IMPATIENCE`].
 const PART: u32 = 50;
 
@@ -88,43 +91,6 @@ pub fn run_measured(
     Err(ended_badly(&name, status, String::from_utf8_lossy(&bytes).trim_end()))
 }
 
-/// Runs a program that shares our stdout and stderr.
-///
-/// # Errors
-/// As [`run_logged`], without a text when the program has ended badly: it has said why itself.
-pub fn run_shown(command: &mut Command) -> Result<(), Failure> {
-    let name = command.get_program().to_string_lossy().into_owned();
-    let status = command.status().map_err(|error| not_started(&name, &error))?;
-    match status.code() {
-        Some(0) => Ok(()),
-        Some(code) => Err(Failure::Child(code)),
-        None => Err(Failure::Failed(format!("{name}: {status}"))),
-    }
-}
-
-/// Cargo, as cargo named itself to us.
-pub fn cargo() -> Command {
-    Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
-}
-
-/// The first line that a program prints, or `None` when it cannot be run or ends badly.
-pub fn first_line(program: &str, arguments: &[&str]) -> Option<String> {
-    let bytes = output(Command::new(program).args(arguments))?;
-    Some(String::from_utf8_lossy(&bytes).lines().next().unwrap_or("").trim().to_owned())
-}
-
-/// As [`first_line`], in another folder.
-pub fn first_line_in(folder: &Path, program: &str, arguments: &[&str]) -> Option<String> {
-    let bytes = output(Command::new(program).args(arguments).current_dir(folder))?;
-    String::from_utf8_lossy(&bytes).lines().next().map(|line| line.trim().to_owned())
-}
-
-/// What a program prints, or `None` when it cannot be run or ends badly.
-pub fn output(command: &mut Command) -> Option<Vec<u8>> {
-    let output = command.stdin(Stdio::null()).stderr(Stdio::null()).output().ok()?;
-    output.status.success().then_some(output.stdout)
-}
-
 /// Passes lines on to the log until the program closes its stderr.
 fn listen(words: impl Read, mut log: File, heard: &(dyn Fn(Word) + Sync)) {
     for line in BufReader::new(words).split(b'\n').map_while(Result::ok) {
@@ -149,14 +115,6 @@ fn wait(child: &mut Child, stop: &AtomicBool, usage: &mut Usage) -> std::io::Res
             child.kill()?;
         }
         thread::sleep((start.elapsed() / PART).clamp(IMPATIENCE, PATIENCE));
-    }
-}
-
-fn not_started(name: &str, error: &std::io::Error) -> Failure {
-    let text = format!("{name}: {error}");
-    match error.kind() {
-        ErrorKind::NotFound => Failure::Unsupported(text),
-        _ => Failure::Failed(text),
     }
 }
 

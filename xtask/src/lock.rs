@@ -1,8 +1,8 @@
 //! One run at a time in one target folder.
 
-use crate::disk;
-use crate::failure::Failure;
-use crate::paths::Paths;
+use checkout::disk;
+use checkout::failure::Failure;
+use checkout::paths::Paths;
 use std::fs::{File, TryLockError};
 use std::process::Stdio;
 use std::sync::{Mutex, PoisonError};

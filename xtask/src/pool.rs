@@ -1,6 +1,6 @@
 //! Nodes at work in parallel: longest first, none before what it needs.
 
-use crate::failure::Failure;
+use checkout::failure::Failure;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -1,6 +1,6 @@
 //! What a program uses while it runs: seconds of a processor and memory. From Linux's `/proc`; elsewhere unknown.
 
-use crate::disk;
+use checkout::disk;
 use std::path::PathBuf;
 
 /// What was seen of a program at the last look before its end: the last two per cent may be missing, and a program of a

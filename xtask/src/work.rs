@@ -1,17 +1,17 @@
 //! Carrying out a plan: programs are started, their outputs put in place, progress goes to stderr.
 
 use crate::child::{self, Word};
-use crate::disk;
-use crate::failure::Failure;
-use crate::figure::Figure;
-use crate::outputs::{self, Hashes};
-use crate::paths::{Paths, Scheme};
 use crate::plan::{Node, Step};
 use crate::pool::{self, Job, Outcome};
 use crate::progress::Board;
 use crate::record::Survey;
 use crate::store;
 use crate::usage::Usage;
+use checkout::disk;
+use checkout::failure::Failure;
+use checkout::figure::Figure;
+use checkout::outputs::{self, Hashes};
+use checkout::paths::{Paths, Scheme};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};

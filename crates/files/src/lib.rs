@@ -2,6 +2,7 @@
 //! tables as CSV with numbers in shortest round-trip form ([`table`]), and
 //! writing that leaves either the old file or the whole new one ([`write`]).
 
+pub mod pairs;
 pub mod reader;
 pub mod recipe;
 pub mod table;

@@ -3,6 +3,8 @@
 
 use crate::text;
 use crate::write;
+use std::borrow::Cow;
+use std::cmp::Ordering;
 use std::fmt::{Display, Write as _};
 use std::io;
 use std::path::Path;
@@ -16,6 +18,10 @@ pub trait Value: Clone + PartialEq {
     fn parse(text: &str) -> Result<Self, String>;
     /// Appends the cell's text.
     fn write(&self, text: &mut String);
+    /// An order in which cells are equal only when they are the same to the bit, except for 0 and -0.
+    fn order(&self, other: &Self) -> Ordering;
+    /// Whether it is a word.
+    fn is_word(&self) -> bool;
 }
 
 /// A number, a word, or nothing.
@@ -30,6 +36,14 @@ pub enum Cell {
 }
 
 impl Cell {
+    fn rank(&self) -> u8 {
+        match self {
+            Cell::Empty => 0,
+            Cell::Number(_) => 1,
+            Cell::Word(_) => 2,
+        }
+    }
+
     /// The number, if it is one.
     pub fn number(&self) -> Option<f64> {
         match self {
@@ -61,6 +75,14 @@ impl Value for f64 {
     fn write(&self, text: &mut String) {
         push_number(text, *self);
     }
+
+    fn order(&self, other: &f64) -> Ordering {
+        (self + 0.0).total_cmp(&(other + 0.0))
+    }
+
+    fn is_word(&self) -> bool {
+        false
+    }
 }
 
 impl Value for Cell {
@@ -78,6 +100,18 @@ impl Value for Cell {
             Cell::Word(word) => text.push_str(word),
             Cell::Empty => {}
         }
+    }
+
+    fn order(&self, other: &Cell) -> Ordering {
+        match (self, other) {
+            (Cell::Number(one), Cell::Number(other)) => one.order(other),
+            (Cell::Word(one), Cell::Word(other)) => one.cmp(other),
+            _ => self.rank().cmp(&other.rank()),
+        }
+    }
+
+    fn is_word(&self) -> bool {
+        matches!(self, Cell::Word(_))
     }
 }
 
@@ -180,9 +214,13 @@ impl<V: Value> Grid<V> {
     ///
     /// # Panics
     /// If the row has not one cell for each column: an error of the program, not of its input.
-    pub fn push(&mut self, row: &[V]) {
+    pub fn push<'a>(&mut self, row: impl Into<Cow<'a, [V]>>)
+    where
+        V: 'a,
+    {
+        let row = row.into();
         assert_eq!(row.len(), self.columns.len(), "a row of {:?}", self.columns);
-        self.cells.extend_from_slice(row);
+        self.cells.extend_from_slice(&row);
     }
 
     /// The number of rows.
@@ -198,6 +236,14 @@ impl<V: Value> Grid<V> {
     /// The rows, each a slice with one cell for each column.
     pub fn rows(&self) -> impl Iterator<Item = &[V]> {
         self.cells.chunks_exact(self.columns.len().max(1))
+    }
+
+    /// A row, from 0.
+    ///
+    /// # Panics
+    /// There is no such row: an error of the program.
+    pub fn row(&self, index: usize) -> &[V] {
+        &self.cells[index * self.columns.len()..][..self.columns.len()]
     }
 
     /// The place of a column, from 0.

@@ -1,4 +1,4 @@
-//! Trajectories for other programs, in metres and seconds: from the table `t, n, x, v` of a run ([`frames`]) and its
+//! Trajectories for other programs, in metres and seconds: from a run with a sample for each frame ([`run`]), its table `t, n, x, v` of a run ([`frames`]) and its
 //! scene ([`header`]) to text as PedPy reads it ([`text`]) and to JuPedSim's sqlite files ([`sqlite`]).
 //!
 //! No physics: positions are multiplied by a length. Both files are written row by row, beside their place, and put there
@@ -7,6 +7,7 @@
 pub mod frames;
 pub mod header;
 pub mod problem;
+pub mod run;
 pub mod sqlite;
 pub mod text;
 

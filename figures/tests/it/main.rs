@@ -1,11 +1,7 @@
 //! The binaries as a user meets them: sums, redrawing, exit codes, what is left behind.
 
-mod evidence;
 mod failures;
-mod hard;
-mod precision;
 mod resume;
-mod studies;
 mod sums;
 
 use std::path::{Path, PathBuf};

@@ -1,9 +1,9 @@
 //! The command line: bad input, exit codes, JSON.
 
 use crate::shop::Shop;
+use checkout::paths::Paths;
 use std::time::Duration;
 use xtask::lock::Lock;
-use xtask::paths::Paths;
 
 #[test]
 fn an_unknown_verb_is_a_usage_error() {
@@ -113,7 +113,7 @@ fn json_goes_alone_to_stdout_and_has_a_version() {
 #[test]
 fn versions_are_read_from_the_lock_file() {
     let lock = "[[package]]\nname = \"png\"\nversion = \"0.18.1\"\n\n[[package]]\nname = \"other\"\nversion = \"1\"\n";
-    let versions = xtask::verbs::describe::crate_versions(lock);
+    let versions = checkout::machine::crate_versions(lock);
     assert_eq!(versions.into_iter().collect::<Vec<_>>(), [("png".to_owned(), "0.18.1".to_owned())]);
 }
 

@@ -39,15 +39,15 @@ fn every_table_and_column_is_described() {
 
 #[test]
 fn every_run_has_hashes_of_its_states() {
-    let paths = xtask::paths::Paths::find(Some(data().join(".."))).expect("the checkout");
-    let all = xtask::figure::discover(&paths).expect("figures");
+    let paths = checkout::paths::Paths::find(Some(data().join(".."))).expect("the checkout");
+    let all = checkout::figure::discover(&paths).expect("figures");
     let scenes: Vec<String> = xtask::record::scenes(&paths, &all, "").into_values().collect();
     let mut expected: Vec<String> = scenes.iter().map(|scene| format!("{scene}.csv")).collect();
     expected.sort();
-    assert_eq!(xtask::disk::names(&data().join("states")).expect("a folder"), expected);
+    assert_eq!(checkout::disk::names(&data().join("states")).expect("a folder"), expected);
     for scene in scenes {
-        let name = xtask::paths::Paths::states(&scene);
+        let name = checkout::paths::Paths::states(&scene);
         let text = std::fs::read_to_string(paths.root.join(&name)).expect("hashes");
-        assert!(xtask::judging::states::parse(&name, &text).expect("hashes").len() > 10, "{name}");
+        assert!(verify::states::parse(&name, &text).expect("hashes").len() > 10, "{name}");
     }
 }

@@ -2,8 +2,8 @@
 
 use crate::shop::{Shop, blessed};
 use serde_json::Value;
-use xtask::judging::pixels::{self, Image};
-use xtask::judging::verdict::Verdict;
+use verify::pixels::{self, Image};
+use verify::verdict::Verdict;
 
 const TOLERANCES: &str = "[[column]]\ntables = [\"fig04/*\", \"fig05/*\"]\ncolumns = [\"std\", \"phi\"]\n\
     absolute = 1e-15\nrelative = 1e-12\nrule = \"condition\"\nbecause = \"a test\"\n\n\

@@ -1,9 +1,9 @@
 //! The order in which nodes run, and what a failure stops.
 
+use checkout::failure::Failure;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
-use xtask::failure::Failure;
 use xtask::pool::{Job, Outcome, run};
 
 fn job(after: &[usize], weight: f64) -> Job {

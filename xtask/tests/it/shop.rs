@@ -41,7 +41,7 @@ impl Shop {
     fn copy_fonts(&self) {
         let folder = self.root.join("crates/plot/fonts");
         fs::create_dir_all(&folder).expect("a folder");
-        for (name, _) in xtask::paths::FONT_SUMS {
+        for (name, _) in xtask::compile::FONT_SUMS {
             let real = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates/plot/fonts").join(name);
             fs::copy(real, folder.join(name)).expect("a font");
         }

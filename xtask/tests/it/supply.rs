@@ -18,7 +18,7 @@ fn text(name: &str) -> String {
 /// Names of all files with this ending, relative to the root, outside of what is built.
 fn files(ending: &str) -> Vec<String> {
     let enter = |name: &str| !["target", "vendor"].contains(&name) && !name.starts_with('.');
-    let found = xtask::disk::walk(&root(), &enter).expect("folders");
+    let found = checkout::disk::walk(&root(), &enter).expect("folders");
     let names = found.iter().filter_map(|path| path.strip_prefix(root()).ok());
     names.map(|path| path.to_string_lossy().into_owned()).filter(|name| name.ends_with(ending)).collect()
 }

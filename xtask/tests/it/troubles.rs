@@ -148,7 +148,7 @@ fn the_page_for_browsers_is_no_source() {
 fn a_thread_that_panics_is_a_failure_and_no_missing_file() {
     let paths = vec![std::path::PathBuf::from("a"), "b".into()];
     let hash = |path: &std::path::Path| if path.ends_with("b") { panic!("on purpose") } else { Ok(None) };
-    let failure = xtask::hashing::hash_by(&paths, &hash).expect_err("a failure");
+    let failure = checkout::hashing::hash_by(&paths, &hash).expect_err("a failure");
     assert_eq!(failure.code(), 4);
 }
 
@@ -208,20 +208,21 @@ fn a_folder_is_replaced_whole_or_left_as_it_was() {
         std::fs::write(at(name).join(file), file).expect("a file");
     };
     make("new", "b.csv");
-    xtask::disk::replace_folder(&at("new"), &at("data")).expect("nothing is in the way");
+    checkout::disk::replace_folder(&at("new"), &at("data")).expect("nothing is in the way");
     make("new", "c.csv");
-    xtask::disk::replace_folder(&at("new"), &at("data")).expect("the old one goes");
-    let left = || (xtask::disk::names(folder.path()).expect("names"), xtask::disk::names(&at("data")).expect("names"));
+    checkout::disk::replace_folder(&at("new"), &at("data")).expect("the old one goes");
+    let left =
+        || (checkout::disk::names(folder.path()).expect("names"), checkout::disk::names(&at("data")).expect("names"));
     assert_eq!(left(), (vec!["data".to_owned()], vec!["c.csv".to_owned()]));
     // nothing to put there: the old one is back
-    assert!(xtask::disk::replace_folder(&at("new"), &at("data")).is_err());
+    assert!(checkout::disk::replace_folder(&at("new"), &at("data")).is_err());
     assert_eq!(left(), (vec!["data".to_owned()], vec!["c.csv".to_owned()]));
 }
 
 #[test]
 fn the_lock_is_shared_within_a_process_and_kept_from_others() {
     let shop = crate::shop::Shop::new("troubles-lock");
-    let paths = xtask::paths::Paths::find(Some(shop.root.clone())).expect("the checkout");
+    let paths = checkout::paths::Paths::find(Some(shop.root.clone())).expect("the checkout");
     let lock = xtask::lock::Lock::take(&paths).expect("free");
     drop(xtask::lock::Lock::take(&paths).expect("ours already"));
     let is_held = || {

@@ -14,4 +14,3 @@ mod properties;
 mod published;
 mod reference;
 mod runs;
-mod steps;
