@@ -8,7 +8,9 @@ use checkout::hashing;
 use checkout::paths::Paths;
 use checkout::sums::{Committed, State, Sums};
 use std::collections::BTreeMap;
+use std::io::ErrorKind;
 use std::path::PathBuf;
+use std::process::Command;
 
 /// Problems named in a message; the rest is counted.
 const SHOWN: usize = 5;
@@ -84,4 +86,21 @@ fn complain(what: &str, problems: &[String]) -> String {
     };
     let shown = problems[..problems.len().min(SHOWN)].join("\n");
     format!("the figures do not verify, {what}:\n{shown}{more}\ncargo xtask figures makes them again")
+}
+
+/// Tracked files that are not as committed; `None` where there is no git or no repository.
+///
+/// # Errors
+/// Git cannot be started.
+pub fn modified(paths: &Paths) -> Result<Option<Vec<String>>, Failure> {
+    let mut git = Command::new("git");
+    git.arg("-C").arg(&paths.root).args(["status", "--porcelain", "-z", "--untracked-files=no", "--no-renames"]);
+    let output = match git.output() {
+        Ok(output) if output.status.success() => output,
+        Ok(_) => return Ok(None),
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+        Err(error) => return Err(Failure::Failed(format!("git: {error}"))),
+    };
+    let text = String::from_utf8_lossy(&output.stdout);
+    Ok(Some(text.split('\0').filter_map(|entry| entry.get(3..)).map(str::to_owned).collect()))
 }

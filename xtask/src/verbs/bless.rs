@@ -2,6 +2,7 @@
 
 use super::judge;
 use crate::cli::BlessArgs;
+use crate::gate;
 use crate::lock::Lock;
 use crate::record::{self, Records, Survey};
 use crate::sources::Sources;
@@ -9,8 +10,6 @@ use checkout::failure::Failure;
 use checkout::figure;
 use checkout::paths::{Paths, Scheme};
 use checkout::request::Request;
-use std::io::ErrorKind;
-use std::process::Command;
 
 /// Runs the verb. Nothing is written unless everything can be accepted.
 ///
@@ -45,24 +44,13 @@ fn refuse_stale(surveys: &[Survey<'_>]) -> Result<(), Failure> {
 
 /// Sums stand for sources that anyone can get back: tracked files that are no outputs must be as committed.
 fn refuse_modified(paths: &Paths) -> Result<(), Failure> {
-    let mut git = Command::new("git");
-    git.arg("-C").arg(&paths.root).args(["status", "--porcelain", "-z", "--untracked-files=no", "--no-renames"]);
-    let output = match git.output() {
-        Ok(output) if output.status.success() => output,
-        Ok(_) => return note_no_repository(),
-        Err(error) if error.kind() == ErrorKind::NotFound => return note_no_repository(),
-        Err(error) => return Err(Failure::Failed(format!("git: {error}"))),
+    let Some(mut names) = gate::modified(paths)? else {
+        eprintln!("no git repository: nothing says whether the sources are as committed");
+        return Ok(());
     };
-    let text = String::from_utf8_lossy(&output.stdout);
-    let modified = text.split('\0').filter_map(|entry| entry.get(3..)).filter(|name| !Paths::is_output(name));
-    let names: Vec<&str> = modified.collect();
+    names.retain(|name| !Paths::is_output(name));
     match names.is_empty() {
         true => Ok(()),
         false => Err(Failure::Differs(format!("modified, commit first: {}", names.join(" ")))),
     }
-}
-
-fn note_no_repository() -> Result<(), Failure> {
-    eprintln!("no git repository: nothing says whether the sources are as committed");
-    Ok(())
 }

@@ -2,6 +2,7 @@
 
 use super::{figures, publish, verify};
 use crate::cli::{BundleArgs, CiArgs, FiguresArgs, Selection, VerifyArgs};
+use crate::gate;
 use checkout::failure::Failure;
 use checkout::paths::Paths;
 use checkout::print;
@@ -128,9 +129,7 @@ fn attempt(paths: &Paths, script: &Script, install: bool) -> Result<Option<Untri
 
 /// The archive, unpacked and tried; only of a commit.
 fn archive(paths: &Paths) -> Result<Option<Untried>, Failure> {
-    let mut git = Command::new("git");
-    git.arg("-C").arg(&paths.root).args(["status", "--porcelain", "--untracked-files=no"]);
-    if process::output(&mut git).is_none_or(|words| !words.is_empty()) {
+    if gate::modified(paths)?.is_none_or(|names| !names.is_empty()) {
         return Ok(Some(("bundle --check", "it needs a commit, and no tracked file that differs from it".to_owned())));
     }
     eprintln!("ci: figures --all");

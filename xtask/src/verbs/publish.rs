@@ -51,6 +51,10 @@ pub fn bundle(paths: &Paths, arguments: &BundleArgs) -> Result<(), Failure> {
     let archive = arguments.out.clone().unwrap_or_else(|| paths.archive());
     {
         let _lock = Lock::take(paths)?;
+        let modified = gate::modified(paths)?.unwrap_or_default();
+        if !modified.is_empty() {
+            return Err(Failure::Differs(format!("modified, commit first: {}", modified.join(" "))));
+        }
         gate::everything_verifies(paths, &figure::discover(paths)?)?;
         process::run_shown(program(paths)?.arg("bundle").arg("--out").arg(&archive))?;
     }

@@ -26,9 +26,12 @@ use checkout::sums::Committed;
 /// Otherwise what kept a figure from being made.
 pub fn run(paths: &Paths, arguments: &VerifyArgs) -> Result<(), Failure> {
     let all = figure::discover(paths)?;
+    // read before the work, so that a malformed list is told at once
+    let committed = Committed::read(paths)?;
+    figure::select(&all, &arguments.selection.ids, arguments.selection.all)?;
     let _lock = Lock::take(paths)?;
     let mut selected = choose(paths, &all, arguments)?;
-    refuse_without_sums(paths, &selected)?;
+    refuse_without_sums(paths, &selected, &committed)?;
     work::sweep(paths, &all)?;
     let sources = Sources::read(paths)?;
     compile::ensure(paths, &all, &sources, &Package::of(&selected))?;
@@ -71,8 +74,7 @@ fn choose<'a>(paths: &Paths, all: &'a [Figure], arguments: &VerifyArgs) -> Resul
     figure::select(all, &ids, false)
 }
 
-fn refuse_without_sums(paths: &Paths, selected: &[&Figure]) -> Result<(), Failure> {
-    let committed = Committed::read(paths)?;
+fn refuse_without_sums(paths: &Paths, selected: &[&Figure], committed: &Committed) -> Result<(), Failure> {
     match selected.iter().find(|figure| committed.list(figure.is_supplement()).is_none()) {
         None => Ok(()),
         Some(figure) => {

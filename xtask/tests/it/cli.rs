@@ -13,7 +13,7 @@ fn an_unknown_verb_is_a_usage_error() {
 #[test]
 fn an_unknown_figure_is_a_usage_error_everywhere() {
     let shop = Shop::new("cli-id");
-    for verb in ["figures", "verify", "status", "explain", "list", "bless"] {
+    for verb in ["figures", "verify", "status", "list", "bless"] {
         let ended = shop.xtask(&[verb, "fig99"]).expect(2);
         assert!(ended.err.contains("no figure fig99") && ended.err.contains("valid: fig04 fig05"), "{}", ended.err);
         assert!(ended.out.is_empty(), "{verb}: {}", ended.out);

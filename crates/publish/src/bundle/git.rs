@@ -40,16 +40,6 @@ pub fn commit(paths: &Paths) -> Result<Commit, Failure> {
     Ok(Commit { hash, seconds, date, time })
 }
 
-/// Tracked files that are not as committed.
-///
-/// # Errors
-/// Unsupported: no git, or no repository.
-pub fn modified(paths: &Paths) -> Result<Vec<String>, Failure> {
-    let mut git = command(paths);
-    git.args(["status", "--porcelain", "-z", "--untracked-files=no", "--no-renames"]);
-    Ok(output(git)?.split('\0').filter_map(|entry| entry.get(3..)).map(str::to_owned).collect())
-}
-
 /// Tracked files, and whether each may be executed.
 ///
 /// # Errors

@@ -53,14 +53,10 @@ pub type Members = BTreeMap<String, Member>;
 /// Writes the archive of the commit that is checked out.
 ///
 /// # Errors
-/// Differs: a tracked file is modified. Otherwise what kept the archive from being written.
+/// What kept the archive from being written. That no tracked file is modified has been seen before.
 pub fn run(paths: &Paths, out: Option<PathBuf>) -> Result<(), Failure> {
     let archive = out.unwrap_or_else(|| paths.archive());
     let commit = git::commit(paths)?;
-    let modified = git::modified(paths)?;
-    if !modified.is_empty() {
-        return Err(Failure::Differs(format!("modified, commit first: {}", modified.join(" "))));
-    }
     let members = gather(paths, &figure::discover(paths)?, &commit)?;
     tarball::write(&archive, BUNDLE_TOP, commit.seconds, &members)?;
     let hash = files::write::sha256_file(&archive).map_err(Failure::failed)?;

@@ -86,7 +86,7 @@ fn no_number_of_the_text_is_typed_by_hand() {
 fn no_number_of_the_script_or_its_writer_is_a_measured_one() {
     let mut sources: Vec<(String, String)> =
         SCRIPTS.iter().map(|(name, text)| ((*name).to_owned(), (*text).to_owned())).collect();
-    for file in fs::read_dir(root().join("xtask/src/page")).expect("sources").flatten() {
+    for file in fs::read_dir(root().join("crates/publish/src/page")).expect("sources").flatten() {
         if file.path().extension().is_some_and(|ending| ending == "rs") {
             let name = file.file_name().to_string_lossy().into_owned();
             sources.push((name, fs::read_to_string(file.path()).expect("a source")));
