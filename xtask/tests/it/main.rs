@@ -25,3 +25,4 @@ mod supply;
 mod tables;
 mod troubles;
 mod verify;
+mod walls;
