@@ -3,8 +3,8 @@
 use checkout::disk;
 use checkout::failure::Failure;
 use checkout::paths::Paths;
+use files::table::Sheet;
 use serde_json::{Value, json};
-use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Errors for which the cheapest method is looked up.
@@ -73,35 +73,38 @@ impl Scene {
         let text = disk::read_text(table)?;
         let text = text.ok_or_else(|| Failure::Failed(format!("{}: no such table", table.display())))?;
         let timed = disk::read_text(seconds)?.unwrap_or_default();
-        Scene::parse(name, &text, &timed).map_err(|column| Failure::at(table)(format!("no column {column}")))
+        Scene::parse(name, &text, &timed).map_err(Failure::at(table))
     }
 
     /// Reads both tables; the second may be empty.
     ///
     /// # Errors
-    /// The name of a column that is not there.
+    /// A column is not there, or a line of the first is malformed.
     pub fn parse(name: &str, text: &str, timed: &str) -> Result<Scene, String> {
-        let mut seconds = BTreeMap::new();
-        for line in timed.lines().skip(1) {
-            if let [method, control, time] = line.split(',').collect::<Vec<_>>()[..] {
-                seconds.insert((method, control), time);
-            }
-        }
-        let header: Vec<&str> = text.lines().next().unwrap_or("").split(',').collect();
-        let place = |column: &str| header.iter().position(|name| *name == column).ok_or_else(|| column.to_owned());
+        let table = Sheet::parse(text.as_bytes()).map_err(|error| error.to_string())?;
+        let place = |column: &str| table.place(column).map_err(|error| error.to_string());
         let (method, control) = (place("method")?, place("control")?);
         let (work, gap, speed) = (place("right_hand_sides")?, place("error_gap")?, place("error_speed")?);
-        let rows = text.lines().skip(1).map(|line| {
-            let cells: Vec<&str> = line.split(',').collect();
-            let cell = |index: usize| cells.get(index).copied().unwrap_or("");
-            let number = |index: usize| cell(index).parse::<f64>().ok();
+        // none are archived of a scene without the second table
+        let timed = Sheet::parse(timed.as_bytes()).unwrap_or_else(|_| Sheet::new(&["method", "control", "seconds"]));
+        let times: Vec<(String, String, Option<f64>)> = timed
+            .rows()
+            .filter_map(|row| match row {
+                [method, control, time] => Some((method.to_string(), control.to_string(), time.number())),
+                _ => None,
+            })
+            .collect();
+        let rows = table.rows().map(|row| {
+            let (method, control) = (row[method].to_string(), row[control].to_string());
+            let time = times.iter().rev().find(|time| time.0 == method && time.1 == control);
+            let error = row[gap].number().zip(row[speed].number());
             Row {
-                method: cell(method).to_owned(),
-                control: cell(control).to_owned(),
-                right_hand_sides: number(work),
-                gap_error: number(gap),
-                error: number(gap).zip(number(speed)).map(|(gap, speed)| f64::max(gap, speed)),
-                seconds: seconds.get(&(cell(method), cell(control))).and_then(|time| time.parse().ok()),
+                right_hand_sides: row[work].number(),
+                gap_error: row[gap].number(),
+                error: error.map(|(gap, speed)| if speed > gap { speed } else { gap }),
+                seconds: time.and_then(|time| time.2),
+                method,
+                control,
             }
         });
         Ok(Scene { name: name.to_owned(), rows: rows.collect() })

@@ -2,6 +2,8 @@
 
 use super::sheet::Sheet;
 use super::{Quantities, Source};
+use checkout::disk;
+use checkout::events;
 use checkout::failure::Failure;
 use checkout::paths::ACCURACY;
 use verify::precision::{COARSE_TARGETS, COSTS, FIXED, SCENES, Scene, TARGETS};
@@ -154,7 +156,7 @@ fn verbatim(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
     let distances = Sheet::read(source.paths, PAPER_DISTANCES)?;
     let keys = distances.words("figure")?.into_iter().zip(distances.words("table")?).zip(distances.words("column")?);
     for ((figure, table), column) in keys {
-        let row = distances.only(&[("figure", figure), ("table", table), ("column", column)])?;
+        let row = distances.only(&[("figure", &*figure), ("table", &*table), ("column", &*column)])?;
         let start = format!("verbatim.{figure}.{table}.{column}");
         all.rounded(&format!("{start}.difference"), row.first("largest_difference")?, 2, PAPER_DISTANCES);
         all.rounded(&format!("{start}.relative"), row.first("largest_relative")?, 2, PAPER_DISTANCES);
@@ -179,9 +181,10 @@ fn blow_up(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
     ends.sort_by(f64::total_cmp);
     all.rounded("blow-up.spread", ends[2] - ends[0], 1, &times.name);
     // more digits than a double has: the table's own text
-    let reference = Sheet::read(source.paths, REFERENCE_EVENTS)?;
-    let event = reference.only(&[("event", "blow_up")])?;
-    let digits = written_out(event.words("t")?[0]);
+    let text = disk::read_text(&source.paths.root.join(REFERENCE_EVENTS))?.unwrap_or_default();
+    let reference = events::parse_all(REFERENCE_EVENTS, &text)?;
+    let event = reference.values().flatten().find(|event| event.event == "blow_up");
+    let digits = event.and_then(|event| written_out(&event.t_text));
     let missing = || Failure::Usage(format!("{REFERENCE_EVENTS}: t of blow_up is not of the form 1.2e3"));
     all.word("blow-up.reference", &digits.ok_or_else(missing)?, REFERENCE_EVENTS);
     Ok(())

@@ -60,7 +60,7 @@ fn errors(source: &Source<'_>, all: &mut Quantities) {
 fn events(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
     let sheet = Sheet::read(source.paths, EVENTS)?;
     for (scene, event) in sheet.words("scene")?.into_iter().zip(sheet.words("event")?) {
-        let row = sheet.only(&[("scene", scene), ("event", event)])?;
+        let row = sheet.only(&[("scene", &*scene), ("event", &*event)])?;
         let from = format!("{EVENTS}: {scene}, {event}");
         all.uncertain(&format!("{scene}.{event}.t"), row.first("t")?, row.first("uncertainty")?, &from);
         all.rounded(&format!("{scene}.{event}.short"), row.first("t")?, 6, &from);

@@ -1,16 +1,15 @@
-//! A table whose cells are kept as they are written: words and numbers side by side.
+//! A table of the checkout, with messages that name it.
 
-use checkout::disk;
 use checkout::failure::Failure;
 use checkout::paths::Paths;
+use files::table::{self, Cell, Value as _};
 
 /// A table of the checkout.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sheet {
     /// Its name, relative to the root.
     pub name: String,
-    columns: Vec<String>,
-    rows: Vec<Vec<String>>,
+    cells: table::Sheet,
 }
 
 impl Sheet {
@@ -19,33 +18,29 @@ impl Sheet {
     /// # Errors
     /// Stale: there is no such table. Failed: it cannot be read.
     pub fn read(paths: &Paths, name: &str) -> Result<Sheet, Failure> {
-        let text = disk::read_text(&paths.root.join(name))?;
-        let text = text.ok_or_else(|| Failure::Stale(format!("{name}: no such table; cargo xtask figures")))?;
-        Ok(Sheet::parse(name, &text))
+        let path = paths.root.join(name);
+        if !path.is_file() {
+            return Err(Failure::Stale(format!("{name}: no such table; cargo xtask figures")));
+        }
+        Ok(Sheet { name: name.to_owned(), cells: table::Sheet::read(&path).map_err(Failure::failed)? })
     }
 
-    /// Parses a table; `name` is only for messages.
-    pub fn parse(name: &str, text: &str) -> Sheet {
-        let cells = |line: &str| line.split(',').map(str::to_owned).collect::<Vec<_>>();
-        let mut lines = text.lines();
-        let columns = lines.next().map(cells).unwrap_or_default();
-        Sheet { name: name.to_owned(), columns, rows: lines.map(cells).collect() }
-    }
-
-    /// The rows that have these words (or numbers, as they are written) in these columns.
+    /// The rows that have these words or numbers in these columns.
     ///
     /// # Errors
     /// Usage: a column is not there, or no row fits; with the table and the columns it has.
     pub fn only(&self, wanted: &[(&str, &str)]) -> Result<Sheet, Failure> {
         let mut places = Vec::new();
         for (column, word) in wanted {
-            places.push((self.place(column)?, *word));
+            places.push((self.place(column)?, Cell::parse(word).map_err(Failure::Usage)?));
         }
-        let fits = |row: &&Vec<String>| places.iter().all(|(place, word)| row.get(*place).is_some_and(|is| is == word));
-        let rows: Vec<Vec<String>> = self.rows.iter().filter(fits).cloned().collect();
-        match rows.is_empty() {
+        let mut cells = table::Sheet::new(&self.cells.columns.iter().map(String::as_str).collect::<Vec<_>>());
+        for row in self.cells.rows().filter(|row| places.iter().all(|(place, wanted)| row[*place] == *wanted)) {
+            cells.push(row);
+        }
+        match cells.is_empty() {
             true => Err(Failure::Usage(format!("{}: no row with {wanted:?}", self.name))),
-            false => Ok(Sheet { rows, ..self.clone() }),
+            false => Ok(Sheet { name: self.name.clone(), cells }),
         }
     }
 
@@ -55,7 +50,7 @@ impl Sheet {
     /// Usage: the column is not there, or holds no number.
     pub fn numbers(&self, column: &str) -> Result<Vec<f64>, Failure> {
         let place = self.place(column)?;
-        let found: Vec<f64> = self.rows.iter().filter_map(|row| row.get(place)?.parse().ok()).collect();
+        let found: Vec<f64> = self.cells.rows().filter_map(|row| row[place].number()).collect();
         match found.is_empty() {
             true => Err(Failure::Usage(format!("{}: column {column} holds no number", self.name))),
             false => Ok(found),
@@ -88,28 +83,26 @@ impl Sheet {
         Ok(numbers.into_iter().fold(f64::INFINITY, |a, b| if b < a { b } else { a }))
     }
 
-    /// The words of a column from top to bottom.
+    /// The cells of a column as they are written, from top to bottom.
     ///
     /// # Errors
     /// Usage: the column is not there.
-    pub fn words(&self, column: &str) -> Result<Vec<&str>, Failure> {
+    pub fn words(&self, column: &str) -> Result<Vec<String>, Failure> {
         let place = self.place(column)?;
-        Ok(self.rows.iter().map(|row| row.get(place).map_or("", String::as_str)).collect())
+        Ok(self.cells.rows().map(|row| row[place].to_string()).collect())
     }
 
     /// The number of rows.
     pub fn len(&self) -> usize {
-        self.rows.len()
+        self.cells.len()
     }
 
     /// Whether there are no rows.
     pub fn is_empty(&self) -> bool {
-        self.rows.is_empty()
+        self.cells.is_empty()
     }
 
     fn place(&self, column: &str) -> Result<usize, Failure> {
-        let found = self.columns.iter().position(|name| name == column);
-        let known = || self.columns.join(", ");
-        found.ok_or_else(|| Failure::Usage(format!("{}: no column {column}; it has {}", self.name, known())))
+        self.cells.place(column).map_err(|error| Failure::Usage(format!("{}: {error}", self.name)))
     }
 }
