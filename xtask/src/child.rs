@@ -1,7 +1,6 @@
 //! Starting a program and waiting for it.
 
 use crate::lock;
-use crate::usage::Usage;
 use checkout::disk;
 use checkout::failure::Failure;
 use checkout::process::not_started;
@@ -11,16 +10,20 @@ use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use wait4::Wait4 as _;
 
-/// How long a waiting thread sleeps before it looks again whether its program has ended, at most.
-const PATIENCE: Duration = Duration::from_millis(3);
+/// How long a waiting thread sleeps before it looks again whether its program has ended.
+const PATIENCE: Duration = Duration::from_millis(2);
 
-/// And at least. Between the two, the part [`PART`] of the time so far, so that what the program used is known as well.
-const IMPATIENCE: Duration = Duration::from_micros(100);
-
-/// See [`IMPATIENCE`].
-const PART: u32 = 50;
+/// What a program used.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Usage {
+    /// Seconds on a processor.
+    pub cpu: f64,
+    /// Largest resident memory, in bytes; 0 where the system does not tell.
+    pub memory: u64,
+}
 
 /// What a program says on stderr of the part of its work that is done, 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,10 +82,9 @@ pub fn run_measured(
     let child = command.stdin(lock::stdin()).stdout(file).stderr(Stdio::piped()).spawn();
     let mut child = child.map_err(|error| not_started(&name, &error))?;
     let words = child.stderr.take();
-    let mut usage = Usage::default();
-    let status = thread::scope(|scope| {
+    let (status, usage) = thread::scope(|scope| {
         scope.spawn(|| words.map(|words| listen(words, twin, heard)));
-        wait(&mut child, stop, &mut usage).map_err(|error| Failure::Failed(format!("{name}: {error}")))
+        wait(&mut child, stop).map_err(|error| Failure::Failed(format!("{name}: {error}")))
     })?;
     if status.success() {
         return Ok(usage);
@@ -104,17 +106,18 @@ fn listen(words: impl Read, mut log: File, heard: &(dyn Fn(Word) + Sync)) {
     }
 }
 
-fn wait(child: &mut Child, stop: &AtomicBool, usage: &mut Usage) -> std::io::Result<ExitStatus> {
-    let start = Instant::now();
+/// Waits for the end of a program; kills it when `stop` becomes true.
+fn wait(child: &mut Child, stop: &AtomicBool) -> std::io::Result<(ExitStatus, Usage)> {
     loop {
-        usage.look(child.id());
-        if let Some(status) = child.try_wait()? {
-            return Ok(status);
+        if let Some(ended) = child.try_wait4()? {
+            let used = ended.rusage;
+            let cpu = (used.utime + used.stime).as_secs_f64();
+            return Ok((ended.status, Usage { cpu, memory: used.maxrss }));
         }
         if stop.load(Ordering::Relaxed) {
             child.kill()?;
         }
-        thread::sleep((start.elapsed() / PART).clamp(IMPATIENCE, PATIENCE));
+        thread::sleep(PATIENCE);
     }
 }
 

@@ -1,18 +1,17 @@
 //! Which figures fit into a budget of time.
 
+use crate::child::Usage;
 use crate::plan::{self, Node, Wish};
 use crate::record::Survey;
-use crate::usage::Usage;
 use crate::verbs::figures::{Times, forecast};
 use checkout::costs::{Cost, Costs};
 use checkout::failure::Failure;
 use checkout::figure::Figure;
 use checkout::paths::Paths;
 
-/// The cost of a program that has ended; nothing where the machine does not tell.
-pub fn of(usage: Usage, bytes: u64) -> Option<Cost> {
-    let memory = usage.memory? as f64 / 1_048_576.0;
-    Some(Cost { cpu: usage.cpu?, memory, disk: bytes as f64 / 1024.0 })
+/// The cost of a program that has ended, and the bytes that it left.
+pub fn of(usage: Usage, bytes: u64) -> Cost {
+    Cost { cpu: usage.cpu, memory: usage.memory as f64 / 1_048_576.0, disk: bytes as f64 / 1024.0 }
 }
 
 /// Figures that fit into a time, and those that do not, each with the seconds that it takes alone.

@@ -18,6 +18,5 @@ pub mod progress;
 pub mod record;
 pub mod sources;
 pub mod store;
-pub mod usage;
 pub mod verbs;
 pub mod work;

@@ -1,12 +1,11 @@
 //! Carrying out a plan: programs are started, their outputs put in place, progress goes to stderr.
 
-use crate::child::{self, Word};
+use crate::child::{self, Usage, Word};
 use crate::plan::{Node, Step};
 use crate::pool::{self, Job, Outcome};
 use crate::progress::Board;
 use crate::record::Survey;
 use crate::store;
-use crate::usage::Usage;
 use checkout::disk;
 use checkout::failure::Failure;
 use checkout::figure::Figure;

@@ -82,8 +82,9 @@ fn fill(
         let Row { frame, n, x } = row?;
         let x = header.metres(x);
         insert.execute(params![frame, n, x]).map_err(at)?;
-        extent.least = extent.least.min(x);
-        extent.most = extent.most.max(x);
+        // every x is finite
+        extent.least = if x < extent.least { x } else { extent.least };
+        extent.most = if x > extent.most { x } else { extent.most };
         extent.frames = frame + 1;
         extent.rows += 1;
     }

@@ -142,7 +142,7 @@ impl Scene {
         let ratios = of_one.filter_map(|row| Some(row.gap_error? / error(other, &row.control)?));
         ratios.fold(None, |range: Option<(f64, f64)>, ratio| {
             let (low, high) = range.unwrap_or((ratio, ratio));
-            Some((f64::min(low, ratio), f64::max(high, ratio)))
+            Some((if ratio < low { ratio } else { low }, if ratio > high { ratio } else { high }))
         })
     }
 

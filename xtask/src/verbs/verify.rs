@@ -120,7 +120,7 @@ fn recompute<'a>(
     let threads = if arguments.costs { 1 } else { arguments.effort.threads() };
     let mut measured = Costs::new();
     let mut made = |node: &Node, made: &Made| {
-        measured.extend(costs::of(made.usage, made.bytes).map(|cost| (node.name.clone(), cost)));
+        measured.insert(node.name.clone(), costs::of(made.usage, made.bytes));
         Ok(())
     };
     let outcomes = work::carry_out(scratch, &surveys, &nodes, threads, arguments.effort.keep_going, &mut made)?;
