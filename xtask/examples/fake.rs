@@ -27,7 +27,9 @@ fn main() -> io::Result<()> {
     }
     match name.as_str() {
         "cargo" if arguments.get(1).is_some_and(|verb| verb == "vendor") => vendor(&arguments),
-        "cargo" if arguments.get(1).is_some_and(|verb| verb == "clean") => Ok(()),
+        "cargo" if arguments.get(1).is_some_and(|verb| verb == "clean") => {
+            fs::remove_dir_all(PathBuf::from(env::var("CARGO_TARGET_DIR").unwrap_or_default()).join("release"))
+        }
         "cargo" => cargo(),
         "simulate" => simulate(&arguments),
         "map" => exit(3),

@@ -82,17 +82,15 @@ impl Package {
         recorded != self.current(paths, all, sources) || recorded.programs.len() != self.programs(all).count()
     }
 
-    /// Cargo compares dates. A source that has changed since the last build and yet is older than what was built then (the
-    /// clock was set back, or an archive has kept its dates) would leave the program as it was: then what was built goes.
-    fn forget_newer(self, paths: &Paths, all: &[Figure], sources: &Sources) -> Result<(), Failure> {
+    /// Cargo compares dates: whether a source that has changed since the last build is older than what was built then (the
+    /// clock was set back, an archive has kept its dates, it was saved during the build), so that cargo would leave the
+    /// program as it was.
+    fn is_hidden_from_cargo(self, paths: &Paths, all: &[Figure], sources: &Sources) -> bool {
         let newest = self.programs(all).filter_map(|name| date(&paths.binary(name))).max();
         let built_from = self.recorded(paths).sources;
         let changed = |(name, hash): &(&String, &String)| built_from.get(*name) != Some(*hash);
         let mut changed = sources.files.iter().filter(|_| !built_from.is_empty()).filter(changed);
-        match changed.any(|(name, _)| date(&paths.root.join(name)) <= newest) {
-            true => cargo(paths, CLEAN),
-            false => Ok(()),
-        }
+        changed.any(|(name, _)| date(&paths.root.join(name)) <= newest)
     }
 }
 
@@ -101,9 +99,13 @@ impl Package {
 /// # Errors
 /// Unsupported: no cargo, or a font is missing or damaged. Failed: the build fails, or leaves a program unmade.
 pub fn ensure(paths: &Paths, all: &[Figure], sources: &Sources, packages: &[Package]) -> Result<(), Failure> {
-    for package in packages.iter().filter(|package| package.is_stale(paths, all, sources)) {
+    let stale = |package: &&Package| package.is_stale(paths, all, sources);
+    if packages.iter().filter(stale).any(|package| package.is_hidden_from_cargo(paths, all, sources)) {
+        // what they share goes for all of them
+        cargo(paths, CLEAN)?;
+    }
+    for package in packages.iter().filter(stale) {
         check_fonts(paths)?;
-        package.forget_newer(paths, all, sources)?;
         disk::remove(&paths.build_record(package.name))?;
         cargo(paths, package.command().trim_start_matches("cargo "))?;
         let built = package.current(paths, all, sources);

@@ -252,3 +252,16 @@ fn a_changed_source_that_is_older_than_the_programs_is_compiled_all_the_same() {
     let kept = file.metadata().and_then(|data| data.modified()).expect("a date");
     assert_eq!(kept, std::time::UNIX_EPOCH, "the date of a source is its owner's");
 }
+
+#[test]
+fn what_is_cleared_is_built_again_for_figures_and_supplements() {
+    let shop = blessed("troubles-cleared");
+    shop.xtask(&["figures", "--all"]).expect(1);
+    shop.edit("crates/math/src/lib.rs", "Numbers", "Better numbers");
+    let file = std::fs::File::options().append(true).open(shop.root.join("crates/math/src/lib.rs")).expect("a source");
+    file.set_modified(std::time::UNIX_EPOCH).expect("a date");
+    shop.calls();
+    shop.xtask(&["figures", "--all"]).expect(1);
+    assert!(shop.calls().starts_with(&["cargo".to_owned(), "cargo".to_owned(), "cargo clean".to_owned()]));
+    shop.xtask(&["status", "--all", "--exit-code"]).expect(0);
+}
