@@ -3,6 +3,7 @@
 mod accuracy;
 mod bless;
 mod bundle;
+mod checks;
 mod cli;
 mod data;
 mod distance;
