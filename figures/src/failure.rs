@@ -33,7 +33,11 @@ impl From<scene::RecipeError> for Failure {
 
 impl From<std::io::Error> for Failure {
     fn from(error: std::io::Error) -> Failure {
-        Failure::work(error)
+        // a pipe, a device or one name twice, where files are to be written
+        match error.kind() {
+            std::io::ErrorKind::InvalidInput => Failure::input(error),
+            _ => Failure::work(error),
+        }
     }
 }
 
