@@ -244,4 +244,5 @@ for part in "${parts[@]}"; do
   esac
 done
 echo "$passed passed, $failed failed, $skipped skipped"
-[ "$failed" = 0 ]
+[ "$failed" = 0 ] || exit 1
+[ "$passed" -gt 0 ] || { echo "no part could be tried" >&2; exit 5; }

@@ -1,7 +1,8 @@
 //! Supplement 4: error against work of every method, the stable exponential run of figure 7.
 
-use figures::{Failure, Job, figure, precision_panel};
+use figures::{Failure, Job, figure};
 use std::process::ExitCode;
+use studies::precision_panel;
 
 fn main() -> ExitCode {
     figure(env!("CARGO_BIN_NAME"), tables, precision_panel::picture)

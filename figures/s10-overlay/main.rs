@@ -1,8 +1,6 @@
 //! Supplement 10: the published curves of figures 12 (left) and 13 over the regenerated ones, and by which scheme they
 //! were made.
 
-use figures::hard::rows::Rows;
-use figures::overlay::{Published, SCHEMES, Sampled, distance, scheme};
 use figures::panels::points;
 use figures::{Failure, Job, figure};
 use files::table::Table;
@@ -10,6 +8,8 @@ use ode::Method;
 use plot::style::FULL_WIDTH;
 use plot::{Axis, Corner, Lines, Marker, Picture, Series};
 use std::process::ExitCode;
+use studies::hard::rows::Rows;
+use studies::overlay::{Published, SCHEMES, Sampled, distance, scheme};
 
 fn main() -> ExitCode {
     figure(env!("CARGO_BIN_NAME"), tables, picture)

@@ -1,9 +1,10 @@
 //! Supplement 13: how far the jams of figures 11 to 13 depend on what was chosen.
 
-use figures::{Failure, Job, figure, parameters};
+use figures::{Failure, Job, figure};
 use plot::style::FULL_WIDTH;
 use plot::{Axis, Corner, Lines, Marker, Picture, Series};
 use std::process::ExitCode;
+use studies::parameters;
 
 fn main() -> ExitCode {
     figure(env!("CARGO_BIN_NAME"), tables, picture)

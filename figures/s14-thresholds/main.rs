@@ -1,10 +1,10 @@
 //! Supplement 14: where stability ends, and where contacts begin.
 
-use figures::thresholds::{self, monotone};
 use figures::{Failure, Job, figure};
 use plot::style::FULL_WIDTH;
 use plot::{Axis, Corner, Lines, Marker, Picture, Series};
 use std::process::ExitCode;
+use studies::thresholds::{self, monotone};
 
 fn main() -> ExitCode {
     figure(env!("CARGO_BIN_NAME"), tables, picture)

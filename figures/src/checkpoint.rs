@@ -5,10 +5,8 @@
 //! another run or program is not believed, and the run begins anew.
 
 use crate::failure::Failure;
-use crate::steps::Steps;
 use cpu_time::ProcessTime;
 use files::write::{atomic, sha256, sha256_file};
-use ode::{Control, Step};
 use scene::checkpoint::{Checkpoint, Underway};
 use scene::run::Scene;
 use scene::simulation::{Broken, Onlooker, Outcome, run_from};
@@ -28,9 +26,6 @@ pub struct Care {
     /// Say how far the run is, a line a second on stderr: `progress 0.42`, or `resumed 0.40` at the start
     #[arg(long)]
     progress: bool,
-    /// Write steps.csv too, a print of every step, where these are of adaptive length
-    #[arg(long)]
-    steps: bool,
 }
 
 fn seconds(text: &str) -> Result<Duration, String> {
@@ -49,8 +44,6 @@ pub struct Ended {
     pub seconds: f64,
     /// Steps that were taken from the checkpoint.
     pub resumed_steps: u64,
-    /// The prints of its steps, if they were asked for and are of adaptive length.
-    pub steps: Option<Steps>,
 }
 
 /// Writings take less than this part of the time.
@@ -75,12 +68,7 @@ impl Care {
         };
         keeper.end();
         let seconds = before.unwrap_or(0.0) + clock.elapsed().as_secs_f64();
-        Ok(Ended { outcome, broken, seconds, resumed_steps: steps, steps: keeper.steps })
-    }
-
-    /// Whether steps.csv is asked for.
-    pub fn prints_steps(&self) -> bool {
-        self.steps
+        Ok(Ended { outcome, broken, seconds, resumed_steps: steps })
     }
 
     /// Removes the checkpoint of a run whose results are safe.
@@ -109,14 +97,11 @@ struct Keeper<'a> {
     next_word: Instant,
     next_writing: Instant,
     is_bar_shown: bool,
-    steps: Option<Steps>,
 }
 
 impl<'a> Keeper<'a> {
     fn new(care: &'a Care, scene: &Scene) -> Result<Keeper<'a>, Failure> {
-        let is_fixed = matches!(scene.control, Control::Fixed { .. });
-        // prints of steps are not kept: a run that makes them begins anew
-        let is_kept = care.checkpoint.is_some() && (is_fixed || !care.steps);
+        let is_kept = care.checkpoint.is_some();
         let run = if is_kept {
             let program = sha256_file(&std::env::current_exe()?)?;
             sha256(format!("{program}\n{scene:?}").as_bytes())
@@ -126,8 +111,7 @@ impl<'a> Keeper<'a> {
         let (clock, now) = (ProcessTime::now(), Instant::now());
         let (next_word, next_writing) = (now + SILENCE, now + care.checkpoint_every);
         let (before, done, started) = (0.0, 0.0, now);
-        let steps = (care.steps && !is_fixed).then(|| Steps::new(scene.ring.pedestrians));
-        Ok(Keeper { care, run, before, clock, started, done, next_word, next_writing, is_bar_shown: false, steps })
+        Ok(Keeper { care, run, before, clock, started, done, next_word, next_writing, is_bar_shown: false })
     }
 
     /// The checkpoint and the seconds before it; `None` when there is none to believe.
@@ -188,12 +172,6 @@ impl<'a> Keeper<'a> {
 }
 
 impl Onlooker for Keeper<'_> {
-    fn after(&mut self, step: &Step<'_>) {
-        if let Some(steps) = &mut self.steps {
-            steps.push(step);
-        }
-    }
-
     fn between(&mut self, underway: &Underway<'_>) {
         let now = Instant::now();
         if now >= self.next_word {

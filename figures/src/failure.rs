@@ -1,5 +1,6 @@
 //! Failures of a binary, and the exit codes that tell them apart.
 
+use files::table::TableError;
 use std::io::Write as _;
 use std::process::ExitCode;
 
@@ -32,13 +33,20 @@ impl From<scene::RecipeError> for Failure {
 
 impl From<std::io::Error> for Failure {
     fn from(error: std::io::Error) -> Failure {
-        Failure::work(error)
+        // a pipe, a device or one name twice, where files are to be written
+        match error.kind() {
+            std::io::ErrorKind::InvalidInput => Failure::input(error),
+            _ => Failure::work(error),
+        }
     }
 }
 
-impl From<files::table::TableError> for Failure {
-    fn from(error: files::table::TableError) -> Failure {
-        Failure::work(error)
+impl From<TableError> for Failure {
+    fn from(error: TableError) -> Failure {
+        match error {
+            TableError::Io(_) => Failure::work(error),
+            TableError::Malformed { .. } | TableError::NoColumn { .. } => Failure::input(error),
+        }
     }
 }
 

@@ -1,10 +1,9 @@
 //! A figure's binary: tables first, from runs and laws; then the picture, from the tables alone.
 
 use crate::failure::{Failure, exit};
-use crate::hard::rows::Rows;
 use clap::Parser;
 use files::recipe::{self, Kind, Panel, Recipe};
-use files::table::Table;
+use files::table::{Cell, Sheet, Table};
 use files::write::{atomic, with_path};
 use plot::Picture;
 use serde_json::{Map, Value, json};
@@ -89,6 +88,23 @@ fn run(
     Ok(())
 }
 
+/// A table of words and numbers as CSV.
+///
+/// # Errors
+/// A number is not finite, which no reader takes: its row and its column.
+pub fn finite_csv(name: &str, rows: &Sheet) -> Result<Vec<u8>, Failure> {
+    for (line, row) in rows.rows().enumerate() {
+        for (cell, column) in row.iter().zip(&rows.columns) {
+            if let Cell::Number(number) = cell
+                && !number.is_finite()
+            {
+                return Err(Failure::work(format!("{name}.csv: row {}: {column} = {number}", line + 1)));
+            }
+        }
+    }
+    Ok(rows.to_csv())
+}
+
 impl Job {
     /// Writes a table under this name.
     ///
@@ -102,16 +118,16 @@ impl Job {
     ///
     /// # Errors
     /// It holds a number that is not finite, or the file cannot be written.
-    pub fn write_rows(&self, name: &str, rows: &Rows) -> Result<(), Failure> {
-        Ok(atomic(&self.arguments.tables.join(format!("{name}.csv")), &rows.to_csv(name)?)?)
+    pub fn write_rows(&self, name: &str, rows: &Sheet) -> Result<(), Failure> {
+        Ok(atomic(&self.arguments.tables.join(format!("{name}.csv")), &finite_csv(name, rows)?)?)
     }
 
     /// Reads a table of this figure that has words.
     ///
     /// # Errors
     /// It is missing.
-    pub fn read_rows(&self, name: &str) -> Result<Rows, Failure> {
-        Rows::read(&self.arguments.tables.join(format!("{name}.csv")))
+    pub fn read_rows(&self, name: &str) -> Result<Sheet, Failure> {
+        Ok(Sheet::read(&self.arguments.tables.join(format!("{name}.csv")))?)
     }
 
     /// Reads a table of this figure.
@@ -167,8 +183,8 @@ impl Job {
     ///
     /// # Errors
     /// It is missing.
-    pub fn accuracy(&self, name: &str) -> Result<Rows, Failure> {
-        Rows::read(&self.arguments.reference.with_file_name("accuracy").join(format!("{name}.csv")))
+    pub fn accuracy(&self, name: &str) -> Result<Sheet, Failure> {
+        Ok(Sheet::read(&self.arguments.reference.with_file_name("accuracy").join(format!("{name}.csv")))?)
     }
 
     /// Reads a table of archived timings: seconds are measured once, on one machine, and kept.
@@ -183,8 +199,8 @@ impl Job {
     ///
     /// # Errors
     /// It is missing.
-    pub fn timing_rows(&self, name: &str) -> Result<Rows, Failure> {
-        Rows::read(&self.arguments.timing.join(format!("{name}.csv")))
+    pub fn timing_rows(&self, name: &str) -> Result<Sheet, Failure> {
+        Ok(Sheet::read(&self.arguments.timing.join(format!("{name}.csv")))?)
     }
 
     /// The panel of this name.

@@ -1,25 +1,13 @@
 //! What the figures' binaries share: the command line and where tables and pictures go ([`job`]), panels that several
-//! figures draw ([`panels`], [`precision_panel`]) and their titles ([`titles`]), exit codes ([`failure`]); the two programs for scenes of one's own
-//! ([`simulate`] with [`checkpoint`] and [`steps`], [`map`]); and the tables of the report of accuracy: error against work
-//! ([`precision`]), rounding and growth ([`studies`]), hard cases ([`hard`]). What the jams depend on
-//! ([`parameters`]), where stability ends ([`thresholds`]), and published curves beside
-//! runs by fixed steps ([`overlay`]).
+//! figures draw ([`panels`]) and their titles ([`titles`]), exit codes ([`failure`]); and the two programs for scenes of
+//! one's own ([`simulate`] with [`checkpoint`], [`map`]).
 
 pub mod checkpoint;
-pub mod draw;
 pub mod failure;
-pub mod hard;
 pub mod job;
 pub mod map;
-pub mod overlay;
 pub mod panels;
-pub mod parameters;
-pub mod precision;
-pub mod precision_panel;
 pub mod simulate;
-pub mod steps;
-pub mod studies;
-pub mod thresholds;
 pub mod titles;
 
 pub use failure::Failure;

@@ -56,10 +56,10 @@ pub struct Arguments {
     /// The independent run that estimates the error: another method at a tighter tolerance
     #[arg(long, conflicts_with_all = ["method", "tol", "dt"])]
     check: bool,
-    /// Leave out the second run, which estimates the errors of the numbers; with --check or --steps it is left out, too
+    /// Leave out the second run, which estimates the errors of the numbers; with --check it is left out, too
     #[arg(long)]
     no_check: bool,
-    /// Progress, checkpoints, prints of steps.
+    /// Progress and checkpoints.
     #[command(flatten)]
     care: Care,
     /// Print the summary as JSON
@@ -86,15 +86,14 @@ fn methods() -> String {
 pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     let scene = read_scene(arguments)?;
     let ended = arguments.care.run(&scene)?;
-    let is_checked = !(arguments.no_check || arguments.check || arguments.care.prints_steps());
+    let is_checked = !(arguments.no_check || arguments.check);
     let errors = is_checked.then(|| check::errors(&scene, &ended.outcome));
     let errors = errors.as_ref();
     let summary = summary(&scene, &ended, errors);
-    let Ended { outcome, broken, seconds, steps, .. } = ended;
+    let Ended { outcome, broken, seconds, .. } = ended;
     let mut files = Vec::new();
     if let Some(folder) = &arguments.out {
         files.extend(tables(folder, &scene, &outcome, errors));
-        files.extend(steps.map(|steps| (folder.join("steps.csv"), steps.to_csv().as_bytes().to_vec())));
         files.push((folder.join("summary.json"), pretty(&summary).into_bytes()));
         if !arguments.tables_only {
             files.extend(pictures(folder, &scene, &outcome, errors)?);

@@ -1,9 +1,9 @@
 //! The ledger's files: claims, errata and parameters, of any contents, are read or refused with file and place.
 
+use claims::source::Sources;
+use claims::uncertain::Uncertain;
+use claims::words;
 use std::collections::BTreeMap;
-use xtask::ledger::source::Sources;
-use xtask::ledger::uncertain::Uncertain;
-use xtask::ledger::words;
 
 /// Tries one file, as each of the three.
 pub fn read(bytes: &[u8]) {

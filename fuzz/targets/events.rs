@@ -1,6 +1,7 @@
 //! Tables of events, of one run and of all.
 
-use xtask::events::{self, HEADER, RUN_HEADER};
+use checkout::events::{self, HEADER, RUN_HEADER};
+use verify::moved;
 
 /// Tries one file, as either table.
 pub fn read(bytes: &[u8]) {
@@ -8,7 +9,7 @@ pub fn read(bytes: &[u8]) {
     match events::parse(RUN_HEADER, &text) {
         Ok(run) => {
             assert!(run.iter().all(|event| event.t.is_finite()));
-            assert!(events::compare("a", &run, &run, 0.0).is_empty(), "{run:?}");
+            assert!(moved::compare("a", &run, &run, 0.0).is_empty(), "{run:?}");
             let table = events::merge(HEADER, &events::lines("a", &run, &run), &|_| false);
             let all =
                 events::parse_all("events.csv", &table).unwrap_or_else(|failure| panic!("{failure:?}: {table:?}"));

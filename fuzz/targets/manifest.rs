@@ -1,6 +1,6 @@
 //! The manifest: what is read as one is written as the same; what is not says where.
 
-use xtask::manifest;
+use checkout::manifest;
 
 /// Tries one file.
 pub fn read(bytes: &[u8]) {

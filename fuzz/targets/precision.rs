@@ -1,6 +1,6 @@
 //! Tables of error against work, with archived seconds behind an empty line.
 
-use xtask::precision::{COSTS, Scene};
+use verify::precision::{COSTS, Scene};
 
 /// Tries one pair of tables.
 pub fn read(bytes: &[u8]) {
@@ -15,8 +15,8 @@ pub fn read(bytes: &[u8]) {
                 assert!(cheapest.is_none_or(|row| row.error.is_some_and(|error| error <= 1e-6)));
             }
         }
-        Err(column) => {
-            assert!(["method", "control", "right_hand_sides", "error_gap", "error_speed"].contains(&&*column))
+        Err(problem) => {
+            assert!(problem.starts_with("line ") || problem.starts_with("no column "), "{problem}")
         }
     }
 }

@@ -1,8 +1,8 @@
 //! The ledger's tables and the expressions over them: two lines with a condition and an expression, then a table.
 
-use xtask::ledger::expression::{Binding, Condition, Expression};
-use xtask::ledger::requirement::Requirement;
-use xtask::ledger::sheet::{Sheet, Stated};
+use claims::expression::{Binding, Condition, Expression};
+use claims::requirement::Requirement;
+use claims::sheet::{Sheet, Stated};
 
 /// Tries one.
 pub fn read(bytes: &[u8]) {
@@ -11,8 +11,8 @@ pub fn read(bytes: &[u8]) {
     let (condition, expression) = (lines.next().unwrap_or(""), lines.next().unwrap_or(""));
     let requirement = Requirement::parse(expression);
     let table = lines.next().unwrap_or("").as_bytes();
-    let Ok(sheet) = Sheet::parse(table, &|name| name.starts_with('e').then_some(Stated::OfRange(1e-9))) else { return };
-    assert!(sheet.columns.iter().all(|column| column.cells.len() == sheet.rows()));
+    let Ok(cells) = files::table::Sheet::parse(table) else { return };
+    let sheet = Sheet::new(cells, &|name| name.starts_with('e').then_some(Stated::OfRange(1e-9)));
     let binding = Binding { sheet: &sheet, errors: None };
     let condition = Condition::parse(condition).and_then(|condition| condition.bind(&binding));
     let expression = Expression::parse(expression).and_then(|expression| expression.bind(&binding));
@@ -28,9 +28,9 @@ pub fn read(bytes: &[u8]) {
             }
         }
     }
-    let names: Vec<String> = sheet.names().iter().take(1).map(|&name| name.to_owned()).collect();
+    let names: Vec<String> = sheet.names().iter().take(1).cloned().collect();
     if let Ok(both) = sheet.beside(&sheet, &names) {
-        assert!(both.rows() <= sheet.rows() && both.columns.len() + names.len() == 2 * sheet.columns.len());
+        assert!(both.rows() <= sheet.rows() && both.names().len() + names.len() == 2 * sheet.names().len());
     }
     if let Some(name) = sheet.names().last()
         && let Ok(next) = sheet.next(name, &names)

@@ -1,6 +1,6 @@
 //! Lists of sums: what is read as one is written as a list that reads back as the same.
 
-use xtask::sums::{State, Sums};
+use checkout::sums::{State, Sums};
 
 /// Tries one file.
 pub fn read(bytes: &[u8]) {

@@ -17,7 +17,7 @@ pub fn read(bytes: &[u8]) {
                 assert_eq!(table.column(name).expect("a column that is there").len(), table.len());
             }
         }
-        Err(TableError::Malformed { line, problem }) => {
+        Err(TableError::Malformed { line, problem, .. }) => {
             let lines = 1 + bytes.iter().filter(|&&byte| byte == b'\n' || byte == b'\r').count() as u64;
             assert!(line <= lines && !problem.is_empty(), "line {line} of {lines}: {problem}");
         }

@@ -6,7 +6,6 @@
 //! what figures without runs report, `spoil` holds lines `PROGRAM WHAT ROW` of what a program gets wrong (see [`spoilt`]),
 //! `slow` makes every program last long enough to be measured.
 
-use files::steps::Print;
 use std::env;
 use std::fs;
 use std::io::{self, Write};
@@ -16,12 +15,21 @@ use std::process::exit;
 fn main() -> io::Result<()> {
     let arguments: Vec<String> = env::args().collect();
     let name = Path::new(&arguments[0]).file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    // these are the real programs
+    match name.as_str() {
+        "verify" => exit(verify::cli::run(env::args_os())),
+        "publish" => exit(publish::cli::run(env::args_os())),
+        _ => {}
+    }
     note(&name, &arguments)?;
     if Path::new("slow").exists() {
         std::thread::sleep(std::time::Duration::from_millis(40));
     }
     match name.as_str() {
         "cargo" if arguments.get(1).is_some_and(|verb| verb == "vendor") => vendor(&arguments),
+        "cargo" if arguments.get(1).is_some_and(|verb| verb == "clean") => {
+            fs::remove_dir_all(PathBuf::from(env::var("CARGO_TARGET_DIR").unwrap_or_default()).join("release"))
+        }
         "cargo" => cargo(),
         "simulate" => simulate(&arguments),
         "map" => exit(3),
@@ -32,8 +40,16 @@ fn main() -> io::Result<()> {
 }
 
 fn note(name: &str, arguments: &[String]) -> io::Result<()> {
+    // programs about the result are built whenever they are asked
+    let is_quiet = |word: &str| ["verify", "publish", "interchange"].contains(&word);
+    if name == "cargo" && value(arguments, "-p").is_some_and(|package| is_quiet(&package)) {
+        return Ok(());
+    }
     let mut log = fs::OpenOptions::new().create(true).append(true).open("calls.log")?;
-    let panel = value(arguments, "--panel").unwrap_or_default();
+    let panel = match arguments.get(1) {
+        Some(verb) if verb == "clean" => verb.clone(),
+        _ => value(arguments, "--panel").unwrap_or_default(),
+    };
     let check = if arguments.iter().any(|argument| argument == "--check") { " check" } else { "" };
     let scheme = if arguments.iter().any(|argument| argument == "--scheme") { " scheme" } else { "" };
     let resumed = if checkpoint(arguments).exists() { " resumed" } else { "" };
@@ -79,7 +95,7 @@ fn cargo() -> io::Result<()> {
     let slugs = fs::read_dir("figures")?.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
     for name in slugs
         .filter(|slug| slug.contains('-'))
-        .chain(["simulate", "map", "precision", "hard", "studies", "export"].map(str::to_owned))
+        .chain(["simulate", "map", "precision", "hard", "studies", "export", "verify", "publish"].map(str::to_owned))
     {
         let binary = release.join(name);
         if !binary.exists() {
@@ -122,9 +138,6 @@ fn simulate(arguments: &[String]) -> io::Result<()> {
     }
     fs::write(out.join("std.csv"), format!("t,std\n{}", rows.concat()))?;
     fs::write(out.join("trajectories.csv"), trajectories(shift))?;
-    if arguments.iter().any(|argument| argument == "--steps") && spoilt("simulate", "fixed").is_none() {
-        fs::write(out.join("steps.csv"), steps())?;
-    }
     let t: f64 = 12.5 + shift;
     let t = if spoilt("simulate", "event").is_some() { t.next_up() } else { t };
     fs::write(out.join("events.csv"), format!("event,t,n\noverlap,{t:?},7\n"))?;
@@ -141,28 +154,6 @@ fn trajectories(shift: f64) -> String {
     let row = |t: usize, n: usize| format!("{t},{n},{:?},1\n", value(t, n));
     let rows = (0..120).flat_map(|t| (0..3).map(move |n| (t, n))).map(|(t, n)| row(t, n));
     format!("t,n,x,v\n{}", rows.collect::<String>())
-}
-
-/// Two steps of these pedestrians from each sample to the next. `spoil` may ask that from a step on one of them is wrong (`step`),
-/// two are (`several`), what all share is (`shared`), steps are of another length (`length`) or there are none (`ends`);
-/// no sample is touched by it.
-fn steps() -> String {
-    let wrong = |what: &str, step: usize| spoilt("simulate", what).is_some_and(|from| step >= from);
-    let from = spoilt("simulate", "state").unwrap_or(usize::MAX);
-    let print = |step: usize| {
-        let mut state: Vec<f64> = (0..7).map(|component| (step + component) as f64).collect();
-        let moved = [(1, wrong("step", step) || step >= from.saturating_mul(2)), (5, wrong("several", step))];
-        for (component, _) in
-            moved.into_iter().chain([(0, wrong("several", step)), (6, wrong("shared", step))]).filter(|one| one.1)
-        {
-            state[component] = state[component].next_up();
-        }
-        let length = if wrong("length", step) { 0.25 } else { 0.5 };
-        Print::new(if step == 0 { 0.0 } else { length }, &state, 3)
-    };
-    let rows = (0..240).filter(|&step| !wrong("ends", step));
-    let rows = rows.map(|step| format!("{:?},{}\n", step as f64 / 2.0, print(step)));
-    format!("t,print\n{}", rows.collect::<String>())
 }
 
 /// Copies the curve of each run (or makes a table from the scene's title) and writes two pictures.

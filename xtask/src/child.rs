@@ -1,23 +1,29 @@
 //! Starting a program and waiting for it.
 
-use crate::disk;
-use crate::failure::Failure;
 use crate::lock;
-use crate::usage::Usage;
+use checkout::disk;
+use checkout::failure::Failure;
+use checkout::process::not_started;
 use std::fs::File;
-use std::io::{BufRead, BufReader, ErrorKind, Read, Write};
+use std::io::{BufRead, BufReader, Read, Write};
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use wait4::Wait4 as _;
 
-/// How long a waiting thread sleeps before it looks again whether its program has ended, at most.
-const PATIENCE: Duration = Duration::from_millis(3);
-/// And at least. Between the two, the part [`PART`] of the time so far, so that what the program used is known as well.
-const IMPATIENCE: Duration = Duration::from_micros(100);
-/// See [`IMPATIENCE`].
-const PART: u32 = 50;
+/// How long a waiting thread sleeps before it looks again whether its program has ended.
+const PATIENCE: Duration = Duration::from_millis(2);
+
+/// What a program used.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Usage {
+    /// Seconds on a processor.
+    pub cpu: f64,
+    /// Largest resident memory, in bytes; 0 where the system does not tell.
+    pub memory: u64,
+}
 
 /// What a program says on stderr of the part of its work that is done, 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,53 +82,15 @@ pub fn run_measured(
     let child = command.stdin(lock::stdin()).stdout(file).stderr(Stdio::piped()).spawn();
     let mut child = child.map_err(|error| not_started(&name, &error))?;
     let words = child.stderr.take();
-    let mut usage = Usage::default();
-    let status = thread::scope(|scope| {
+    let (status, usage) = thread::scope(|scope| {
         scope.spawn(|| words.map(|words| listen(words, twin, heard)));
-        wait(&mut child, stop, &mut usage).map_err(|error| Failure::Failed(format!("{name}: {error}")))
+        wait(&mut child, stop).map_err(|error| Failure::Failed(format!("{name}: {error}")))
     })?;
     if status.success() {
         return Ok(usage);
     }
     let bytes = std::fs::read(log).map_err(Failure::at(log))?;
     Err(ended_badly(&name, status, String::from_utf8_lossy(&bytes).trim_end()))
-}
-
-/// Runs a program that shares our stdout and stderr.
-///
-/// # Errors
-/// As [`run_logged`], without a text when the program has ended badly: it has said why itself.
-pub fn run_shown(command: &mut Command) -> Result<(), Failure> {
-    let name = command.get_program().to_string_lossy().into_owned();
-    let status = command.status().map_err(|error| not_started(&name, &error))?;
-    match status.code() {
-        Some(0) => Ok(()),
-        Some(code) => Err(Failure::Child(code)),
-        None => Err(Failure::Failed(format!("{name}: {status}"))),
-    }
-}
-
-/// Cargo, as cargo named itself to us.
-pub fn cargo() -> Command {
-    Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
-}
-
-/// The first line that a program prints, or `None` when it cannot be run or ends badly.
-pub fn first_line(program: &str, arguments: &[&str]) -> Option<String> {
-    let bytes = output(Command::new(program).args(arguments))?;
-    Some(String::from_utf8_lossy(&bytes).lines().next().unwrap_or("").trim().to_owned())
-}
-
-/// As [`first_line`], in another folder.
-pub fn first_line_in(folder: &Path, program: &str, arguments: &[&str]) -> Option<String> {
-    let bytes = output(Command::new(program).args(arguments).current_dir(folder))?;
-    String::from_utf8_lossy(&bytes).lines().next().map(|line| line.trim().to_owned())
-}
-
-/// What a program prints, or `None` when it cannot be run or ends badly.
-pub fn output(command: &mut Command) -> Option<Vec<u8>> {
-    let output = command.stdin(Stdio::null()).stderr(Stdio::null()).output().ok()?;
-    output.status.success().then_some(output.stdout)
 }
 
 /// Passes lines on to the log until the program closes its stderr.
@@ -138,25 +106,18 @@ fn listen(words: impl Read, mut log: File, heard: &(dyn Fn(Word) + Sync)) {
     }
 }
 
-fn wait(child: &mut Child, stop: &AtomicBool, usage: &mut Usage) -> std::io::Result<ExitStatus> {
-    let start = Instant::now();
+/// Waits for the end of a program; kills it when `stop` becomes true.
+fn wait(child: &mut Child, stop: &AtomicBool) -> std::io::Result<(ExitStatus, Usage)> {
     loop {
-        usage.look(child.id());
-        if let Some(status) = child.try_wait()? {
-            return Ok(status);
+        if let Some(ended) = child.try_wait4()? {
+            let used = ended.rusage;
+            let cpu = (used.utime + used.stime).as_secs_f64();
+            return Ok((ended.status, Usage { cpu, memory: used.maxrss }));
         }
         if stop.load(Ordering::Relaxed) {
             child.kill()?;
         }
-        thread::sleep((start.elapsed() / PART).clamp(IMPATIENCE, PATIENCE));
-    }
-}
-
-fn not_started(name: &str, error: &std::io::Error) -> Failure {
-    let text = format!("{name}: {error}");
-    match error.kind() {
-        ErrorKind::NotFound => Failure::Unsupported(text),
-        _ => Failure::Failed(text),
+        thread::sleep(PATIENCE);
     }
 }
 

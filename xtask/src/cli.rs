@@ -1,7 +1,7 @@
 //! The command line.
 
-use crate::paths::Scheme;
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use checkout::paths::Scheme;
+use clap::{Args, Parser, Subcommand};
 use std::ffi::OsString;
 use std::path::PathBuf;
 
@@ -35,7 +35,8 @@ pub enum Verb {
     /// Make the tables of accuracy again, compare them with the committed ones, say which method buys which error
     Accuracy(AccuracyArgs),
     /// Measure seconds and instructions of the laws, of steps and of whole runs; against another commit, their ratios
-    Bench(BenchArgs),
+    #[command(disable_help_flag = true)]
+    Bench(ForwardArgs),
     /// Write the page: one HTML file with everything in it, which opens without a network
     Report(ReportArgs),
     /// Set the report as PDF, with its pictures and its numbers
@@ -49,12 +50,13 @@ pub enum Verb {
     #[command(disable_help_flag = true)]
     Map(ForwardArgs),
     /// Run a scene or a figure and write its trajectories in metres, as PedPy and JuPedSim read them
-    Export(ExportArgs),
+    #[command(disable_help_flag = true)]
+    Export(ForwardArgs),
     /// Describe the machine and the toolchain
     Describe(JsonArgs),
     /// Say what is missing and how to get it
     Doctor(JsonArgs),
-    /// Run the tests that Rust alone can run; the others are skipped aloud
+    /// Run the tests; those whose tools are missing are listed at the end
     Test,
     /// Run what continuous integration runs
     Ci(CiArgs),
@@ -218,25 +220,6 @@ pub struct AccuracyArgs {
     pub json: bool,
 }
 
-/// Options of `bench`.
-#[derive(Debug, Args)]
-pub struct BenchArgs {
-    /// Only benchmarks whose names contain one of these: heun, run/fig11
-    pub names: Vec<String>,
-    /// Another commit, measured in turn with this tree; ends with code 1 when this tree is slower
-    #[arg(long, value_name = "COMMIT")]
-    pub against: Option<String>,
-    /// How much slower counts: the whole interval of the ratio of seconds above it, or the ratio of instructions
-    #[arg(long, value_name = "PERCENT", default_value = "5%", value_parser = percent)]
-    pub fail_above: f64,
-    /// Samples of each benchmark; intervals need 6
-    #[arg(long, value_name = "N", default_value_t = 15, value_parser = clap::value_parser!(u16).range(1..))]
-    pub rounds: u16,
-    /// Print JSON
-    #[arg(long)]
-    pub json: bool,
-}
-
 /// Options of `bundle`.
 #[derive(Debug, Args)]
 pub struct BundleArgs {
@@ -257,19 +240,15 @@ fn seconds(text: &str) -> Result<f64, String> {
     number.map(|number| number * unit).ok_or_else(|| format!("{text}: must be a time such as 60s or 2m"))
 }
 
-/// `5%` or `5` as 0.05.
-fn percent(text: &str) -> Result<f64, String> {
-    let number: Option<f64> = text.strip_suffix('%').unwrap_or(text).parse().ok();
-    let fraction = number.filter(|number| number.is_finite() && *number >= 0.0).map(|number| number / 100.0);
-    fraction.ok_or_else(|| format!("{text}: must be a percentage such as 5%"))
-}
-
 /// Options of `report`.
 #[derive(Debug, Args)]
 pub struct ReportArgs {
     /// Where to write the page, in place of paper/report.html
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
+    /// End with code 1 when it has not the committed sum
+    #[arg(long)]
+    pub check: bool,
 }
 
 /// Arguments that another program reads.
@@ -278,51 +257,6 @@ pub struct ForwardArgs {
     /// Passed on as they are.
     #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
     pub arguments: Vec<OsString>,
-}
-
-/// Options of `export`.
-#[derive(Debug, Args)]
-pub struct ExportArgs {
-    /// A scene file, or a figure: fig11
-    #[arg(value_name = "SCENE|FIGURE")]
-    pub scene: String,
-    /// The panel of a scene that has several
-    #[arg(long)]
-    pub panel: Option<String>,
-    /// Folder for trajectories.txt and trajectories.sqlite; made if missing
-    #[arg(long, value_name = "DIR")]
-    pub out: PathBuf,
-    /// a_0 in metres, half the length of a standing pedestrian; by default such that the desired speed is 1.2 m/s,
-    /// which the paper calls typical: 0.6 for figure 11
-    #[arg(long, value_name = "METRES", value_parser = positive, allow_negative_numbers = true)]
-    pub a0: Option<f64>,
-    /// tau in seconds, the relaxation time; the default is what the paper calls typical
-    #[arg(long, value_name = "SECONDS", default_value = "0.5", value_parser = positive, allow_negative_numbers = true)]
-    pub tau: f64,
-    /// Frames a second
-    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(8..=100_000))]
-    pub fps: u32,
-    /// Time at which the run ends, in units of tau; by default that of the scene
-    #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
-    pub t_end: Option<f64>,
-    /// Only the text that PedPy reads, or only JuPedSim's sqlite file
-    #[arg(long, value_enum)]
-    pub format: Option<Format>,
-}
-
-/// A kind of file with trajectories.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Format {
-    /// `trajectories.txt`
-    Pedpy,
-    /// `trajectories.sqlite`
-    Jupedsim,
-}
-
-/// A finite number above 0.
-fn positive(text: &str) -> Result<f64, String> {
-    let number = text.parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0);
-    number.ok_or_else(|| format!("{text}: must be a number above 0"))
 }
 
 /// Options of verbs that only print.
@@ -339,9 +273,6 @@ pub struct PaperArgs {
     /// Accept the numbers and the sums of the document and of its pictures
     #[arg(long)]
     pub bless: bool,
-    /// Check the PDF too: tags, alternative texts, fonts, what it claims of PDF/A and PDF/UA (needs Python)
-    #[arg(long)]
-    pub check: bool,
 }
 
 /// Options of `ci`.

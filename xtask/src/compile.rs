@@ -1,82 +1,151 @@
-//! Building the binaries, only when their sources have changed.
+//! Building programs: those of the figures only when a source has changed, the others when a verb needs them.
 
-use crate::child;
-use crate::disk;
-use crate::failure::Failure;
-use crate::figure::Figure;
-use crate::hashing;
-use crate::paths::{FONT_SUMS, FONTS_REMEDY, Paths};
 use crate::sources::{Inputs, Sources};
+use checkout::disk;
+use checkout::failure::Failure;
+use checkout::figure::{self, Figure};
+use checkout::hashing;
+use checkout::paths::Paths;
+use checkout::process;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use std::fs::File;
 use std::path::Path;
-use std::time::{Duration, SystemTime, UNIX_EPOCH};
+use std::process::Command;
+use std::time::{SystemTime, UNIX_EPOCH};
 
-/// Binaries beside those of the figures.
-pub const TOOLS: [&str; 5] = ["simulate", "map", "precision", "hard", "studies"];
+/// The fonts that the pictures embed, each with its SHA-256: a damaged one would be compiled in, and every picture would fail or differ.
+pub const FONT_SUMS: [(&str, &str); 2] = [
+    ("LibertinusSerif-Italic.otf", "9a393d63d6e05f620d3dc0190dfd35a8ede58c0808cf0fc9de7fcb9c723e4c24"),
+    ("LibertinusSerif-Regular.otf", "fcf06307a77367394fcb0ccb241e59eea70dba3d732be309647611224679c733"),
+];
+/// How to get the fonts back.
+pub const FONTS_REMEDY: &str = "part of the checkout: git restore crates/plot/fonts";
 
-/// What was built: the hashes of the sources, and size and date of each binary, so that one that was built by hand since
+/// A package with programs that the plan starts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Package {
+    /// Its name.
+    pub name: &'static str,
+    /// Programs beside those of figures.
+    pub tools: &'static [&'static str],
+    /// Whether its figures are the supplements.
+    pub supplements: bool,
+}
+
+/// The figures of the paper, and what runs scenes.
+pub const FIGURES: Package = Package { name: "figures", tools: &["simulate", "map"], supplements: false };
+/// The supplements, and the tables of accuracy.
+pub const STUDIES: Package = Package { name: "studies", tools: &["precision", "hard", "studies"], supplements: true };
+
+/// Removes what is built of our own sources.
+const CLEAN: &str = "clean --quiet --release --locked -p math -p ode -p jam -p files -p scene -p plot -p reference -p figures -p studies";
+
+/// What was built: the hashes of the sources, and size and date of each program, so that one that was built by hand since
 /// then is not taken for ours.
 #[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Built {
     sources: Inputs,
-    binaries: BTreeMap<String, (u64, u128)>,
+    programs: BTreeMap<String, (u64, u128)>,
 }
 
-/// The command that builds the binaries, as a user would type it.
-pub const COMMAND: &str = "cargo build --release --locked -p figures";
-
-/// Whether the binaries are older than their sources, or missing.
-///
-/// # Errors
-/// The record of the last build cannot be read.
-pub fn is_needed(paths: &Paths, figures: &[Figure], sources: &Sources) -> Result<bool, Failure> {
-    let recorded = recorded(paths);
-    Ok(recorded != current(paths, figures, sources) || recorded.binaries.len() != names(figures).count())
-}
-
-/// Builds the binaries if needed; cargo's words go to stderr.
-///
-/// # Errors
-/// Unsupported: no cargo, or a font is missing or damaged. Failed: the build fails, or leaves a binary unmade.
-pub fn ensure(paths: &Paths, figures: &[Figure], sources: &Sources) -> Result<(), Failure> {
-    if !is_needed(paths, figures, sources)? {
-        return Ok(());
-    }
-    check_fonts(paths)?;
-    redate(paths, figures, &recorded(paths).sources, sources)?;
-    disk::remove(&paths.build_record())?;
-    let mut cargo = child::cargo();
-    cargo.args(COMMAND.split(' ').skip(1)).current_dir(&paths.root).env("CARGO_TARGET_DIR", &paths.target);
-    child::run_shown(&mut cargo).map_err(|failure| match failure {
-        Failure::Child(code) => Failure::Failed(format!("{COMMAND}: exit code {code}")),
-        other => other,
-    })?;
-    let built = current(paths, figures, sources);
-    if let Some(name) = names(figures).find(|name| !built.binaries.contains_key(*name)) {
-        return Err(Failure::Failed(format!("{COMMAND} made no binary {name}")));
-    }
-    disk::write_own(&paths.build_record(), json(&built)?.as_bytes())
-}
-
-fn recorded(paths: &Paths) -> Built {
-    serde_json::from_str(&disk::read_own(&paths.build_record())).unwrap_or_default()
-}
-
-/// Cargo compares dates. A source that has changed since the last build and yet is older than what was built then (the
-/// clock was set back, or an archive has kept its dates) would leave the binary as it was: it gets a later date.
-fn redate(paths: &Paths, figures: &[Figure], built_from: &Inputs, sources: &Sources) -> Result<(), Failure> {
-    let Some(newest) = names(figures).filter_map(|name| date(&paths.binary(name))).max() else { return Ok(()) };
-    let changed = |(name, hash): &(&String, &String)| built_from.get(*name) != Some(*hash);
-    for (name, _) in sources.files.iter().filter(|_| !built_from.is_empty()).filter(changed) {
-        let path = paths.root.join(name);
-        if date(&path).is_some_and(|date| date <= newest) {
-            let later = File::open(&path).and_then(|file| file.set_modified(newest + Duration::from_secs(1)));
-            later.map_err(Failure::at(&path))?;
+impl Package {
+    /// The packages that figures need; that of the paper always, since it runs the scenes.
+    pub fn of(figures: &[&Figure]) -> Vec<Package> {
+        match figures.iter().any(|figure| figure.is_supplement()) {
+            true => vec![FIGURES, STUDIES],
+            false => vec![FIGURES],
         }
     }
+
+    /// The command that builds it, as a user would type it.
+    pub fn command(self) -> String {
+        format!("cargo build --release --locked -p {}", self.name)
+    }
+
+    fn programs(self, all: &[Figure]) -> impl Iterator<Item = &str> {
+        let figures = all.iter().filter(move |figure| figure.is_supplement() == self.supplements);
+        self.tools.iter().copied().chain(figures.map(|figure| figure.slug.as_str()))
+    }
+
+    fn current(self, paths: &Paths, all: &[Figure], sources: &Sources) -> Built {
+        let programs = self.programs(all).filter_map(|name| Some((name.to_owned(), stamp(&paths.binary(name))?)));
+        Built { sources: sources.files.clone(), programs: programs.collect() }
+    }
+
+    fn recorded(self, paths: &Paths) -> Built {
+        serde_json::from_str(&disk::read_own(&paths.build_record(self.name))).unwrap_or_default()
+    }
+
+    /// Whether its programs are older than their sources, or missing.
+    pub fn is_stale(self, paths: &Paths, all: &[Figure], sources: &Sources) -> bool {
+        let recorded = self.recorded(paths);
+        recorded != self.current(paths, all, sources) || recorded.programs.len() != self.programs(all).count()
+    }
+
+    /// Cargo compares dates: whether a source that has changed since the last build is older than what was built then (the
+    /// clock was set back, an archive has kept its dates, it was saved during the build), so that cargo would leave the
+    /// program as it was.
+    fn is_hidden_from_cargo(self, paths: &Paths, all: &[Figure], sources: &Sources) -> bool {
+        let newest = self.programs(all).filter_map(|name| date(&paths.binary(name))).max();
+        let built_from = self.recorded(paths).sources;
+        let changed = |(name, hash): &(&String, &String)| built_from.get(*name) != Some(*hash);
+        let mut changed = sources.files.iter().filter(|_| !built_from.is_empty()).filter(changed);
+        changed.any(|(name, _)| date(&paths.root.join(name)) <= newest)
+    }
+}
+
+/// Builds packages if needed; cargo's words go to stderr.
+///
+/// # Errors
+/// Unsupported: no cargo, or a font is missing or damaged. Failed: the build fails, or leaves a program unmade.
+pub fn ensure(paths: &Paths, all: &[Figure], sources: &Sources, packages: &[Package]) -> Result<(), Failure> {
+    let stale = |package: &&Package| package.is_stale(paths, all, sources);
+    if packages.iter().filter(stale).any(|package| package.is_hidden_from_cargo(paths, all, sources)) {
+        // what they share goes for all of them
+        cargo(paths, CLEAN)?;
+    }
+    for package in packages.iter().filter(stale) {
+        check_fonts(paths)?;
+        disk::remove(&paths.build_record(package.name))?;
+        cargo(paths, package.command().trim_start_matches("cargo "))?;
+        let built = package.current(paths, all, sources);
+        if let Some(name) = package.programs(all).find(|name| !built.programs.contains_key(*name)) {
+            return Err(Failure::Failed(format!("{} made no program {name}", package.command())));
+        }
+        let text = serde_json::to_string_pretty(&built).map_err(Failure::failed)?;
+        disk::write_own(&paths.build_record(package.name), text.as_bytes())?;
+    }
     Ok(())
+}
+
+/// As [`ensure`], for verbs that start one of the tools of a package.
+///
+/// # Errors
+/// As [`ensure`].
+pub fn tools(paths: &Paths, package: Package) -> Result<(), Failure> {
+    let all = figure::discover(paths)?;
+    ensure(paths, &all, &Sources::read(paths)?, &[package])
+}
+
+/// Builds a program that no figure is made by (`verify`, `publish`, ...) and gives the command that starts it on this
+/// checkout. Cargo sees by itself when there is nothing to do.
+///
+/// # Errors
+/// Unsupported: no cargo. Failed: the build fails.
+pub fn program(paths: &Paths, package: &str, name: &str) -> Result<Command, Failure> {
+    cargo(paths, &format!("build --quiet --release --locked -p {package}"))?;
+    let mut command = Command::new(paths.binary(name));
+    command.arg(format!("--root={}", paths.root.display())).env("CARGO_TARGET_DIR", &paths.target);
+    Ok(command)
+}
+
+fn cargo(paths: &Paths, words: &str) -> Result<(), Failure> {
+    let mut cargo = process::cargo();
+    cargo.args(words.split(' ')).current_dir(&paths.root).env("CARGO_TARGET_DIR", &paths.target);
+    process::run_shown(&mut cargo).map_err(|failure| match failure {
+        Failure::Child(code) => Failure::Failed(format!("cargo {words}: exit code {code}")),
+        other => other,
+    })
 }
 
 /// Whether the fonts that the pictures embed are there, byte for byte.
@@ -97,15 +166,6 @@ pub fn check_fonts(paths: &Paths) -> Result<(), Failure> {
     Ok(())
 }
 
-fn names(figures: &[Figure]) -> impl Iterator<Item = &str> {
-    TOOLS.into_iter().chain(figures.iter().map(|figure| figure.slug.as_str()))
-}
-
-fn current(paths: &Paths, figures: &[Figure], sources: &Sources) -> Built {
-    let binaries = names(figures).filter_map(|name| Some((name.to_owned(), stamp(&paths.binary(name))?)));
-    Built { sources: sources.files.clone(), binaries: binaries.collect() }
-}
-
 /// Bytes, and nanoseconds since 1970.
 fn stamp(path: &Path) -> Option<(u64, u128)> {
     let date = date(path)?.duration_since(UNIX_EPOCH).ok()?;
@@ -114,8 +174,4 @@ fn stamp(path: &Path) -> Option<(u64, u128)> {
 
 fn date(path: &Path) -> Option<SystemTime> {
     path.metadata().and_then(|data| data.modified()).ok()
-}
-
-fn json(built: &Built) -> Result<String, Failure> {
-    serde_json::to_string_pretty(built).map_err(Failure::failed)
 }

@@ -1,14 +1,16 @@
 //! What must be true before a document about the figures is made: they are up to date, and they are the committed ones.
 
-use crate::failure::Failure;
-use crate::figure::{self, Figure};
-use crate::hashing;
-use crate::paths::Paths;
 use crate::record::{self, Records};
 use crate::sources::Sources;
-use crate::sums::{State, Sums};
+use checkout::failure::Failure;
+use checkout::figure::{self, Figure};
+use checkout::hashing;
+use checkout::paths::Paths;
+use checkout::sums::{Committed, State, Sums};
 use std::collections::BTreeMap;
+use std::io::ErrorKind;
 use std::path::PathBuf;
+use std::process::Command;
 
 /// Problems named in a message; the rest is counted.
 const SHOWN: usize = 5;
@@ -33,6 +35,27 @@ pub fn figures_verify(paths: &Paths, all: &[Figure]) -> Result<(), Failure> {
     match stale.collect::<Vec<_>>() {
         reasons if reasons.is_empty() => Ok(()),
         reasons => Err(Failure::Stale(complain("stale", &reasons))),
+    }
+}
+
+/// Checks that all figures and supplements are fresh, and each of their outputs has the committed sum. Runs nothing.
+///
+/// # Errors
+/// As [`figures_verify`].
+pub fn everything_verifies(paths: &Paths, all: &[Figure]) -> Result<(), Failure> {
+    let figures: Vec<&Figure> = all.iter().collect();
+    let surveys = record::survey(paths, &figures, &Sources::read(paths)?, &Records::read(paths)?)?;
+    let stale = surveys.iter().filter(|survey| !survey.reasons.is_empty()).map(|survey| survey.figure.id.as_str());
+    let stale: Vec<&str> = stale.collect();
+    if !stale.is_empty() {
+        return Err(Failure::Stale(format!("stale: {}; run cargo xtask figures --all first", stale.join(" "))));
+    }
+    let committed = Committed::read(paths)?;
+    let states = surveys.iter().flat_map(|survey| committed.judge(paths, survey.figure, &survey.outputs));
+    let wrong: Vec<String> = states.filter(|(_, state)| *state != State::Same).map(|(name, _)| name).collect();
+    match wrong.is_empty() {
+        true => Ok(()),
+        false => Err(Failure::Differs(format!("not as committed: {}", wrong.join(" ")))),
     }
 }
 
@@ -63,4 +86,21 @@ fn complain(what: &str, problems: &[String]) -> String {
     };
     let shown = problems[..problems.len().min(SHOWN)].join("\n");
     format!("the figures do not verify, {what}:\n{shown}{more}\ncargo xtask figures makes them again")
+}
+
+/// Tracked files that are not as committed; `None` where there is no git or no repository.
+///
+/// # Errors
+/// Git cannot be started.
+pub fn modified(paths: &Paths) -> Result<Option<Vec<String>>, Failure> {
+    let mut git = Command::new("git");
+    git.arg("-C").arg(&paths.root).args(["status", "--porcelain", "-z", "--untracked-files=no", "--no-renames"]);
+    let output = match git.output() {
+        Ok(output) if output.status.success() => output,
+        Ok(_) => return Ok(None),
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+        Err(error) => return Err(Failure::Failed(format!("git: {error}"))),
+    };
+    let text = String::from_utf8_lossy(&output.stdout);
+    Ok(Some(text.split('\0').filter_map(|entry| entry.get(3..)).map(str::to_owned).collect()))
 }

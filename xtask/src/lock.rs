@@ -1,8 +1,8 @@
 //! One run at a time in one target folder.
 
-use crate::disk;
-use crate::failure::Failure;
-use crate::paths::Paths;
+use checkout::disk;
+use checkout::failure::Failure;
+use checkout::paths::Paths;
 use std::fs::{File, TryLockError};
 use std::process::Stdio;
 use std::sync::{Mutex, PoisonError};
@@ -10,10 +10,11 @@ use std::sync::{Mutex, PoisonError};
 /// The lock of this process, for its programs.
 static HELD: Mutex<Option<File>> = Mutex::new(None);
 
-/// Held while the runner writes; freed when dropped, also by a crash.
+/// Held while the runner writes; freed when dropped, also by a crash. What takes it while this process has it shares it.
 #[derive(Debug)]
 pub struct Lock {
-    _file: File,
+    /// None for one that shares the lock of another.
+    file: Option<File>,
 }
 
 impl Lock {
@@ -23,6 +24,11 @@ impl Lock {
     /// The lock file cannot be written or locked.
     pub fn take(paths: &Paths) -> Result<Lock, Failure> {
         let path = paths.lock();
+        // held until the end, so that two threads do not wait for each other's file
+        let mut held = HELD.lock().unwrap_or_else(PoisonError::into_inner);
+        if held.is_some() {
+            return Ok(Lock { file: None });
+        }
         disk::own_folder(&paths.xtask())?;
         disk::clear_for_file(&path)?;
         let file = File::create(&path).map_err(Failure::at(&path))?;
@@ -34,14 +40,16 @@ impl Lock {
             }
             Err(TryLockError::Error(error)) => return Err(Failure::at(&path)(error)),
         }
-        *HELD.lock().unwrap_or_else(PoisonError::into_inner) = Some(file.try_clone().map_err(Failure::at(&path))?);
-        Ok(Lock { _file: file })
+        *held = Some(file.try_clone().map_err(Failure::at(&path))?);
+        Ok(Lock { file: Some(file) })
     }
 }
 
 impl Drop for Lock {
     fn drop(&mut self) {
-        *HELD.lock().unwrap_or_else(PoisonError::into_inner) = None;
+        if self.file.is_some() {
+            *HELD.lock().unwrap_or_else(PoisonError::into_inner) = None;
+        }
     }
 }
 

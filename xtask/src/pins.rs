@@ -1,11 +1,11 @@
 //! What a build takes from outside: the compiler, and the crates of the lock file. As named texts, so that a change can
 //! be told with both versions.
 
-use crate::child;
-use crate::disk;
-use crate::failure::Failure;
-use crate::paths::{LOCK_FILE, Paths};
 use crate::sources::Inputs;
+use checkout::disk;
+use checkout::failure::Failure;
+use checkout::paths::{LOCK_FILE, Paths};
+use checkout::process;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -40,7 +40,7 @@ pub fn read(paths: &Paths) -> Result<Inputs, Failure> {
     let text = disk::read_text(&paths.root.join(LOCK_FILE))?.unwrap_or_default();
     let mut pins = crates(&text).map_err(|error| Failure::Usage(format!("{LOCK_FILE}: {error}")))?;
     // the file that pins the toolchain counts in the folder where cargo is started
-    let version = child::first_line_in(&paths.root, RUSTC, &["--version"]);
+    let version = process::first_line_in(&paths.root, RUSTC, &["--version"]);
     pins.insert(RUSTC.to_owned(), version.unwrap_or_else(|| "unknown".to_owned()));
     Ok(pins)
 }

@@ -1,10 +1,10 @@
 //! What has to be done, in which order.
 
-use crate::failure::Failure;
-use crate::paths::Paths;
 use crate::pool::Job;
 use crate::record::Survey;
 use crate::store;
+use checkout::failure::Failure;
+use checkout::paths::Paths;
 use files::reader::Value;
 use files::recipe::{Kind, Panel};
 use std::collections::BTreeMap;

@@ -1,6 +1,8 @@
 //! Nodes at work in parallel: longest first, none before what it needs.
 
-use crate::failure::Failure;
+use checkout::failure::Failure;
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError, mpsc};
 use std::thread;
@@ -35,7 +37,7 @@ enum Phase {
 
 /// Runs every job on at most `threads` threads. `work` gets the index of the job and a flag that becomes true when
 /// everything is to stop; `ended` is called on the calling thread as each job ends. Without `keep_going` the first
-/// failure stops all; with it only what needs the failed job is skipped.
+/// failure stops all; with it only what needs the failed job is skipped. A job that panics has failed.
 pub fn run<T: Send>(
     jobs: &[Job],
     threads: usize,
@@ -49,7 +51,8 @@ pub fn run<T: Send>(
     let mut outcomes: Vec<Outcome<T>> = jobs.iter().map(|_| Outcome::Skipped).collect();
     let worker = |sender: mpsc::Sender<(usize, Result<T, Failure>)>| {
         while let Some(index) = take(jobs, &phases, &changed, &stop) {
-            let result = work(index, &stop);
+            let result = catch_unwind(AssertUnwindSafe(|| work(index, &stop)))
+                .unwrap_or_else(|panic| Err(Failure::Failed(format!("a defect of the runner: {}", words_of(&*panic)))));
             let failed = result.is_err();
             // before the others are stopped, so that the cause arrives first; the receiver outlives every sender
             let _ = sender.send((index, result));
@@ -111,6 +114,12 @@ fn lose_dependents(jobs: &[Job], phases: &mut [Phase]) {
             phases[index] = Phase::Lost;
         }
     }
+}
+
+/// What a panic said.
+fn words_of(panic: &(dyn Any + Send)) -> &str {
+    let text = panic.downcast_ref::<String>().map(String::as_str);
+    text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("a panic without words")
 }
 
 /// A thread that panicked leaves the phases as they were before its change: they stay usable.

@@ -1,6 +1,7 @@
 //! How far the nodes at work are, on stderr: one line that changes on a terminal, else a plain line now and then.
 
 use crate::child::Word;
+use checkout::print::duration;
 use std::collections::BTreeMap;
 use std::io::{IsTerminal, Write};
 use std::sync::{Mutex, PoisonError};
@@ -34,15 +35,6 @@ impl Track {
     pub fn words(&self) -> String {
         let left = self.left().map_or(String::new(), |left| format!(", about {} left", duration(left)));
         format!("{:.0} %{left}", 100.0 * self.done)
-    }
-}
-
-/// Seconds in words: `48 s`, `5 min`, `2.1 h`.
-pub fn duration(seconds: f64) -> String {
-    match seconds {
-        ..90.0 => format!("{seconds:.0} s"),
-        90.0..5400.0 => format!("{:.0} min", seconds / 60.0),
-        _ => format!("{:.1} h", seconds / 3600.0),
     }
 }
 

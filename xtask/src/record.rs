@@ -1,15 +1,15 @@
 //! What each figure was made from the last time, and why it is stale now.
 
-use crate::disk;
-use crate::failure::Failure;
-use crate::figure::Figure;
-use crate::hashing;
-use crate::manifest::Measured;
-use crate::outputs::{self, Hashes};
-use crate::paths::{Paths, Scheme};
+use crate::measured::Measured;
 use crate::pins::{CRATE, RUSTC};
 use crate::sources::{Inputs, KEY, Sources};
 use crate::store;
+use checkout::disk;
+use checkout::failure::Failure;
+use checkout::figure::Figure;
+use checkout::hashing;
+use checkout::outputs::{self, Hashes};
+use checkout::paths::{Paths, Scheme};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 

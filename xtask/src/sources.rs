@@ -1,14 +1,54 @@
 //! Everything that outputs are made from, with a hash for each file, so that a change can be named.
 
-use crate::disk;
-use crate::failure::Failure;
-use crate::figure::Figure;
-use crate::hashing;
-use crate::paths::{
-    LOCK_FILE, NO_SOURCES, NUMERIC_SOURCES, Paths, SHARED_SOURCES, SINGLE_SOURCES, SOURCE_FOLDERS, SUPPLEMENT_SOURCES,
-};
 use crate::pins;
+use checkout::disk;
+use checkout::failure::Failure;
+use checkout::figure::Figure;
+use checkout::hashing;
+use checkout::paths::{LOCK_FILE, Paths, TOOLCHAIN};
 use std::collections::BTreeMap;
+
+/// Single files that determine what the binaries do.
+const SINGLE_SOURCES: [&str; 4] = ["Cargo.toml", LOCK_FILE, TOOLCHAIN, ".cargo/config.toml"];
+/// Crates that determine the numbers of a run.
+const NUMERIC_SOURCES: [&str; 7] = [
+    "crates/math/",
+    "crates/ode/",
+    "crates/jam/",
+    "crates/files/",
+    "crates/scene/",
+    "figures/src/",
+    "figures/Cargo.toml",
+];
+/// Sources that every figure shares.
+const SHARED_SOURCES: [&str; 9] = [
+    "crates/math/",
+    "crates/ode/",
+    "crates/jam/",
+    "crates/files/",
+    "crates/scene/",
+    "crates/plot/",
+    "figures/src/",
+    "figures/Cargo.toml",
+    "data/reference/",
+];
+/// Sources that supplements share: no figure of the paper reads them.
+const SUPPLEMENT_SOURCES: [&str; 4] = ["crates/reference/", "crates/studies/", "data/accuracy/", "data/timing/"];
+/// Folders that are searched for sources.
+const SOURCE_FOLDERS: [&str; 5] = ["crates", "figures", "data/accuracy", "data/reference", "data/timing"];
+/// Below the folders searched, what reaches no figure: the page for browsers, the programs about the result, solutions to
+/// compare with, archived benchmarks.
+const NO_SOURCES: [&str; 9] = [
+    "crates/browser/",
+    "crates/checkout/",
+    "crates/claims/",
+    "crates/interchange/",
+    "crates/measure/",
+    "crates/publish/",
+    "crates/verify/",
+    "data/reference/solutions/",
+    "data/timing/bench/",
+];
 
 /// Named hashes: of a file by its name relative to the root, or `run PANEL` with the key of a run. Where a change is to
 /// be told with both values, these stand in place of a hash: `rustc`, `crate NAME`, `key PANEL.TABLE.KEY` of the scene.

@@ -1,11 +1,14 @@
 //! Stored runs: a folder for each, named by the hash of what determines the run, with a list of sums written last.
 
-use crate::disk;
-use crate::failure::Failure;
-use crate::hashing;
-use crate::paths::{Paths, STORE_SUMS, Scheme};
-use crate::sums::Sums;
+use checkout::disk;
+use checkout::failure::Failure;
+use checkout::hashing;
+use checkout::paths::{Paths, Scheme};
+use checkout::sums::Sums;
 use std::path::{Path, PathBuf};
+
+/// The list of sums inside a stored run.
+const STORE_SUMS: &str = "SHA256SUMS";
 
 /// The key of a run: the hash of what determines its numbers.
 pub fn key(determinants: &str, numeric_sources: &str, scheme: Scheme) -> String {
@@ -58,5 +61,5 @@ pub fn adopt(fresh: &Path, folder: &Path) -> Result<(), Failure> {
     let hashes = hashing::hash_all(&paths)?;
     let by_name = names.into_iter().zip(hashes).filter_map(|(name, hash)| Some((name, hash?))).collect();
     disk::write(&fresh.join(STORE_SUMS), Sums { by_name }.to_text().as_bytes())?;
-    disk::replace(fresh, folder)
+    disk::replace_folder(fresh, folder)
 }

@@ -1,17 +1,16 @@
 //! Carrying out a plan: programs are started, their outputs put in place, progress goes to stderr.
 
-use crate::child::{self, Word};
-use crate::disk;
-use crate::failure::Failure;
-use crate::figure::Figure;
-use crate::outputs::{self, Hashes};
-use crate::paths::{Paths, Scheme};
+use crate::child::{self, Usage, Word};
 use crate::plan::{Node, Step};
 use crate::pool::{self, Job, Outcome};
 use crate::progress::Board;
 use crate::record::Survey;
 use crate::store;
-use crate::usage::Usage;
+use checkout::disk;
+use checkout::failure::Failure;
+use checkout::figure::Figure;
+use checkout::outputs::{self, Hashes};
+use checkout::paths::{Paths, Scheme};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -119,8 +118,7 @@ fn discard(fresh: &Path) {
 fn simulate(paths: &Paths, scene: &str, panel: &str, check: bool) -> Command {
     let mut command = Command::new(paths.binary("simulate"));
     command.current_dir(&paths.root).arg(scene).args(["--panel", panel, "--tables-only", "--progress"]);
-    // a check is compared with its run alone
-    command.arg(if check { "--check" } else { "--steps" });
+    command.args(check.then_some("--check"));
     if paths.scheme == Scheme::Paper {
         command.args(["--scheme", "paper"]);
     }
@@ -169,7 +167,7 @@ fn put_in_place(paths: &Paths, survey: &Survey<'_>, fresh: &Path) -> Result<Hash
         disk::remove(fresh)?;
         disk::remove(&tables)?;
     } else {
-        disk::replace(fresh, &tables)?;
+        disk::replace_folder(fresh, &tables)?;
     }
     let hashes = outputs::hash(paths, &[survey.figure])?.swap_remove(0);
     match outputs::pictures(paths, survey.figure).into_iter().find(|name| !hashes.contains_key(name)) {

@@ -1,6 +1,7 @@
 //! A TOML document as a tree that remembers its lines, and a reader that takes typed values from it: every complaint
 //! names file, line, key, the value found and what would be valid.
 
+use crate::text::hint_in;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::{Bound, RangeBounds};
 use toml::de::{DeTable, DeValue};
@@ -84,7 +85,8 @@ impl Section {
         let fail = |line, problem| RecipeError { file: file.to_owned(), line, problem };
         let table = DeTable::parse(text).map_err(|error| {
             let line = error.span().map_or(0, |span| line_of(text, span.start));
-            fail(line, error.message().to_owned())
+            let hint = text.lines().nth(line.wrapping_sub(1)).and_then(hint_in);
+            fail(line, format!("{}{}", error.message(), hint.map_or(String::new(), |hint| format!(": {hint}"))))
         })?;
         section(text, table.get_ref(), 1).map_err(|(line, problem)| fail(line, problem))
     }
@@ -145,7 +147,15 @@ fn section(text: &str, table: &DeTable<'_>, line: usize) -> Result<Section, (usi
 }
 
 fn whole(digits: &str, radix: u32, line: usize) -> Result<f64, (usize, String)> {
-    i64::from_str_radix(digits, radix).map(|number| number as f64).map_err(|_| not_a_number(digits, line))
+    let number = i64::from_str_radix(digits, radix).map_err(|_| not_a_number(digits, line))?;
+    let nearest = number as f64;
+    // the largest i64 rounds up to a double that i64 cannot hold
+    if nearest as i128 == i128::from(number) {
+        Ok(nearest)
+    } else {
+        let problem = format!("{digits} is a whole number that no double holds; the nearest is {}", nearest as i128);
+        Err((line, problem))
+    }
 }
 
 fn not_a_number(digits: &str, line: usize) -> (usize, String) {
@@ -228,7 +238,8 @@ impl<'a> Reader<'a> {
         match self.section.entries.get(key) {
             None => Err(self.missing(key, &wanted)),
             Some(Entry { value: Value::Number(number), .. })
-                if number.fract() == 0.0 && *number >= low as f64 && *number <= high as f64 =>
+                // the cast takes what is too large to the largest count, and what is negative to 0
+                if number.fract() == 0.0 && *number >= 0.0 && (low..=high).contains(&(*number as usize)) =>
             {
                 Ok(*number as usize)
             }

@@ -2,6 +2,7 @@
 //! `[ring]`, ...) hold for every panel; `[panel.NAME.law]` and the like lie on top of them.
 
 use crate::reader::{Entry, RecipeError, Section, Value};
+use crate::text;
 use std::path::Path;
 
 /// Tables that determine numbers.
@@ -80,11 +81,7 @@ impl Recipe {
 /// The file cannot be read, is not TOML, or has an unknown table.
 pub fn read(path: &Path) -> Result<Recipe, RecipeError> {
     let file = path.display().to_string();
-    let text = std::fs::read_to_string(path).map_err(|error| RecipeError {
-        file: file.clone(),
-        line: 0,
-        problem: error.to_string(),
-    })?;
+    let text = text::read(path).map_err(|(line, problem)| RecipeError { file: file.clone(), line, problem })?;
     parse(&file, &text)
 }
 

@@ -3,10 +3,16 @@
 use crate::problem::Problem;
 use files::reader::{POSITIVE, Reader};
 use files::recipe::{Kind, Panel, Recipe};
+use std::ops::RangeInclusive;
 
 /// The desired speed that the paper calls typical, in tenths of a metre a second; where `a_0` is not given it follows from
 /// this one. A whole number, so that a length such as 0.2 m is not missed by a rounding.
 pub const TYPICAL_SPEED: u32 = 12;
+
+/// Frames a second that can be asked for.
+pub const RATES: RangeInclusive<f64> = 1.0..=1000.0;
+/// `a_0` in metres: the positions of all that lies between can be written with all their digits.
+pub const LENGTHS: RangeInclusive<f64> = 1e-15..=1e9;
 
 /// The lengths and times of the model in metres and seconds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +43,7 @@ pub struct Header {
     /// Metres and seconds.
     pub units: Units,
     /// Frames a second.
-    pub rate: u32,
+    pub rate: f64,
 }
 
 impl Header {
@@ -45,8 +51,8 @@ impl Header {
     /// [`TYPICAL_SPEED`]; `time` is `tau` in seconds.
     ///
     /// # Errors
-    /// The panel is no run, or its ring or desired speed is missing or out of range, with file and line.
-    pub fn new(recipe: &Recipe, panel: &Panel, length: Option<f64>, time: f64, rate: u32) -> Result<Header, Problem> {
+    /// `a_0` is out of range, the panel is no run, or its ring or desired speed is missing or out of range, with file and line.
+    pub fn new(recipe: &Recipe, panel: &Panel, length: Option<f64>, time: f64, rate: f64) -> Result<Header, Problem> {
         if panel.kind != Kind::Run {
             return Err(Problem::Input(format!("{}: has no [run], so no trajectories", recipe.file)));
         }
@@ -54,7 +60,15 @@ impl Header {
         let mut ring = Reader::new(&recipe.file, "ring", tables.section("ring")?);
         let mut law = Reader::new(&recipe.file, "law", tables.section("law")?);
         let desired_speed = law.number("v0", POSITIVE)?;
+        let is_derived = length.is_none();
         let derived = f64::from(TYPICAL_SPEED) * time / (10.0 * desired_speed);
+        let length = length.unwrap_or(derived);
+        if !LENGTHS.contains(&length) {
+            let (low, high) = (LENGTHS.start(), LENGTHS.end());
+            return Err(Problem::Input(format!(
+                "a_0 = {length:?} m: must be from {low:e} to {high:e} m; --a0 sets it"
+            )));
+        }
         Ok(Header {
             title: line(&recipe.title),
             source: line(&recipe.source),
@@ -62,14 +76,14 @@ impl Header {
             pedestrians: ring.count("pedestrians", 2, 10_000_000)? as u32,
             ring: ring.number("length", POSITIVE)?,
             desired_speed,
-            units: Units { length: length.unwrap_or(derived), time, is_derived: length.is_none() },
+            units: Units { length, time, is_derived },
             rate,
         })
     }
 
     /// The time between two frames, in units of `tau`.
     pub fn interval(&self) -> f64 {
-        1.0 / (f64::from(self.rate) * self.units.time)
+        1.0 / (self.rate * self.units.time)
     }
 
     /// A position in metres.

@@ -1,46 +1,59 @@
-//! Writes the table of a run for other programs: `export --scene SCENE.toml --table trajectories.csv --out DIR ...`;
-//! `cargo xtask export` makes the table first.
+//! Runs a scene with a sample for each frame and writes its table for other programs: `export SCENE.toml --out DIR ...`.
 
+use checkout::figure;
+use checkout::paths::Paths;
 use clap::{Parser, ValueEnum};
 use files::recipe;
-use files::write::with_path;
+use files::write::{self, Draft, with_path};
 use interchange::Problem;
-use interchange::draft::Draft;
 use interchange::frames::Frames;
-use interchange::header::Header;
+use interchange::header::{Header, RATES};
 use interchange::{sqlite, text};
 use std::io::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// What the command line asks for.
 #[derive(Debug, Parser)]
-#[command(name = "export", about = "Writes the trajectories of a run as PedPy and JuPedSim read them")]
+#[command(
+    name = "export",
+    about = "Runs a scene or a figure and writes its trajectories as PedPy and JuPedSim read them"
+)]
 struct Arguments {
-    /// The scene file of the run
-    #[arg(long, value_name = "FILE")]
-    scene: PathBuf,
+    /// A scene file, or a figure: fig11
+    #[arg(value_name = "SCENE|FIGURE")]
+    scene: String,
     /// The panel of a scene that has several
     #[arg(long)]
     panel: Option<String>,
-    /// trajectories.csv of the run, sampled every 1 / (fps * tau)
-    #[arg(long, value_name = "FILE")]
-    table: PathBuf,
     /// Folder for trajectories.txt and trajectories.sqlite; made if missing
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// a_0 in metres; by default such that the desired speed is 1.2 m/s, which the paper calls typical
+    /// a_0 in metres, half the length of a standing pedestrian; by default such that the desired speed is 1.2 m/s,
+    /// which the paper calls typical: 0.6 for figure 11
     #[arg(long, value_name = "METRES", value_parser = positive, allow_negative_numbers = true)]
     a0: Option<f64>,
-    /// tau in seconds
-    #[arg(long, value_name = "SECONDS", value_parser = positive, allow_negative_numbers = true)]
+    /// tau in seconds, the relaxation time; the default is what the paper calls typical
+    #[arg(long, value_name = "SECONDS", default_value = "0.5", value_parser = positive, allow_negative_numbers = true)]
     tau: f64,
-    /// Frames a second
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    fps: u32,
+    /// Frames a second: 1 to 1000, decimals too
+    #[arg(long, value_name = "N", default_value = "8", value_parser = rate, allow_negative_numbers = true)]
+    fps: f64,
+    /// Time at which the run ends, in units of tau; by default that of the scene
+    #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
+    t_end: Option<f64>,
     /// Only the text that PedPy reads, or only JuPedSim's sqlite file
     #[arg(long)]
     format: Option<Format>,
+    /// trajectories.csv of a run that was made before, sampled every 1 / (fps * tau)
+    #[arg(long, value_name = "FILE", conflicts_with = "t_end")]
+    table: Option<PathBuf>,
+    /// The program that runs the scene, when it is not beside this one
+    #[arg(long, value_name = "FILE", hide = true)]
+    simulate: Option<PathBuf>,
+    /// The checkout, for the names of figures
+    #[arg(long, hide = true)]
+    root: Option<PathBuf>,
 }
 
 /// A kind of file.
@@ -57,6 +70,11 @@ fn positive(text: &str) -> Result<f64, String> {
     number.ok_or_else(|| format!("{text}: must be a number above 0"))
 }
 
+fn rate(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number| RATES.contains(number));
+    number.ok_or_else(|| format!("{text}: must be a number from {} to {}", RATES.start(), RATES.end()))
+}
+
 fn main() -> ExitCode {
     match run(&Arguments::parse()) {
         Ok(()) => ExitCode::SUCCESS,
@@ -68,14 +86,22 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<(), Problem> {
-    let recipe = recipe::read(&arguments.scene)?;
+    let recipe = recipe::read(&scene(arguments)?)?;
     let panel = match &arguments.panel {
         Some(name) => recipe.panel(name)?,
         None if recipe.panels.len() == 1 => &recipe.panels[0],
         None => return Err(Problem::Input(format!("{}: has several panels: choose one with --panel", recipe.file))),
     };
     let header = Header::new(&recipe, panel, arguments.a0, arguments.tau, arguments.fps)?;
-    let frames = || Frames::open(&arguments.table, header.pedestrians, header.interval());
+    let folder = tempfile::tempdir().map_err(|error| Problem::Work(error.to_string()))?;
+    let table = match &arguments.table {
+        Some(table) => table.clone(),
+        None => {
+            let simulate = arguments.simulate.clone().map_or_else(beside, Ok)?;
+            interchange::run::make(&simulate, &recipe, panel, &header, arguments.t_end, folder.path())?
+        }
+    };
+    let frames = || Frames::open(&table, header.pedestrians, header.interval());
     std::fs::create_dir_all(&arguments.out).map_err(|error| with_path(error, &arguments.out))?;
     let mut drafts = Vec::new();
     if arguments.format != Some(Format::Jupedsim) {
@@ -91,14 +117,32 @@ fn run(arguments: &Arguments) -> Result<(), Problem> {
     publish(drafts, &header)
 }
 
+/// The scene file that is meant: a file, or that of a figure.
+fn scene(arguments: &Arguments) -> Result<PathBuf, Problem> {
+    let wanted = &arguments.scene;
+    if wanted.ends_with(".toml") || Path::new(wanted).is_file() {
+        return Ok(PathBuf::from(wanted));
+    }
+    let found = Paths::find(arguments.root.clone()).and_then(|paths| {
+        let all = figure::discover(&paths)?;
+        Ok(paths.root.join(Paths::scene(&figure::find(&all, wanted)?.slug)))
+    });
+    found.map_err(|failure| Problem::Input(failure.text().to_owned()))
+}
+
+/// `simulate` in the folder of this program.
+fn beside() -> Result<PathBuf, Problem> {
+    Ok(std::env::current_exe()?.with_file_name(format!("simulate{}", std::env::consts::EXE_SUFFIX)))
+}
+
 /// All files or none, unless a rename fails half-way; then what was written, on stdout.
 fn publish(drafts: Vec<(Draft, u64)>, header: &Header) -> Result<(), Problem> {
     let mut words = String::new();
-    for (draft, rows) in drafts {
-        let (file, frames) = (draft.place().display().to_string(), rows / u64::from(header.pedestrians));
+    for (draft, rows) in &drafts {
+        let (file, frames) = (draft.place().display(), rows / u64::from(header.pedestrians));
         words.push_str(&format!("{file}: {frames} frames of {} pedestrians\n", header.pedestrians));
-        draft.publish()?;
     }
+    write::publish(drafts.into_iter().map(|(draft, _)| draft).collect())?;
     let facts = header.facts();
     let fact = |name| facts.iter().find(|(known, _)| *known == name).map_or("", |(_, value)| value);
     let units =

@@ -34,7 +34,11 @@ impl std::error::Error for Problem {}
 
 impl From<io::Error> for Problem {
     fn from(error: io::Error) -> Problem {
-        Problem::Work(error.to_string())
+        // a pipe or a device where a file is to be written
+        match error.kind() {
+            io::ErrorKind::InvalidInput => Problem::Input(error.to_string()),
+            _ => Problem::Work(error.to_string()),
+        }
     }
 }
 

@@ -1,10 +1,10 @@
 //! JuPedSim's trajectory file, a database of SQLite, version 2: the tables of its `SqliteTrajectoryWriter`, with what
 //! [`Header::facts`] says among the metadata.
 
-use crate::draft::Draft;
 use crate::frames::Row;
 use crate::header::Header;
 use crate::problem::Problem;
+use files::write::Draft;
 use rusqlite::{Connection, params};
 
 /// The version of the form.
@@ -82,8 +82,9 @@ fn fill(
         let Row { frame, n, x } = row?;
         let x = header.metres(x);
         insert.execute(params![frame, n, x]).map_err(at)?;
-        extent.least = extent.least.min(x);
-        extent.most = extent.most.max(x);
+        // every x is finite
+        extent.least = if x < extent.least { x } else { extent.least };
+        extent.most = if x > extent.most { x } else { extent.most };
         extent.frames = frame + 1;
         extent.rows += 1;
     }
@@ -102,7 +103,7 @@ fn describe(database: &Connection, header: &Header, extent: &Extent) -> rusqlite
     let mut entry = database.prepare("INSERT INTO metadata VALUES(?, ?)")?;
     let mut say = |key: &str, value: &str| entry.execute(params![key, value]).map(|_| ());
     say("version", &VERSION.to_string())?;
-    say("fps", &format!("{:?}", f64::from(header.rate)))?;
+    say("fps", &format!("{:?}", header.rate))?;
     let bounds = [("xmin", corridor.from), ("xmax", corridor.to), ("ymin", -Corridor::HALF), ("ymax", Corridor::HALF)];
     bounds.iter().try_for_each(|(key, value)| say(key, &format!("{value:?}")))?;
     header.facts().iter().try_for_each(|(key, value)| say(key, value))

@@ -1,16 +1,19 @@
 //! Text as PedPy and the archive of pedestrian experiments have it: comments with the frame rate and the columns, then a
 //! line for each pedestrian in each frame.
 
-use crate::draft::Draft;
 use crate::frames::Row;
 use crate::header::Header;
 use crate::problem::Problem;
-use files::write::with_path;
+use files::write::{Draft, with_path};
 use std::fs::File;
 use std::io::{BufWriter, Write};
 
-/// Digits behind the point of a position in metres: it is written to half a nanometre.
-pub const DIGITS: usize = 9;
+/// Digits behind the point of a position in metres: to half a nanometre, and more where `a_0`, in metres, is below a
+/// centimetre, so that the last one is 1e-7 `a_0` or less.
+pub fn digits(length: f64) -> usize {
+    let finer = std::iter::successors(Some(length), |length| Some(10.0 * length)).take_while(|&length| length < 0.0099);
+    9 + finer.count()
+}
 
 /// Writes the draft; the number of rows.
 ///
@@ -20,10 +23,10 @@ pub fn write(draft: &Draft, header: &Header, rows: impl Iterator<Item = Result<R
     let at = |error| Problem::from(with_path(error, draft.place()));
     let mut file = BufWriter::new(File::create(draft.path()).map_err(at)?);
     file.write_all(comments(header).as_bytes()).map_err(at)?;
-    let mut count = 0;
+    let (mut count, digits) = (0, digits(header.units.length));
     for row in rows {
         let Row { frame, n, x } = row?;
-        writeln!(file, "{n} {frame} {:.DIGITS$} 0 0", header.metres(x)).map_err(at)?;
+        writeln!(file, "{n} {frame} {:.digits$} 0 0", header.metres(x)).map_err(at)?;
         count += 1;
     }
     file.flush().map_err(at)?;

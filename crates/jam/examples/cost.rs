@@ -13,6 +13,8 @@
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
 use jam::ring::{Ring, Start};
 use jam::states::FormKind;
+use math::row::{self, Room};
+use math::simd::{Kernel, dispatch};
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -69,8 +71,8 @@ fn variants() -> Vec<Variant> {
         ));
         variants.push(named(&format!("series-{name}"), pedestrians, series(model, pedestrians)));
     }
-    variants.push(named("lane/softplus", 133, lane(math::slice::softplus)));
-    variants.push(named("lane/ln_1p", 133, lane(|x, out| math::slice::ln_1p_scaled(0.5, x, out))));
+    variants.push(named("lane/softplus", 133, lane(row::softplus)));
+    variants.push(named("lane/ln_1p", 133, lane(row::ln_1p)));
     variants
 }
 
@@ -154,12 +156,29 @@ fn series(model: Model, pedestrians: usize) -> Work {
     })
 }
 
-fn lane(function: fn(&[f64], &mut [f64])) -> Work {
+/// A function of rows, on a copy of a row.
+struct Row<'a> {
+    function: fn(&mut [f64], &mut Room),
+    x: &'a [f64],
+    out: &'a mut [f64],
+}
+
+impl Kernel for Row<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        self.out.copy_from_slice(self.x);
+        (self.function)(self.out, &mut Room::default());
+    }
+}
+
+fn lane(function: fn(&mut [f64], &mut Room)) -> Work {
     let x: Vec<f64> = (0..133).map(|n| f64::from(n) / 133.0).collect();
     let mut out = vec![0.0; x.len()];
     Box::new(move |count| {
         for _ in 0..count {
-            function(black_box(&x), &mut out);
+            dispatch(Row { function, x: black_box(&x), out: &mut out });
             black_box(&mut out);
         }
     })

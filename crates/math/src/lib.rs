@@ -13,7 +13,6 @@
 //! | [`scalar`] (re-exported) | one value at a time, full domain | correctly rounded but for rare cases |
 //! | [`lane`] | the body of a loop that the compiler vectorises | at most 3 units in the last place, powers more |
 //! | [`row`] | a row of values in place, as short loops | as its lane: the same bits |
-//! | [`mod@slice`] | whole slices, built of lanes | as its lane |
 //! | [`simd`] | runs a loop with the widest registers the processor has | none: the same bits |
 //! | [`twofold`] | numbers of 106 bits as pairs of doubles; functions in [`twofold::full`] | about 2^-104; 2^-100 |
 
@@ -27,7 +26,6 @@ pub mod row;
 pub mod scalar;
 pub mod series;
 pub mod simd;
-pub mod slice;
 pub mod twofold;
 
 pub use complex::complex_sqrt;

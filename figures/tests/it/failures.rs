@@ -75,3 +75,58 @@ fn a_run_that_ends_in_an_event_ends_well() {
 fn files_in(folder: &Path) -> usize {
     std::fs::read_dir(folder).expect("a folder").count()
 }
+
+#[test]
+fn a_figure_says_what_is_wrong_with_a_table() {
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    let folder = scratch.path().to_str().expect("UTF-8");
+    let scene = "figures/fig08-logarithmic-force/scene.toml";
+    for (table, line, words) in [
+        ("d;f\n1;2\n", 1, "semicolons"),
+        ("d,f\n1,2\n3,NaN\n", 3, "\"NaN\""),
+        ("\"\",\"d\",\"f\"\n\"1\",1,2\n", 1, "row names of R"),
+    ] {
+        std::fs::write(scratch.path().join("force.csv"), table).expect("a table");
+        let arguments = ["--scene", scene, "--tables", folder, "--pictures", folder, "--draw-only"];
+        let output = run("fig08-logarithmic-force", &arguments);
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{told}");
+        assert!(told.contains(&format!("force.csv:{line}: ")) && told.contains(words), "{told}");
+        assert!(!scratch.path().join("fig08.svg").exists());
+    }
+}
+
+#[test]
+fn two_runs_into_one_folder_leave_the_files_of_one() {
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    let out = scratch.path().to_str().expect("UTF-8");
+    let ends = ["2", "3"];
+    std::thread::scope(|scope| {
+        for end in ends {
+            scope.spawn(move || {
+                let arguments = ["scenes/ring.toml", "--t-end", end, "--tables-only", "--out", out];
+                assert!(run("simulate", &arguments).status.success());
+            });
+        }
+    });
+    let read = |name: &str| std::fs::read_to_string(scratch.path().join(name)).expect("a file");
+    let last = read("std.csv").lines().last().and_then(|line| line.split(',').next()).map(str::to_owned);
+    let last = last.filter(|t| ends.contains(&t.as_str())).expect("one of the ends");
+    assert!(read("summary.json").contains(&format!("\"t\": {last}.0")), "{}", read("summary.json"));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_is_no_place_for_a_state() {
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    for (place, words) in [("/dev/null", "is a device"), ("out/std.csv", "two files of this name")] {
+        let place = scratch.path().join(place);
+        let out = scratch.path().join("out");
+        let [place, out] = [&place, &out].map(|path| path.to_str().expect("UTF-8"));
+        let output = run("simulate", &["scenes/ring.toml", "--t-end", "2", "--out", out, "--state", place]);
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{told}");
+        assert!(told.contains(words), "{told}");
+        assert!(std::fs::read_dir(out).map_or(true, |mut files| files.next().is_none()), "something was written");
+    }
+}

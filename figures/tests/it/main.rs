@@ -1,13 +1,8 @@
-//! The binaries as a user meets them: sums, redrawing, exit codes, what is left behind, prints of steps.
+//! The binaries as a user meets them: sums, redrawing, exit codes, what is left behind.
 
-mod evidence;
 mod failures;
-mod hard;
 mod pictures;
-mod precision;
 mod resume;
-mod steps;
-mod studies;
 mod sums;
 
 use std::path::{Path, PathBuf};

@@ -1,12 +1,12 @@
 //! `clean`: removes what can be made again; committed files stay.
 
-use crate::disk;
-use crate::failure::Failure;
-use crate::figure;
 use crate::lock::Lock;
-use crate::paths::{DOCUMENT_PDF, PICTURE_PDFS, Paths, Scheme};
-use crate::print;
 use crate::work;
+use checkout::disk;
+use checkout::failure::Failure;
+use checkout::figure;
+use checkout::paths::{DOCUMENT_PDF, PICTURE_PDFS, Paths, Scheme};
+use checkout::print;
 use std::path::PathBuf;
 
 /// Runs the verb: stored runs, the runner's own records (not its lock), scratch folders, tables of both schemes,

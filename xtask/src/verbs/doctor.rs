@@ -1,15 +1,12 @@
 //! `doctor`: what is missing and how to get it.
 
-use crate::browser;
-use crate::child;
 use crate::cli::JsonArgs;
-use crate::compile;
-use crate::disk;
-use crate::failure::Failure;
-use crate::paths::{FONTS_REMEDY, Paths, TOOLCHAIN};
-use crate::print;
-use crate::python;
-use crate::typeset;
+use crate::compile::{self, FONTS_REMEDY};
+use checkout::disk;
+use checkout::failure::Failure;
+use checkout::paths::{Paths, TOOLCHAIN};
+use checkout::print;
+use checkout::process;
 use serde_json::{Value, json};
 
 /// One thing that a verb may need.
@@ -45,34 +42,44 @@ pub fn run(paths: &Paths, arguments: &JsonArgs) -> Result<(), Failure> {
 }
 
 fn findings(paths: &Paths) -> Result<Vec<Finding>, Failure> {
-    let cargo = child::cargo().get_program().to_string_lossy().into_owned();
+    let cargo = process::cargo().get_program().to_string_lossy().into_owned();
     let fonts = compile::check_fonts(paths).ok().map(|()| "both faces".to_owned());
     let finding = |name, needed, found, remedy| Finding { name, found, needed, remedy };
     Ok(vec![
-        finding("cargo", true, child::first_line(&cargo, &["--version"]), "install Rust with rustup (rustup.rs)"),
+        finding("cargo", true, process::first_line(&cargo, &["--version"]), "install Rust with rustup (rustup.rs)"),
         finding("rustc", true, pinned_rustc(paths)?, "rustup toolchain install, in this folder"),
         finding("fonts", true, fonts, FONTS_REMEDY),
         finding("target folder", true, writable(paths), "free space, or CARGO_TARGET_DIR on another disk"),
-        finding("git", false, child::first_line("git", &["--version"]), "needed by bless; install git"),
+        finding("git", false, process::first_line("git", &["--version"]), "needed by bless; install git"),
         finding(
             "clippy",
             false,
-            child::first_line(&cargo, &["clippy", "--version"]),
+            process::first_line(&cargo, &["clippy", "--version"]),
             "needed by ci; rustup component add clippy",
         ),
         finding(
             "rustfmt",
             false,
-            child::first_line(&cargo, &["fmt", "--version"]),
+            process::first_line(&cargo, &["fmt", "--version"]),
             "needed by ci; rustup component add rustfmt",
         ),
         finding("python", false, python(), "needed by a check of ci; Python 3.11 or later with venv or pip"),
-        finding("chromium", false, browser::browser(), "needed by the tests of the page; apt-get install chromium"),
-        finding("node", false, browser::node(), "needed by the tests of the page; apt-get install nodejs npm"),
+        finding(
+            "chromium",
+            false,
+            ["chromium", "chromium-browser"].iter().find_map(|name| process::first_line(name, &["--version"])),
+            "needed by the tests of the page; apt-get install chromium",
+        ),
+        finding(
+            "node",
+            false,
+            process::first_line("node", &["--version"]),
+            "needed by the tests of the page; apt-get install nodejs npm",
+        ),
         finding(
             "typst",
             false,
-            typeset::at_hand(paths),
+            process::first_line("typst", &["--version"]),
             "needed by paper, which installs it where there is Python 3.11 and a network",
         ),
         finding("numpy", false, numpy(), "needed by spot checks of test; pip install numpy"),
@@ -84,17 +91,18 @@ fn pinned_rustc(paths: &Paths) -> Result<Option<String>, Failure> {
     let pin = disk::read_text(&paths.root.join(TOOLCHAIN))?.unwrap_or_default();
     let channel = pin.lines().find_map(|line| line.trim().strip_prefix("channel")?.trim().strip_prefix('='));
     let channel = channel.map_or("", |channel| channel.trim().trim_matches('"'));
-    Ok(child::first_line("rustc", &["--version"]).filter(|version| version.contains(channel)))
+    Ok(process::first_line("rustc", &["--version"]).filter(|version| version.contains(channel)))
 }
 
 /// The version of Python, when it is new enough for the packages that are pinned.
 fn python() -> Option<String> {
-    child::first_line(python::find()?.to_str()?, &["--version"])
+    let new_enough = "import sys; sys.exit(sys.version_info < (3, 11))";
+    process::first_line("python3", &["-c", new_enough]).and_then(|_| process::first_line("python3", &["--version"]))
 }
 
 /// The version of NumPy, when Python has it.
-pub fn numpy() -> Option<String> {
-    child::first_line("python3", &["-c", "import numpy; print(numpy.__version__)"])
+fn numpy() -> Option<String> {
+    process::first_line("python3", &["-c", "import numpy; print(numpy.__version__)"])
 }
 
 fn writable(paths: &Paths) -> Option<String> {

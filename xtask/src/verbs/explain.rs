@@ -1,14 +1,14 @@
 //! `explain`: every input of a figure with its hash, which one changed, and the command to rebuild; or a claim, an
 //! erratum or a parameter with its tests.
 
+use super::judge;
 use crate::cli::ExplainArgs;
-use crate::failure::Failure;
-use crate::figure;
-use crate::ledger;
-use crate::paths::Paths;
-use crate::print;
 use crate::record::{self, Record, Records, Survey};
 use crate::sources::Sources;
+use checkout::failure::Failure;
+use checkout::figure;
+use checkout::paths::Paths;
+use checkout::print;
 use serde_json::{Value, json};
 
 /// Digits of a hash that are shown in the table; JSON has all.
@@ -19,11 +19,15 @@ const DIGITS: usize = 12;
 /// # Errors
 /// Usage: no such figure, and no such entry of the ledger.
 pub fn run(paths: &Paths, arguments: &ExplainArgs) -> Result<(), Failure> {
-    if let Some((text, value)) = ledger::explain(paths, &arguments.id)? {
-        return if arguments.json { print::json(value) } else { print::out(&text) };
-    }
     let all = figure::discover(paths)?;
-    let selected = figure::select(&all, std::slice::from_ref(&arguments.id), false)?;
+    let selected = match figure::select(&all, std::slice::from_ref(&arguments.id), false) {
+        Ok(selected) => selected,
+        Err(failure) => {
+            let mut explain = judge::program(paths)?;
+            explain.args(["explain", &arguments.id]).args(arguments.json.then_some("--json"));
+            return judge::run(&mut explain).inspect_err(|_| eprintln!("{}", failure.text()));
+        }
+    };
     let records = Records::read(paths)?;
     let surveys = record::survey(paths, &selected, &Sources::read(paths)?, &records)?;
     for survey in &surveys {

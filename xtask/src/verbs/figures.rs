@@ -1,25 +1,25 @@
 //! `figures`: writes tables and pictures, hashes everything, compares with the committed sums.
 
-use super::summary;
+use super::{judge, summary};
 use crate::cli::FiguresArgs;
-use crate::compile;
-use crate::disk;
-use crate::distance;
+use crate::compile::{self, Package};
 use crate::estimate::Estimate;
-use crate::failure::Failure;
-use crate::figure::{self, Figure};
-use crate::ledger;
 use crate::lock::Lock;
-use crate::manifest;
-use crate::paths::{LEDGER, Paths, Scheme};
+use crate::measured;
 use crate::plan::{self, Node, Step, Wish};
 use crate::pool::Outcome;
-use crate::print;
-use crate::progress::duration;
 use crate::record::{self, Record, Records, Survey};
 use crate::sources::Sources;
 use crate::store;
 use crate::work::{self, Ends, Made};
+use checkout::disk;
+use checkout::failure::Failure;
+use checkout::figure::{self, Figure};
+use checkout::manifest;
+use checkout::paths::{Paths, Scheme};
+use checkout::print;
+use checkout::print::duration;
+use checkout::sums::Committed;
 use std::collections::BTreeMap;
 use std::fmt::{Display, Formatter};
 
@@ -35,16 +35,15 @@ pub fn run(paths: &Paths, arguments: &FiguresArgs) -> Result<(), Failure> {
     let all = figure::discover(paths)?;
     let selected = choose(&all, arguments)?;
     // read before the work, so that a malformed list is told at once
-    let committed = summary::Committed::read(paths)?;
+    let committed = Committed::read(paths)?;
     manifest::read(paths)?;
-    ledger::figures(paths)?;
     if arguments.dry_run {
         return dry_run(paths, &all, &selected, arguments);
     }
     let _lock = Lock::take(paths)?;
     work::sweep(paths, &all)?;
     let sources = Sources::read(paths)?;
-    compile::ensure(paths, &all, &sources)?;
+    compile::ensure(paths, &all, &sources, &Package::of(&selected))?;
     let mut records = Records::read(paths)?;
     let mut surveys = record::survey(paths, &selected, &sources, &records)?;
     let wishes = wishes(paths, &surveys, &records, arguments);
@@ -64,29 +63,9 @@ pub fn run(paths: &Paths, arguments: &FiguresArgs) -> Result<(), Failure> {
     let verdict = work::verdict(&nodes, &outcomes).and_then(|()| report.verdict(paths, whole));
     report.print(paths, arguments.json, whole, verdict.is_ok())?;
     if paths.scheme == Scheme::Paper {
-        tell_distances(paths, &all, arguments.json)?;
-    } else if (whole || selected.iter().any(|figure| figure.is_supplement()))
-        && work::verdict(&nodes, &outcomes).is_ok()
-    {
-        write_ledger(paths, &all, &sources, &records)?;
+        judge::run(judge::program(paths)?.arg("distances").args(arguments.json.then_some("--json")))?;
     }
     verdict
-}
-
-/// Writes the ledger if every figure and supplement that it reads is fresh; else says what is missing.
-fn write_ledger(paths: &Paths, all: &[Figure], sources: &Sources, records: &Records) -> Result<(), Failure> {
-    let read = ledger::figures(paths)?;
-    let wanted: Vec<&Figure> = all.iter().filter(|figure| read.contains(&figure.id)).collect();
-    let surveys = record::survey(paths, &wanted, sources, records)?;
-    let stale: Vec<&str> =
-        surveys.iter().filter(|survey| !survey.reasons.is_empty()).map(|survey| &*survey.figure.id).collect();
-    if !stale.is_empty() {
-        let stale = stale.join(" ");
-        eprintln!("{LEDGER} left as it is: {stale} not made with these sources (cargo xtask figures {stale})");
-        return Ok(());
-    }
-    ledger::write(paths)?.iter().for_each(|line| eprintln!("{line}"));
-    Ok(())
 }
 
 /// The figures meant; for the paper's scheme those with a run.
@@ -168,7 +147,7 @@ fn measure(
                 estimates.insert(key.clone(), Estimate::of(paths, key)?);
             }
         }
-        record.measured = Some(manifest::measure(paths, survey, &estimates, &scenes)?);
+        record.measured = Some(measured::measure(paths, survey, &estimates, &scenes)?);
         changed = true;
     }
     if changed {
@@ -178,18 +157,7 @@ fn measure(
     let measured: Vec<_> = fresh
         .filter_map(|survey| Some((survey.figure, records.get(paths, survey.figure)?.measured.as_ref()?)))
         .collect();
-    manifest::write(paths, all, &measured)
-}
-
-/// Compares what the paper's scheme gave with the accurate runs and the published curves, wherever both are there.
-fn tell_distances(paths: &Paths, all: &[Figure], as_json: bool) -> Result<(), Failure> {
-    let distances = distance::of(paths, all)?;
-    if distances.is_empty() {
-        eprintln!("cargo xtask figures makes the tables that tell how far these are from the accurate ones");
-        return Ok(());
-    }
-    disk::write_if_changed(&paths.distances(), distance::to_csv(&distances).as_bytes())?;
-    if as_json { Ok(()) } else { print::out(&distance::to_text(&distances)) }
+    measured::write(paths, all, &measured)
 }
 
 fn checks_are_stored(paths: &Paths, survey: &Survey<'_>) -> bool {
@@ -201,7 +169,8 @@ fn dry_run(paths: &Paths, all: &[Figure], selected: &[&Figure], arguments: &Figu
     let records = Records::read(paths)?;
     let surveys = record::survey(paths, selected, &sources, &records)?;
     let nodes = plan::make(paths, &surveys, &wishes(paths, &surveys, &records, arguments), arguments.force)?;
-    let build = compile::is_needed(paths, all, &sources)?;
+    let stale = Package::of(selected).into_iter().filter(|package| package.is_stale(paths, all, &sources));
+    let builds: Vec<String> = stale.map(Package::command).collect();
     let states: Vec<(&str, &str)> =
         surveys.iter().map(|survey| (&*survey.figure.slug, reason(survey, arguments))).collect();
     let times = read_times(paths)?;
@@ -212,10 +181,11 @@ fn dry_run(paths: &Paths, all: &[Figure], selected: &[&Figure], arguments: &Figu
         let figures: BTreeMap<&str, &str> = states.into_iter().collect();
         let Forecast { seconds, unknown } = forecast;
         return print::json(serde_json::json!({
-            "build": build, "figures": figures, "nodes": steps, "seconds": seconds, "nodes_without_time": unknown,
+            "build": !builds.is_empty(), "figures": figures, "nodes": steps, "seconds": seconds, "nodes_without_time": unknown,
         }));
     }
-    let mut rows = vec![print::row(&["build", if build { compile::COMMAND } else { "fresh" }])];
+    let build = builds.join(" && ");
+    let mut rows = vec![print::row(&["build", if builds.is_empty() { "fresh" } else { &build }])];
     rows.extend(
         nodes
             .iter()
@@ -246,7 +216,8 @@ pub fn forecast(nodes: &[Node], threads: usize, last: &dyn Fn(&Node) -> Option<f
         ends.push(before.unwrap_or(0.0) + own);
     }
     let chain = ends.into_iter().max_by(f64::total_cmp).unwrap_or(0.0);
-    let share = seconds.iter().sum::<f64>() / threads.max(1) as f64;
+    // the sum of no floats is -0
+    let share = seconds.iter().fold(0.0, |sum, one| sum + one) / threads.max(1) as f64;
     let unknown = nodes.iter().filter(|node| last(node).is_none()).count();
     Forecast { seconds: if chain > share { chain } else { share }, unknown }
 }

@@ -1,31 +1,44 @@
-//! `simulate` and `map`: passed on to the release binary, which reads the arguments.
+//! Verbs whose arguments another program reads: it is built, then started with them.
 
-use crate::child;
 use crate::cli::ForwardArgs;
-use crate::compile;
-use crate::failure::Failure;
-use crate::figure;
+use crate::compile::{self, FIGURES};
 use crate::lock::Lock;
-use crate::paths::Paths;
-use crate::sources::Sources;
+use checkout::failure::Failure;
+use checkout::paths::Paths;
+use checkout::process;
 use std::process::Command;
 
-/// Runs the verb; paths among the arguments are relative to the current folder.
+/// `simulate` and `map`; paths among the arguments are relative to the current folder. The lock is held while building
+/// only: a user's run keeps nobody waiting.
 ///
 /// # Errors
-/// The binary cannot be built; or its own exit code.
-pub fn run(paths: &Paths, name: &str, arguments: &ForwardArgs) -> Result<(), Failure> {
-    build(paths)?;
-    child::run_shown(Command::new(paths.binary(name)).args(&arguments.arguments))
+/// The program cannot be built; or its own exit code.
+pub fn scene(paths: &Paths, name: &str, arguments: &ForwardArgs) -> Result<(), Failure> {
+    {
+        let _lock = Lock::take(paths)?;
+        compile::tools(paths, FIGURES)?;
+    }
+    process::run_shown(Command::new(paths.binary(name)).args(&arguments.arguments))
 }
 
-/// Builds the figures' binaries and tools if needed. The lock is held while building only: a user's run keeps nobody
-/// waiting.
+/// `export`: SQLite is compiled for it, so it is built by this verb alone.
 ///
 /// # Errors
-/// They cannot be built.
-pub fn build(paths: &Paths) -> Result<(), Failure> {
-    let all = figure::discover(paths)?;
+/// As [`scene`].
+pub fn export(paths: &Paths, arguments: &ForwardArgs) -> Result<(), Failure> {
+    let mut export = {
+        let _lock = Lock::take(paths)?;
+        compile::tools(paths, FIGURES)?;
+        compile::program(paths, "interchange", "export")?
+    };
+    process::run_shown(export.args(&arguments.arguments))
+}
+
+/// `bench`, under the lock: nothing of ours runs beside what is measured.
+///
+/// # Errors
+/// As [`scene`].
+pub fn bench(paths: &Paths, arguments: &ForwardArgs) -> Result<(), Failure> {
     let _lock = Lock::take(paths)?;
-    compile::ensure(paths, &all, &Sources::read(paths)?)
+    process::run_shown(compile::program(paths, "measure", "measure")?.args(&arguments.arguments))
 }

@@ -1,14 +1,14 @@
 //! `list`: figure, label, title, binary, scene, outputs, last run time.
 
 use super::figures::{Times, read_times};
+use super::judge;
 use crate::cli::ListArgs;
-use crate::costs;
-use crate::failure::Failure;
-use crate::figure::{self, Figure};
-use crate::ledger;
-use crate::outputs;
-use crate::paths::Paths;
-use crate::print;
+use crate::lock::Lock;
+use checkout::failure::Failure;
+use checkout::figure::{self, Figure};
+use checkout::outputs;
+use checkout::paths::Paths;
+use checkout::print;
 use serde_json::{Value, json};
 
 /// Runs the verb.
@@ -17,16 +17,14 @@ use serde_json::{Value, json};
 /// Usage: no such figure.
 pub fn run(paths: &Paths, arguments: &ListArgs) -> Result<(), Failure> {
     if arguments.claims {
-        let (text, value) = ledger::list(paths)?;
-        return if arguments.json { print::json(value) } else { print::out(&text) };
+        return judge::run(judge::program(paths)?.arg("claims").args(arguments.json.then_some("--json")));
     }
     let all = figure::discover(paths)?;
     let ids = &arguments.selection.ids;
     let selected = if ids.is_empty() { all.iter().collect() } else { figure::select(&all, ids, false)? };
     if arguments.costs {
-        let text = costs::markdown(paths, &all)?;
-        costs::put_in_document(paths, &text)?;
-        return print::out(&text);
+        let _lock = Lock::take(paths)?;
+        return judge::run(judge::program(paths)?.arg("costs"));
     }
     let times = read_times(paths)?;
     if arguments.json {

@@ -1,12 +1,12 @@
 //! `status`: what is stale and why, without running anything.
 
 use crate::cli::StatusArgs;
-use crate::failure::Failure;
-use crate::figure;
-use crate::paths::Paths;
-use crate::print;
 use crate::record::{self, Records, Survey};
 use crate::sources::Sources;
+use checkout::failure::Failure;
+use checkout::figure;
+use checkout::paths::Paths;
+use checkout::print;
 use serde_json::{Value, json};
 
 /// Reasons shown for a figure; the rest is counted (`explain` has all).

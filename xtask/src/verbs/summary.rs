@@ -1,62 +1,20 @@
 //! What `figures` says at its end: a line for each figure, and whether everything is as committed.
 
-use crate::failure::Failure;
-use crate::figure::Figure;
-use crate::manifest::{FLAGGED_ABOVE, Measured};
-use crate::outputs;
-use crate::paths::{OPEN_ALL, Paths, Scheme};
-use crate::print;
+use crate::measured::Measured;
 use crate::record::{Records, Survey};
-use crate::sums::{State, Sums};
 use crate::work::Ends;
+use checkout::failure::Failure;
+use checkout::figure::Figure;
+use checkout::manifest::FLAGGED_ABOVE;
+use checkout::outputs;
+use checkout::paths::{Paths, Scheme};
+use checkout::print;
+use checkout::sums::{Committed, State, stray};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
-/// The committed lists of sums; `None` where there is none yet.
-#[derive(Clone, Debug)]
-pub struct Committed {
-    paper: Option<Sums>,
-    supplements: Option<Sums>,
-}
-
-impl Committed {
-    /// Reads both lists.
-    ///
-    /// # Errors
-    /// Usage: a list is malformed. Failed: it cannot be read.
-    pub fn read(paths: &Paths) -> Result<Committed, Failure> {
-        let read = |supplement| {
-            let name = paths.sums(supplement);
-            Sums::read(&paths.root.join(name), name)
-        };
-        Ok(Committed { paper: read(false)?, supplements: read(true)? })
-    }
-
-    /// The list that a figure belongs to.
-    pub fn list(&self, supplement: bool) -> Option<&Sums> {
-        if supplement { self.supplements.as_ref() } else { self.paper.as_ref() }
-    }
-
-    /// A state for each output that the figure has or should have.
-    pub fn judge(&self, paths: &Paths, survey: &Survey<'_>) -> BTreeMap<String, State> {
-        let list = self.list(survey.figure.is_supplement()).cloned().unwrap_or_default();
-        list.below(&outputs::beginnings(paths, survey.figure)).judge(&survey.outputs)
-    }
-
-    /// Lines of the lists that belong to none of the figures. Only for all figures of a list; a list of which no figure
-    /// is given is left alone.
-    pub fn strays<'a>(&self, paths: &Paths, figures: impl Iterator<Item = &'a Figure> + Clone) -> Vec<String> {
-        let mut strays = Vec::new();
-        for supplement in [false, true] {
-            let mine = figures.clone().filter(|figure| figure.is_supplement() == supplement);
-            let starts: Vec<String> = mine.flat_map(|figure| outputs::beginnings(paths, figure)).collect();
-            let Some(list) = self.list(supplement).filter(|_| !starts.is_empty()) else { continue };
-            let known = list.below(&starts);
-            strays.extend(list.by_name.keys().filter(|name| !known.by_name.contains_key(*name)).cloned());
-        }
-        strays
-    }
-}
+/// What to look at when every figure is as committed.
+const OPEN_ALL: &str = "open README.md for the table of figures, figures/*/fig*.png for the pictures";
 
 /// One line of the summary.
 #[derive(Clone, Debug)]
@@ -88,7 +46,7 @@ impl<'a> Line<'a> {
             seconds: ends.seconds.get(&figure.slug).copied(),
             tables: survey.outputs.keys().filter(|name| name.ends_with(".csv")).count(),
             lost,
-            states: committed.judge(paths, survey),
+            states: committed.judge(paths, survey.figure, &survey.outputs),
             error: measured.and_then(Measured::largest_error),
             flags: measured.map(Measured::flags).unwrap_or_default(),
         }
@@ -204,9 +162,4 @@ impl<'a> Report<'a> {
         }
         wrong
     }
-}
-
-/// What is said of a line of a list that belongs to no figure.
-pub fn stray(name: &str) -> String {
-    format!("belongs to no figure: {name}")
 }

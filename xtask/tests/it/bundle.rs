@@ -48,7 +48,7 @@ fn it_holds_everything_with_its_sums() {
     let Some(shop) = committed("bundle-members") else { return };
     shop.xtask(&["bundle", "--out", "b.tar"]).expect(0);
     let members = members(&shop.root.join("b.tar"));
-    let top = xtask::paths::BUNDLE_TOP;
+    let top = checkout::paths::BUNDLE_TOP;
     let text = |name: &str| String::from_utf8_lossy(&members[&format!("{top}/{name}")].3).into_owned();
     for name in ["data/fig04/stable.csv", "data/s01/main.csv", "figures/fig05-exponential-map/fig05.png", "Cargo.lock"]
     {
@@ -96,8 +96,8 @@ fn run_crate(text: &str, sums: &str) {
     let ids: Vec<&str> = graph.iter().filter_map(|one| one["@id"].as_str()).collect();
     for entity in graph.iter().filter(|one| one["@type"].to_string().contains("\"File\"")) {
         let name = entity["@id"].as_str().expect("a name");
-        let is_there =
-            sums.contains(&format!("  {name}\n")) || [xtask::paths::MAIN_WORKFLOW, "README.md"].contains(&name);
+        let is_there = sums.contains(&format!("  {name}\n"))
+            || [publish::bundle::crate_metadata::MAIN_WORKFLOW, "README.md"].contains(&name);
         assert!(is_there, "{name}");
     }
     for entity in graph {
@@ -152,7 +152,7 @@ fn it_refuses_what_is_modified_or_stale() {
 
 #[test]
 fn the_descriptions_say_what_the_citation_says() {
-    use xtask::bundle::paper;
+    use publish::bundle::paper;
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../CITATION.cff");
     let citation = fs::read_to_string(path).expect("CITATION.cff");
     let version = format!("version: {}", paper::VERSION);

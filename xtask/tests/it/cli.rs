@@ -1,9 +1,9 @@
 //! The command line: bad input, exit codes, JSON.
 
 use crate::shop::Shop;
+use checkout::paths::Paths;
 use std::time::Duration;
 use xtask::lock::Lock;
-use xtask::paths::Paths;
 
 #[test]
 fn an_unknown_verb_is_a_usage_error() {
@@ -13,7 +13,7 @@ fn an_unknown_verb_is_a_usage_error() {
 #[test]
 fn an_unknown_figure_is_a_usage_error_everywhere() {
     let shop = Shop::new("cli-id");
-    for verb in ["figures", "verify", "status", "explain", "list", "bless"] {
+    for verb in ["figures", "verify", "status", "list", "bless"] {
         let ended = shop.xtask(&[verb, "fig99"]).expect(2);
         assert!(ended.err.contains("no figure fig99") && ended.err.contains("valid: fig04 fig05"), "{}", ended.err);
         assert!(ended.out.is_empty(), "{verb}: {}", ended.out);
@@ -113,7 +113,7 @@ fn json_goes_alone_to_stdout_and_has_a_version() {
 #[test]
 fn versions_are_read_from_the_lock_file() {
     let lock = "[[package]]\nname = \"png\"\nversion = \"0.18.1\"\n\n[[package]]\nname = \"other\"\nversion = \"1\"\n";
-    let versions = xtask::verbs::describe::crate_versions(lock);
+    let versions = checkout::machine::crate_versions(lock);
     assert_eq!(versions.into_iter().collect::<Vec<_>>(), [("png".to_owned(), "0.18.1".to_owned())]);
 }
 

@@ -1,7 +1,7 @@
 //! The paper's scheme against the accurate tables and the published points.
 
 use crate::shop::Shop;
-use xtask::distance::HEADER;
+use verify::distance::HEADER;
 
 /// A checkout with hand-made tables of both schemes for figures 11 and 12, made by both.
 fn shop(name: &str) -> Shop {

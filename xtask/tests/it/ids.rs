@@ -1,8 +1,8 @@
 //! How figures are named.
 
 use crate::shop::Shop;
-use xtask::figure::{self, Figure, edits};
-use xtask::paths::Paths;
+use checkout::figure::{self, Figure, edits};
+use checkout::paths::Paths;
 
 fn figures(name: &str) -> Vec<Figure> {
     let paths = Paths::find(Some(Shop::new(name).root)).expect("a root");

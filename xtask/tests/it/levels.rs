@@ -2,8 +2,8 @@
 
 use crate::shop::{Shop, blessed};
 use serde_json::Value;
-use xtask::judging::pixels::{self, Image};
-use xtask::judging::verdict::Verdict;
+use verify::pixels::{self, Image};
+use verify::verdict::Verdict;
 
 const TOLERANCES: &str = "[[column]]\ntables = [\"fig04/*\", \"fig05/*\"]\ncolumns = [\"std\", \"phi\"]\n\
     absolute = 1e-15\nrelative = 1e-12\nrule = \"condition\"\nbecause = \"a test\"\n\n\
@@ -202,84 +202,6 @@ fn the_first_checkpoint_and_pedestrian_that_part_are_named() {
     };
     let words = "run fig11-main parts after t = 20; at t = 50 2 of 3 pedestrians differ: 1 2";
     assert!(ended.out.contains(words), "{}", ended.out);
-}
-
-#[test]
-fn the_step_and_the_pedestrian_that_part_are_named() {
-    let shop = checked("levels-steps");
-    let part = |wrong: &str| {
-        let said = spoil(&shop, &format!("simulate {wrong}\n"), "11");
-        expect(&said, Verdict::OtherBits, [false, true, false]);
-        said["numbers"]["parted"][0].clone()
-    };
-    for (wrong, step, from, to, pedestrian) in [
-        ("step 0", 0, None, Some("0.0"), Some(1)),
-        ("step 1", 1, Some("0.0"), Some("0.5"), Some(1)),
-        ("step 77", 77, Some("38.0"), Some("38.5"), Some(1)),
-        ("several 77", 77, Some("38.0"), Some("38.5"), None),
-        ("shared 78", 78, Some("38.5"), Some("39.0"), None),
-        ("length 239", 239, Some("119.0"), Some("119.5"), None),
-        ("ends 200", 200, Some("99.5"), None, None),
-    ] {
-        let parted = part(wrong);
-        let first = &parted["steps"]["part"];
-        let text = |key: &str| first[key].as_str();
-        assert_eq!((first["step"].as_i64(), first["of"].as_i64()), (Some(step), Some(239)), "{wrong}: {parted:#}");
-        assert_eq!((text("from"), text("to"), first["pedestrian"].as_i64()), (from, to, pedestrian), "{wrong}");
-        let is_another = wrong.starts_with("length") || wrong.starts_with("ends");
-        assert_eq!(first["same_length"].as_bool(), Some(!is_another), "{wrong}");
-        // no sample was touched
-        assert!(parted["at"].is_null() && parted["pedestrians"] == serde_json::json!([]), "{parted:#}");
-    }
-    assert_eq!(part("state 30")["steps"]["part"]["step"].as_i64(), Some(60));
-}
-
-#[test]
-fn what_differs_in_a_step_is_said_in_words_and_on_the_page() {
-    let shop = checked("levels-step-words");
-    let same = "run fig11-main has the same samples; first different at";
-    for (wrong, words) in [
-        ("step 77", &*format!("{same} step 77 of 239, from t = 38.0 to t = 38.5: pedestrian 1 alone")),
-        ("step 0", &format!("{same} the start: pedestrian 1 alone")),
-        ("several 77", &format!("{same} step 77 of 239, from t = 38.0 to t = 38.5: several pedestrians")),
-        ("shared 77", &format!("{same} step 77 of 239, from t = 38.0 to t = 38.5: no pedestrian, but what all share")),
-        ("length 7", &format!("{same} step 7 of 239, from t = 3.0 to t = 3.5: its length is another")),
-        ("ends 200", &format!("{same} step 200 of 239, from t = 99.5: the run has 199 steps")),
-        ("fixed", &format!("{same} the start: no steps were kept")),
-        (
-            "state 30",
-            "run fig11-main parts after t = 20; at t = 50 2 of 3 pedestrians differ: 1 2; \
-             first different at step 60 of 239, from t = 29.5 to t = 30.0: pedestrian 1 alone",
-        ),
-    ] {
-        shop.write("spoil", &format!("simulate {wrong}\n"));
-        let ended = shop.xtask(&["verify", "11", "--report", "out/page.html"]).expect(1);
-        assert!(ended.out.contains(words), "{words} in {}", ended.out);
-        assert!(shop.read("out/page.html").contains(words), "{words}");
-    }
-}
-
-#[test]
-fn prints_of_steps_are_kept_as_they_are_made() {
-    let shop = checked("levels-kept");
-    let name = "data/steps/fig11-main.csv";
-    let kept = shop.read(name);
-    assert_eq!(files::steps::parse(&kept).expect("prints").len(), 240);
-    shop.write(name, "step,prints\n0,damaged\n");
-    let ended = shop.xtask(&["verify", "11"]).expect(2);
-    assert!(ended.err.contains("data/steps/fig11-main.csv:2: not the prints of steps"), "{}", ended.err);
-    // who has none committed is told by checkpoints alone
-    std::fs::remove_file(shop.root.join(name)).expect("it was there");
-    let said = spoil(&shop, "simulate state 30\n", "11");
-    assert_eq!(said["numbers"]["parted"][0]["steps"], "not_kept");
-    shop.xtask(&["verify", "11"]).expect(0);
-    shop.xtask(&["bless", "11"]).expect(0);
-    assert_eq!(shop.read(name), kept);
-    // a run by fixed steps has none
-    shop.write("spoil", "simulate fixed\n");
-    shop.xtask(&["figures", "11", "--force"]).expect(0);
-    shop.xtask(&["bless", "11"]).expect(0);
-    assert!(!shop.has(name));
 }
 
 #[test]

@@ -1,11 +1,10 @@
 //! The runner's tests: its parts alone, then the whole of it on a small checkout with stand-ins for every program.
 
 mod accuracy;
-mod bench;
 mod bless;
 mod bundle;
+mod checks;
 mod cli;
-mod corpus;
 mod data;
 mod distance;
 mod export;
@@ -13,20 +12,18 @@ mod export;
 mod faults;
 mod figures;
 mod ids;
-mod judging;
 mod ledger;
 mod levels;
 mod page;
 mod paper;
 mod pool;
 mod progress;
-mod python;
 mod real;
 mod record;
 mod shop;
 mod stale;
 mod supply;
 mod tables;
-mod tolerances;
 mod troubles;
 mod verify;
+mod walls;

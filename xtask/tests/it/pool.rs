@@ -1,9 +1,9 @@
 //! The order in which nodes run, and what a failure stops.
 
+use checkout::failure::Failure;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
-use xtask::failure::Failure;
 use xtask::pool::{Job, Outcome, run};
 
 fn job(after: &[usize], weight: f64) -> Job {
@@ -86,4 +86,21 @@ fn no_more_than_so_many_at_a_time() {
 #[test]
 fn no_jobs_no_outcomes() {
     assert!(order(&[], 2, false, &[]).1.is_empty());
+}
+
+#[test]
+fn a_job_that_panics_has_failed_and_keeps_nobody_waiting() {
+    let work = |index: usize, _: &AtomicBool| match index {
+        0 => panic!("job {index} on purpose"),
+        _ => Ok(index),
+    };
+    let jobs = [job(&[], 2.0), job(&[0], 1.0), job(&[], 1.0)];
+    let outcomes = run(&jobs, 2, true, &work, &mut |_, _| {});
+    let Outcome::Failed(failure) = &outcomes[0] else { panic!("{outcomes:?}") };
+    assert!(failure.code() == 4 && failure.text().contains("job 0 on purpose"), "{failure:?}");
+    assert_eq!(outcomes[1..], [Outcome::Skipped, Outcome::Done(2)]);
+    assert!(matches!(
+        run(&jobs, 1, false, &work, &mut |_, _| {})[..],
+        [Outcome::Failed(_), Outcome::Skipped, Outcome::Skipped]
+    ));
 }

@@ -1,10 +1,11 @@
 //! Runs that are killed go on; how far a run is and how long a plan takes.
 
 use crate::shop::Shop;
+use checkout::print::duration;
 use xtask::child::Word;
 use xtask::plan::{Node, Step};
 use xtask::pool::Job;
-use xtask::progress::{Track, duration};
+use xtask::progress::Track;
 use xtask::verbs::figures::{Forecast, forecast};
 
 /// The checkpoints in the store.

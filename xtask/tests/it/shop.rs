@@ -41,7 +41,7 @@ impl Shop {
     fn copy_fonts(&self) {
         let folder = self.root.join("crates/plot/fonts");
         fs::create_dir_all(&folder).expect("a folder");
-        for (name, _) in xtask::paths::FONT_SUMS {
+        for (name, _) in xtask::compile::FONT_SUMS {
             let real = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates/plot/fonts").join(name);
             fs::copy(real, folder.join(name)).expect("a font");
         }
@@ -79,7 +79,13 @@ impl Shop {
 
     /// Runs the runner.
     pub fn xtask(&self, arguments: &[&str]) -> Ended {
+        self.xtask_as(arguments, false)
+    }
+
+    /// Runs the runner, as on a machine for continuous integration or not.
+    pub fn xtask_as(&self, arguments: &[&str], is_ci: bool) -> Ended {
         let mut command = Command::new(env!("CARGO_BIN_EXE_xtask"));
+        command.env_remove("CI").envs(is_ci.then_some(("CI", "true")));
         command.arg("--root").arg(&self.root).args(arguments).current_dir(&self.root);
         command.env("CARGO_TARGET_DIR", self.root.join("target")).env("CARGO", self.root.join("cargo"));
         // the temporary folder may lie inside a repository, which is not the one under test

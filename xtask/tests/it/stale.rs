@@ -1,13 +1,13 @@
 //! Staleness: what a change of each kind of file leads to, and whether what is hashed is what is read.
 
 use crate::shop::{Shop, blessed};
+use checkout::figure;
+use checkout::paths::Paths;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
-use xtask::compile::TOOLS;
-use xtask::figure;
-use xtask::paths::Paths;
+use xtask::compile;
 use xtask::pins;
 use xtask::sources::Sources;
 
@@ -166,7 +166,7 @@ fn what_the_compiler_read_is_what_is_hashed() {
         let unread: Vec<&String> = unread.collect();
         assert!(unread.is_empty(), "{}: hashed and not read: {unread:?}", figure.slug);
     }
-    for tool in TOOLS {
+    for tool in compile::FIGURES.tools.iter().chain(compile::STUDIES.tools) {
         let missing: Vec<String> =
             compiled_from(&paths, tool).into_iter().filter(|name| !sources.files.contains_key(name)).collect();
         assert!(missing.is_empty(), "{tool}: read and not hashed: {missing:?}");
@@ -203,7 +203,7 @@ fn programs_open_only_what_is_hashed() {
     }
     let paths = Paths::find(Some(root())).expect("the checkout");
     let sources = Sources::read(&paths).expect("sources");
-    let costs = xtask::costs::read(&paths).expect("costs");
+    let costs = checkout::costs::read(&paths).expect("costs");
     let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("opened");
     for figure in figure::discover(&paths).expect("figures") {
         // supplements that integrate for long by themselves are left out

@@ -1,8 +1,8 @@
 //! Runs against their checks, and the table of events.
 
+use checkout::events::{self, Event};
 use files::table::Table;
 use xtask::estimate::differences;
-use xtask::events::{self, Event};
 
 fn table(text: &str) -> Table {
     Table::parse(text.as_bytes()).expect("a table")
@@ -20,7 +20,7 @@ fn rows_are_matched_by_time_and_pedestrian() {
 #[test]
 fn a_column_that_the_check_lacks_has_no_difference() {
     let (columns, unmatched) = differences(&table("t,std,more\n0,1,2\n"), &table("t,std\n0,1\n"));
-    assert_eq!((columns.len(), unmatched), (1, 0));
+    assert!(columns["more"].is_nan() && columns["std"] == 0.0 && unmatched == 0, "{columns:?}");
 }
 
 #[test]
@@ -45,19 +45,6 @@ fn events_are_compared_with_those_of_the_check() {
     assert_eq!(lines[2], "fig04-unstable,exchange,20.5,3,inf");
     let late = (30.0 - 30.000_000_000_1_f64).abs();
     assert_eq!(lines[3], format!("fig04-unstable,blow_up,30,1,{late:?}"));
-}
-
-#[test]
-fn an_event_file_of_another_form_is_refused_with_its_line() {
-    assert!(events::parse("f", "event,t\n").expect_err("header").text().starts_with("f:1:"));
-    assert!(events::parse("f", "event,t,n\noverlap,12\n").expect_err("cells").text().starts_with("f:2:"));
-    for line in ["overlap,inf,1", "overlap,2e999,1", "overlap,nan,1", "overlap,1,1\r"] {
-        let failure = events::parse("f", &format!("event,t,n\n{line}")).expect_err(line);
-        assert!(failure.text().starts_with("f:2:"), "{failure:?}");
-        let failure = events::parse_all("f", &format!("{}\nfig04,{line},0", events::HEADER)).expect_err(line);
-        assert!(failure.text().starts_with("f:2:"), "{failure:?}");
-    }
-    assert!(events::parse("f", "event,t,n\noverlap,soon,1\n").expect_err("time").text().starts_with("f:2:"));
 }
 
 #[test]

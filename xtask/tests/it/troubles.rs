@@ -148,7 +148,7 @@ fn the_page_for_browsers_is_no_source() {
 fn a_thread_that_panics_is_a_failure_and_no_missing_file() {
     let paths = vec![std::path::PathBuf::from("a"), "b".into()];
     let hash = |path: &std::path::Path| if path.ends_with("b") { panic!("on purpose") } else { Ok(None) };
-    let failure = xtask::hashing::hash_by(&paths, &hash).expect_err("a failure");
+    let failure = checkout::hashing::hash_by(&paths, &hash).expect_err("a failure");
     assert_eq!(failure.code(), 4);
 }
 
@@ -197,4 +197,71 @@ fn a_stored_run_whose_list_has_lost_a_line_is_made_again() {
     shop.edit("crates/plot/src/lib.rs", "Pictures", "Better pictures");
     shop.xtask(&["figures", "12"]).expect(0);
     assert_eq!(shop.calls(), ["cargo", "fig12-speeds", "simulate main", "simulate main check"]);
+}
+
+#[test]
+fn a_folder_is_replaced_whole_or_left_as_it_was() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    let make = |name: &str, file: &str| {
+        std::fs::create_dir_all(at(name)).expect("a folder");
+        std::fs::write(at(name).join(file), file).expect("a file");
+    };
+    make("new", "b.csv");
+    checkout::disk::replace_folder(&at("new"), &at("data")).expect("nothing is in the way");
+    make("new", "c.csv");
+    checkout::disk::replace_folder(&at("new"), &at("data")).expect("the old one goes");
+    let left =
+        || (checkout::disk::names(folder.path()).expect("names"), checkout::disk::names(&at("data")).expect("names"));
+    assert_eq!(left(), (vec!["data".to_owned()], vec!["c.csv".to_owned()]));
+    // nothing to put there: the old one is back
+    assert!(checkout::disk::replace_folder(&at("new"), &at("data")).is_err());
+    assert_eq!(left(), (vec!["data".to_owned()], vec!["c.csv".to_owned()]));
+}
+
+#[test]
+fn the_lock_is_shared_within_a_process_and_kept_from_others() {
+    let shop = crate::shop::Shop::new("troubles-lock");
+    let paths = checkout::paths::Paths::find(Some(shop.root.clone())).expect("the checkout");
+    let lock = xtask::lock::Lock::take(&paths).expect("free");
+    drop(xtask::lock::Lock::take(&paths).expect("ours already"));
+    let is_held = || {
+        let file = std::fs::File::open(paths.lock()).expect("the lock file");
+        matches!(file.try_lock(), Err(std::fs::TryLockError::WouldBlock))
+    };
+    assert!(is_held());
+    drop(lock);
+    assert!(!is_held());
+}
+
+#[test]
+fn a_plan_of_nothing_known_takes_no_negative_time() {
+    let nothing = xtask::verbs::figures::forecast(&[], 2, &|_| None);
+    assert!(nothing.seconds == 0.0 && nothing.seconds.is_sign_positive(), "{nothing:?}");
+    assert!(nothing.to_string().starts_with("about 0 s"), "{nothing}");
+}
+
+#[test]
+fn a_changed_source_that_is_older_than_the_programs_is_compiled_all_the_same() {
+    let shop = blessed("troubles-older");
+    shop.edit("crates/math/src/lib.rs", "Numbers", "Better numbers");
+    let file = std::fs::File::options().append(true).open(shop.root.join("crates/math/src/lib.rs")).expect("a source");
+    file.set_modified(std::time::UNIX_EPOCH).expect("a date");
+    shop.xtask(&["figures", "5"]).expect(0);
+    assert_eq!(shop.calls()[..2], ["cargo", "cargo clean"]);
+    let kept = file.metadata().and_then(|data| data.modified()).expect("a date");
+    assert_eq!(kept, std::time::UNIX_EPOCH, "the date of a source is its owner's");
+}
+
+#[test]
+fn what_is_cleared_is_built_again_for_figures_and_supplements() {
+    let shop = blessed("troubles-cleared");
+    shop.xtask(&["figures", "--all"]).expect(1);
+    shop.edit("crates/math/src/lib.rs", "Numbers", "Better numbers");
+    let file = std::fs::File::options().append(true).open(shop.root.join("crates/math/src/lib.rs")).expect("a source");
+    file.set_modified(std::time::UNIX_EPOCH).expect("a date");
+    shop.calls();
+    shop.xtask(&["figures", "--all"]).expect(1);
+    assert!(shop.calls().starts_with(&["cargo".to_owned(), "cargo".to_owned(), "cargo clean".to_owned()]));
+    shop.xtask(&["status", "--all", "--exit-code"]).expect(0);
 }

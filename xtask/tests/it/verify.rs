@@ -1,9 +1,9 @@
 //! Options of `verify`: budget, report, attestation, costs.
 
 use crate::shop::blessed;
+use checkout::paths::Paths;
 use std::collections::BTreeMap;
-use xtask::attest;
-use xtask::paths::Paths;
+use verify::attest;
 
 #[test]
 fn a_budget_takes_the_cheapest_figures_and_lists_the_others() {

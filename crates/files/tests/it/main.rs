@@ -1,8 +1,8 @@
-//! Tests of tables, of prints of steps, of writing, and of reading scene files.
+//! Tests of tables, of writing, and of reading scene files.
 
 mod corpus;
+mod pairs;
 mod reader;
 mod recipe;
-mod steps;
 mod table;
 mod write;

@@ -27,7 +27,8 @@ fn numbers_in_every_spelling_of_toml() {
         ("1E-3", 1e-3),
         ("+2.5e+2", 250.0),
         ("0.1", 0.1),
-        ("9007199254740993", 9_007_199_254_740_992.0),
+        ("9007199254740992", 9_007_199_254_740_992.0),
+        ("9007199254740994", 9_007_199_254_740_994.0),
     ];
     for (text, expected) in cases {
         assert_eq!(number(text).to_bits(), f64::to_bits(expected), "{text}");
@@ -120,4 +121,32 @@ fn what_lies_on_top_wins_key_by_key() {
     let mut lines = Vec::new();
     below.canonical("", &mut lines);
     assert_eq!(lines, ["a.h = 2.0", "t = 1.0", "v.g = 70.0"]);
+}
+
+#[test]
+fn whole_numbers_that_no_double_holds_are_refused() {
+    for (text, nearest) in [
+        ("9007199254740993", "9007199254740992"),
+        ("-9007199254740993", "-9007199254740992"),
+        ("9223372036854775807", "9223372036854775808"),
+    ] {
+        let error = Section::parse("my.toml", &format!("a = 1\nb = {text}\n")).unwrap_err();
+        assert_eq!(error.line, 2, "{error}");
+        assert!(error.problem.contains(text) && error.problem.contains(nearest), "{error}");
+    }
+    let section = parse("x = 1e300");
+    assert!(Reader::new("my.toml", "top", &section).count("x", 0, usize::MAX - 1).is_err());
+}
+
+#[test]
+fn decimal_commas_and_typographic_minus_signs_are_named() {
+    for (text, words) in [
+        ("a = 1\nx = 1,5\n", "decimal comma; write 1.5"),
+        ("a = 1\nx = \u{2212}2.5\n", "typographic minus sign; write -2.5"),
+        ("a = 1\nx = \u{2013}2\n", "typographic minus sign; write -2"),
+    ] {
+        let error = Section::parse("my.toml", text).unwrap_err();
+        assert_eq!(error.line, 2, "{error}");
+        assert!(error.problem.contains(words), "{error}");
+    }
 }

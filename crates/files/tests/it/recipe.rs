@@ -73,3 +73,22 @@ fn values_cannot_pass_for_others() {
     assert_ne!(one, two);
     assert_eq!(one.lines().count(), 1);
 }
+
+#[test]
+fn scenes_in_other_encodings_are_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("scene.toml");
+    let utf16: Vec<u8> = "\u{feff}title = 'x'".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    for (bytes, line, words) in
+        [(utf16, 0, "UTF-16"), (b"title = 'x'\nsource = 'K\xf6ln'\n".to_vec(), 2, "byte 0xf6 is not UTF-8")]
+    {
+        std::fs::write(&file, bytes).expect("a file");
+        let error = files::recipe::read(&file).unwrap_err();
+        assert_eq!((error.line, error.problem.contains(words)), (line, true), "{error}");
+        assert_eq!(error.file, file.display().to_string());
+    }
+    std::fs::write(&file, "\u{feff}title = 'x'\n").expect("a file");
+    assert_eq!(files::recipe::read(&file).expect("a scene").title, "x");
+    let error = files::recipe::read(folder.path()).unwrap_err();
+    assert!(error.problem.contains("is a folder"), "{error}");
+}

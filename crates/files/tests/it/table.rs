@@ -1,6 +1,6 @@
 //! Tables survive being written and read, bit by bit.
 
-use files::table::{Table, TableError};
+use files::table::{Cell, Sheet, Table, TableError};
 
 /// The generator splitmix64 (Steele, Lea, Flood 2014).
 fn splitmix(state: &mut u64) -> u64 {
@@ -106,8 +106,8 @@ fn malformed_lines_are_named() {
         (b"t,v\n1,2\n1,inf\n", 3, "\"inf\" is not a finite number"),
         (b"t,v\n1,-1e999\n", 2, "\"-1e999\" is not a finite number"),
         (b"t,v\n1, 2\n", 2, "\" 2\" is not a finite number"),
-        (b"t,v\n1,\xff\n", 2, "\"\u{fffd}\" is not a finite number"),
-        (b"t,v\n1,2\n3,4,5\n", 3, "3 fields"),
+        (b"t,v\n1,\xff\n", 2, "0xff is not UTF-8"),
+        (b"t,v\n1,2\n3,4,5\n", 3, "3 cells in place of 2"),
     ];
     for (text, line, words) in cases {
         let error = Table::parse(text).expect_err("malformed");
@@ -118,7 +118,7 @@ fn malformed_lines_are_named() {
     let headers: [(&[u8], &str); 6] = [
         (b"", "there is no header"),
         (b"t,\"v\n1\"\n", "\"v\\n1\" is no name of a column; small letters, digits and _ make one"),
-        (b"t,\xff\n", "\"\u{fffd}\" is no name"),
+        (b"t,\xff\n", "0xff is not UTF-8"),
         (b"t,,v\n", "\"\" is no name"),
         (b"t,V\n", "\"V\" is no name"),
         (b"t,v,t\n1,2,3\n", "the column t stands twice"),
@@ -135,4 +135,53 @@ fn malformed_lines_are_named() {
 fn a_missing_file_is_named() {
     let error = Table::read(std::path::Path::new("no/such/table.csv")).expect_err("there is none");
     assert!(error.to_string().starts_with("no/such/table.csv: "), "{error}");
+}
+
+#[test]
+fn what_other_programs_write_is_named() {
+    let cases: [(&[u8], u64, &str); 10] = [
+        (b"t;v\n1;2\n", 1, "semicolons"),
+        (b"t\tv\n1\t2\n", 1, "tabs"),
+        (b"t|v\n1|2\n", 1, "pipes (|)"),
+        (b"\"\",\"t\",\"v\"\n\"1\",0,1\n", 1, "row names of R"),
+        (b"t,v\n\"1\",0,1\n", 2, "row names of R"),
+        (b"t,v\n1,2\n\"3,5\",4\n", 3, "decimal comma; write 3.5"),
+        (b"t,v\n1,5,2,5\n", 2, "decimal commas"),
+        ("t,v\n1,2\n3,\u{2212}4.5\n".as_bytes(), 3, "typographic minus sign; write -4.5"),
+        (b"\xff\xfet\0,\0", 0, "UTF-16"),
+        (b"t,v\n1,2\n3,4\0\n", 3, "UTF-16"),
+    ];
+    for (bytes, line, words) in cases {
+        let error = Table::parse(bytes).expect_err("malformed");
+        let TableError::Malformed { line: found, problem, .. } = &error else { panic!("{error}") };
+        assert_eq!(*found, line, "{error}");
+        assert!(problem.contains(words), "{error}");
+    }
+    let marked = Table::parse("\u{feff}t,v\n1,2\n".as_bytes()).expect("a mark is no part of the first name");
+    assert_eq!(marked.columns, ["t", "v"]);
+}
+
+#[test]
+fn a_malformed_file_is_named_with_its_line() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("std.csv");
+    std::fs::write(&file, "t,v\n0,1\n1,NaN\n").expect("a file");
+    let error = Table::read(&file).expect_err("NaN").to_string();
+    assert!(error.starts_with(&format!("{}:3: ", file.display())) && error.contains("\"NaN\""), "{error}");
+}
+
+#[test]
+fn sheets_keep_numbers_words_and_nothing_apart() {
+    let mut sheet = Sheet::new(&["method", "error", "note"]);
+    sheet.push(&["heun".into(), 0.1.into(), Cell::Empty]);
+    sheet.push(&["a, b".into(), Cell::Empty, "say \"x\"".into()]);
+    let csv = sheet.to_csv();
+    assert_eq!(csv, b"method,error,note\nheun,0.1,\n\"a, b\",,\"say \"\"x\"\"\"\n");
+    assert_eq!(Sheet::parse(&csv).expect("a sheet"), sheet);
+    let cells = Sheet::parse(b"a,b,c\nnan,inf,1e999\n").expect("words");
+    assert!(cells.rows().flatten().all(|cell| matches!(cell, Cell::Word(_))), "{cells:?}");
+    let chosen = sheet.select(&[("method", "heun")], &["error"]).expect("columns");
+    assert_eq!(chosen.column("error").expect("a column"), [0.1]);
+    assert_eq!(sheet.select(&[], &["error"]).expect("columns").len(), 1);
+    assert!(sheet.select(&[("nothing", "x")], &[]).is_err());
 }

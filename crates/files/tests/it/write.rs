@@ -1,6 +1,7 @@
 //! Writing leaves the whole new file or the old one, and nothing else.
 
-use files::write::{atomic, sha256, sha256_file};
+use files::write::{Draft, atomic, atomic_all, draft_name, is_draft_name, sha256, sha256_file};
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -62,16 +63,84 @@ fn a_failed_write_keeps_the_old_and_leaves_nothing() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_keeps_the_old_file() {
-    // every write to this device fails for want of space; a link in a folder lets the write start
+    // every write to this device fails for want of space
     let folder = Folder::new("full");
     let file = folder.0.join("table.csv");
     fs::write(&file, b"old").expect("the old file");
-    let temporary = folder.0.join(format!("table.csv.tmp-{}", std::process::id()));
-    std::os::unix::fs::symlink("/dev/full", &temporary).expect("a link");
-    let error = atomic(&file, b"new").expect_err("the disk is full");
+    let draft = Draft::new(&file).expect("a draft");
+    std::os::unix::fs::symlink("/dev/full", draft.path()).expect("a link");
+    let error = draft.fill(b"new").expect_err("the disk is full");
     assert_eq!(error.kind(), std::io::ErrorKind::StorageFull, "{error}");
+    drop(draft);
     assert_eq!(fs::read(&file).expect("the file"), b"old");
     assert_eq!(folder.names(), ["table.csv"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_is_named_and_stays() {
+    let folder = Folder::new("pipe");
+    let pipe = folder.0.join("state.csv");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status().expect("mkfifo");
+    assert!(made.success());
+    let error = atomic(&pipe, b"new").expect_err("a pipe");
+    assert!(error.to_string().contains("state.csv: is a pipe"), "{error}");
+    let error = atomic(Path::new("/dev/null"), b"new").expect_err("a device");
+    assert!(error.to_string().contains("/dev/null: is a device"), "{error}");
+    assert_eq!(folder.names(), ["state.csv"]);
+}
+
+#[test]
+fn threads_that_write_one_path_leave_one_of_the_texts_whole() {
+    let folder = Folder::new("threads");
+    let file = folder.0.join("table.csv");
+    let texts: Vec<Vec<u8>> = (b'a'..=b'd').map(|letter| vec![letter; 100_000]).collect();
+    std::thread::scope(|scope| {
+        for text in &texts {
+            scope.spawn(|| (0..20).for_each(|_| atomic(&file, text).expect("it can be written")));
+        }
+    });
+    assert!(texts.contains(&fs::read(&file).expect("the file")));
+    assert_eq!(folder.names(), ["table.csv"]);
+}
+
+#[test]
+fn all_files_of_a_folder_come_from_one_of_two_writers() {
+    let folder = Folder::new("writers");
+    let write = |letter: u8| {
+        let files: Vec<_> = (0..8).map(|i| (folder.0.join(format!("{i}.csv")), vec![letter])).collect();
+        atomic_all(&files).expect("they can be written");
+    };
+    for _ in 0..10 {
+        std::thread::scope(|scope| {
+            scope.spawn(|| write(b'a'));
+            scope.spawn(|| write(b'b'));
+        });
+        let contents: BTreeSet<Vec<u8>> =
+            folder.names().iter().map(|name| fs::read(folder.0.join(name)).expect("a file")).collect();
+        assert_eq!((contents.len(), folder.names().len()), (1, 8));
+    }
+}
+
+#[test]
+fn two_files_of_one_name_are_refused() {
+    let folder = Folder::new("twice");
+    let file = folder.0.join("std.csv");
+    let error = atomic_all(&[(file.clone(), vec![1]), (file, vec![2])]).expect_err("twice");
+    assert!(error.to_string().contains("std.csv"), "{error}");
+    assert!(folder.names().is_empty());
+}
+
+#[test]
+fn names_of_drafts_are_known_and_never_the_same() {
+    let [one, other] = [0, 1].map(|_| draft_name("fig04.png"));
+    assert!(one != other && one.starts_with("fig04.png.tmp-"), "{one} {other}");
+    for (name, expected) in
+        [(one.as_str(), true), ("a.tmp-12", true), ("a.tmp-12-3", true), ("a.tmp-", false), ("a.tmp-1-", false)]
+    {
+        assert_eq!(is_draft_name(name), expected, "{name}");
+    }
+    assert!(!is_draft_name("a.csv") && !is_draft_name("a.tmp-x1"));
 }
 
 #[test]

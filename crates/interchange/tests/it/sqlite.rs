@@ -1,7 +1,7 @@
 //! The database: the tables that JuPedSim and PedPy ask for, and the same bytes each time.
 
 use crate::{TABLE, header};
-use interchange::draft::Draft;
+use files::write::{Draft, publish};
 use interchange::frames::Frames;
 use interchange::sqlite;
 use rusqlite::Connection;
@@ -13,7 +13,7 @@ fn written(folder: &Path, name: &str, a_0: f64) -> PathBuf {
     let draft = Draft::new(&file).expect("a draft");
     let frames = Frames::read("run.csv", TABLE.as_bytes(), 2, 0.25).expect("a table");
     assert_eq!(sqlite::write(&draft, &header(Some(a_0)), frames), Ok(4));
-    draft.publish().expect("a file");
+    publish(vec![draft]).expect("a file");
     file
 }
 

@@ -1,8 +1,8 @@
 //! Text, and the table it is made from.
 
 use crate::{TABLE, header};
+use files::write::{Draft, publish};
 use interchange::Problem;
-use interchange::draft::Draft;
 use interchange::frames::{Frames, Row};
 use interchange::text;
 use std::fs;
@@ -19,7 +19,7 @@ fn a_line_for_each_pedestrian_in_each_frame() {
     let frames = Frames::read("run.csv", TABLE.as_bytes(), 2, 0.25).expect("a table");
     assert_eq!(text::write(&draft, &header(Some(0.6)), frames), Ok(4));
     assert!(!file.exists());
-    draft.publish().expect("a file");
+    publish(vec![draft]).expect("a file");
     let text = fs::read_to_string(&file).expect("text");
     // PedPy takes the first number of the first line with this word
     assert!(text.starts_with("# framerate: 8\n# title: two # x/cm framerate: 99\n"), "{text}");
@@ -75,4 +75,16 @@ fn a_draft_that_is_dropped_leaves_the_old_file() {
     drop(draft);
     assert_eq!(fs::read_to_string(&file).ok().as_deref(), Some("old"));
     assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 1);
+}
+
+#[test]
+fn positions_keep_their_digits_whatever_a_metre_is() {
+    for (a_0, expected) in [(0.6, "0 1 0.180000000 0 0"), (1e-12, "0 1 0.0000000000003000000 0 0")] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let draft = Draft::new(&folder.path().join("trajectories.txt")).expect("a draft");
+        let frames = Frames::read("run.csv", TABLE.as_bytes(), 2, 0.25).expect("a table");
+        text::write(&draft, &header(Some(a_0)), frames).expect("text");
+        let text = fs::read_to_string(draft.path()).expect("text");
+        assert!(text.lines().any(|line| line == expected), "{text}");
+    }
 }

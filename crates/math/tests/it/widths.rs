@@ -4,7 +4,6 @@ use crate::sample::{Map, Random};
 use math::lane::{self, SoftplusBase};
 use math::row::{self, Room};
 use math::simd::{Kernel, Width, available, dispatch, dispatch_up_to};
-use math::slice;
 
 const WIDTHS: [Width; 3] = [Width::Baseline, Width::Four, Width::Eight];
 
@@ -69,22 +68,6 @@ fn kernels_that_return_a_value_have_the_same_bits_at_every_width() {
     let x: Vec<f64> = (0..1001).map(|_| random.uniform(-1.0, 1.0)).collect();
     let sums = WIDTHS.map(|width| dispatch_up_to(width, Sum(&x)).to_bits());
     assert_eq!(sums, [dispatch(Sum(&x)).to_bits(); 3]);
-}
-
-#[test]
-fn slices_have_the_bits_of_their_lanes() {
-    let mut random = Random(72);
-    let base = SoftplusBase::new(-1.7);
-    for length in 0..40 {
-        let x: Vec<f64> = (0..length).map(|_| random.uniform(-20.0, 20.0)).collect();
-        let mut out = vec![0.0; length];
-        slice::softplus(&x, &mut out);
-        assert_eq!(out, x.iter().map(|&x| lane::softplus(x)).collect::<Vec<_>>());
-        slice::softplus_difference(base, &x, &mut out);
-        assert_eq!(out, x.iter().map(|&x| lane::softplus_difference(&base, x)).collect::<Vec<_>>());
-        slice::ln_1p_scaled(0.04, &x, &mut out);
-        assert_eq!(out, x.iter().map(|&x| lane::ln_1p(0.04 * x)).collect::<Vec<_>>());
-    }
 }
 
 /// A function of rows, on a row.

@@ -17,4 +17,3 @@ mod properties;
 mod published;
 mod reference;
 mod runs;
-mod steps;

@@ -1,0 +1,31 @@
+#!/usr/bin/env bash
+# Installs what the checks need and this machine lacks, where that is possible (Debian, as root):
+#   checks/install.sh [compiler] [python] [browser] [git] [valgrind]
+# Exit code 0: all of it is there; 5: something is missing and cannot be installed here; another one: an installation
+# failed.
+set -euo pipefail
+packages=()
+need() { command -v "$1" >/dev/null 2>&1 || packages+=("$2"); }
+for part in "$@"; do
+  case $part in
+    compiler) need cc build-essential; need c++ build-essential ;;
+    valgrind) need valgrind valgrind ;;
+    git) need git git ;;
+    python) python3 -c 'import ensurepip, venv' >/dev/null 2>&1 || packages+=(python3 python3-venv) ;;
+    browser)
+      command -v chromium-browser >/dev/null 2>&1 || need chromium chromium
+      need node nodejs
+      need npm npm
+      ;;
+    *) echo "$0: $part: valid are compiler, git, python, browser, valgrind" >&2; exit 2 ;;
+  esac
+done
+[ ${#packages[@]} -gt 0 ] || exit 0
+if [ "$(id -u)" != 0 ] || ! command -v apt-get >/dev/null 2>&1; then
+  echo "missing: ${packages[*]} (apt-get install ${packages[*]})" >&2
+  exit 5
+fi
+echo "installing ${packages[*]}" >&2
+export DEBIAN_FRONTEND=noninteractive
+apt-get update -qq
+apt-get install -y -qq --no-install-recommends "${packages[@]}" >&2

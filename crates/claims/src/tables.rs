@@ -1,0 +1,80 @@
+//! The tables that the ledger reads: where each lies, and what error is stated for its columns.
+
+use crate::sheet::{Sheet, Stated};
+use checkout::failure::Failure;
+use checkout::manifest::{self, Entry};
+use checkout::paths::Paths;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::rc::Rc;
+
+/// The method of tables whose manifest states the error relative to numbers above 1, not to the range of the column.
+const CLOSED_FORM: &str = "closed form";
+
+/// Tables by name, each read once.
+pub struct Tables<'a> {
+    paths: &'a Paths,
+    made: &'a Paths,
+    entries: BTreeMap<String, Entry>,
+    read: RefCell<BTreeMap<String, Rc<Sheet>>>,
+}
+
+/// The figure or supplement that makes a table of this name; none for a table that is committed.
+pub fn figure_of(table: &str) -> Option<&str> {
+    let (folder, _) = table.split_once('/')?;
+    let digits = folder.strip_prefix("fig").or_else(|| folder.strip_prefix('s'))?;
+    let is_number = digits.len() == 2 && digits.bytes().all(|byte| byte.is_ascii_digit());
+    is_number.then_some(folder)
+}
+
+impl<'a> Tables<'a> {
+    /// Tables of figures as they lie below `made`, committed ones as they lie in the checkout `paths`, whose manifest
+    /// tells their errors.
+    ///
+    /// # Errors
+    /// Usage: the manifest is malformed.
+    pub fn new(paths: &'a Paths, made: &'a Paths) -> Result<Tables<'a>, Failure> {
+        Ok(Tables { paths, made, entries: manifest::read(paths)?, read: RefCell::default() })
+    }
+
+    /// Where a table lies.
+    pub fn path(&self, table: &str) -> PathBuf {
+        let base = if figure_of(table).is_some() { self.made } else { self.paths };
+        base.output(&Paths::table(table))
+    }
+
+    /// Whether it is there.
+    pub fn has(&self, table: &str) -> bool {
+        self.path(table).is_file()
+    }
+
+    /// A table.
+    ///
+    /// # Errors
+    /// What is wrong, and how to get it.
+    pub fn get(&self, table: &str) -> Result<Rc<Sheet>, String> {
+        if let Some(sheet) = self.read.borrow().get(table) {
+            return Ok(Rc::clone(sheet));
+        }
+        let path = self.path(table);
+        if !path.is_file() {
+            return Err(match figure_of(table) {
+                Some(figure) => format!("no table {table}; cargo xtask figures {figure} makes those of {figure}"),
+                None => format!("no table {table}: {} is not there", Paths::table(table)),
+            });
+        }
+        let cells = files::table::Sheet::read(&path).map_err(|error| error.to_string())?;
+        let entry = self.entries.get(&Paths::table(table));
+        let error = |column: &str| {
+            let entry = entry?;
+            // a column whose check says nothing has an error that nothing bounds
+            let part = entry.error.get(column)?.unwrap_or(f64::INFINITY);
+            let of_size = entry.counts.get("method").is_some_and(|method| method == CLOSED_FORM);
+            Some(if of_size { Stated::OfSize(part) } else { Stated::OfRange(part) })
+        };
+        let sheet = Rc::new(Sheet::new(cells, &error));
+        self.read.borrow_mut().insert(table.to_owned(), Rc::clone(&sheet));
+        Ok(sheet)
+    }
+}

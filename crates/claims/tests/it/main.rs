@@ -1,0 +1,4 @@
+//! Measures, verdicts, and every kind of bad input.
+
+mod corpus;
+mod ledger;

@@ -1,0 +1,6 @@
+//! Seconds of CPU and instructions of the parts that runs consist of; against another commit, ratios. A program that the
+//! runner starts ([`bench`]).
+
+pub mod bench;
+pub mod benchmarks;
+pub mod pairs;

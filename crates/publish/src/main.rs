@@ -1,0 +1,5 @@
+//! The program `publish`: article, page, archive.
+
+fn main() {
+    std::process::exit(publish::cli::run(std::env::args_os()));
+}

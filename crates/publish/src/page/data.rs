@@ -1,0 +1,304 @@
+//! The numbers that the page carries: maps, curves, trajectories, published values. As base64 of small binary numbers,
+//! lowest byte first; what they are stands in an index in JSON.
+
+use super::html::symbol;
+use super::scenes;
+use super::source::Source;
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
+use checkout::failure::Failure;
+use checkout::figure::Figure;
+use files::recipe::{Kind, Panel, Recipe};
+use files::table::Table;
+use serde_json::{Value, json};
+
+/// Stops of the diverging colours, as in crate `plot`: a test compares.
+pub const DIVERGING: [[u8; 3]; 17] = [
+    [0x01, 0x51, 0xa1],
+    [0x33, 0x65, 0xad],
+    [0x50, 0x79, 0xb9],
+    [0x6b, 0x8d, 0xc5],
+    [0x85, 0xa2, 0xd0],
+    [0x9f, 0xb7, 0xdb],
+    [0xbb, 0xcc, 0xe5],
+    [0xd7, 0xe1, 0xef],
+    [0xf6, 0xf6, 0xf6],
+    [0xf1, 0xdc, 0xd2],
+    [0xe8, 0xc3, 0xb2],
+    [0xde, 0xaa, 0x94],
+    [0xd3, 0x91, 0x78],
+    [0xc7, 0x77, 0x5e],
+    [0xba, 0x5e, 0x47],
+    [0xac, 0x43, 0x31],
+    [0x9d, 0x23, 0x1e],
+];
+/// Stops of the sequential colours, as in crate `plot`.
+pub const SEQUENTIAL: [[u8; 3]; 9] = [
+    [0x44, 0x01, 0x54],
+    [0x48, 0x24, 0x75],
+    [0x41, 0x44, 0x87],
+    [0x35, 0x5f, 0x8d],
+    [0x2a, 0x78, 0x8e],
+    [0x21, 0x91, 0x8c],
+    [0x22, 0xa8, 0x84],
+    [0x44, 0xbf, 0x70],
+    [0x7a, 0xd1, 0x51],
+];
+/// Where colours are clipped, in both directions, as in the figures' programs: a test compares.
+pub const CLIPS: [(&str, f64); 7] =
+    [("fig03", 0.5), ("fig05", 0.5), ("fig06", 0.5), ("fig09", 0.2), ("fig10", 0.12), ("fig14", 0.2), ("fig15", 0.5)];
+/// Positions and speeds of the trajectories are rounded to this.
+pub const STEP: f64 = 1e-3;
+/// Its inverse, which is exact.
+const PER_UNIT: f64 = 1000.0;
+
+/// What the page carries.
+#[derive(Debug, Default)]
+pub struct Data {
+    /// What there is.
+    pub index: Value,
+    /// Elements with the numbers.
+    pub elements: String,
+}
+
+/// Whether a figure is made of maps that the page carries.
+pub fn has_maps(figure: &Figure) -> bool {
+    !figure.is_supplement() && panels(figure).any(|panel| panel.kind == Kind::Map)
+}
+
+/// Whether a figure is made of curves that the page carries.
+pub fn has_curves(figure: &Figure) -> bool {
+    !figure.is_supplement()
+        && figure.id != "fig11"
+        && panels(figure).any(|panel| panel.kind != Kind::Map && panel.kind != Kind::Drawing)
+}
+
+fn panels(figure: &Figure) -> impl Iterator<Item = &Panel> {
+    figure.recipe.as_ref().map_or(&[][..], |recipe| &recipe.panels).iter()
+}
+
+/// Collects all numbers.
+///
+/// # Errors
+/// A table is missing, or not what its scene says.
+pub fn collect(source: &Source<'_>) -> Result<Data, Failure> {
+    let mut data = Data::default();
+    let (mut maps, mut curves) = (Vec::new(), Vec::new());
+    for figure in &source.figures {
+        let Ok(recipe) = &figure.recipe else { continue };
+        if has_maps(figure) {
+            for panel in &recipe.panels {
+                maps.push(map(source, figure, recipe, panel, &mut data.elements)?);
+            }
+        } else if has_curves(figure) {
+            curves.extend(figure_curves(source, figure, recipe, &mut data.elements)?);
+        }
+    }
+    data.index = json!({
+        "maps": maps, "curves": curves, "ring": ring(source, &mut data.elements)?, "published": published_json(source)?,
+        "diverging": DIVERGING, "sequential": SEQUENTIAL,
+    });
+    Ok(data)
+}
+
+fn element(id: &str, bytes: &[u8]) -> String {
+    format!("<script type=\"text/plain\" id=\"{id}\">{}</script>\n", BASE64_STANDARD.encode(bytes))
+}
+
+/// Numbers as four bytes each: seven digits.
+fn singles(values: impl Iterator<Item = f64>) -> Vec<u8> {
+    values.flat_map(|value| (value as f32).to_le_bytes()).collect()
+}
+
+fn map(
+    source: &Source<'_>,
+    figure: &Figure,
+    recipe: &Recipe,
+    panel: &Panel,
+    elements: &mut String,
+) -> Result<Value, Failure> {
+    let name = format!("{}/{}", figure.id, panel.name);
+    let table = source.table(&name)?;
+    let (x, y) = (axis(source, &name, panel, "x")?, axis(source, &name, panel, "y")?);
+    let cells = x["cells"].as_u64().unwrap_or(0) * y["cells"].as_u64().unwrap_or(0);
+    if table.columns.len() != 3 || table.len() as u64 != cells {
+        return Err(Failure::failed(format!("data/{name}.csv: {} rows for a map of {cells} cells", table.len())));
+    }
+    let clip = CLIPS.iter().find(|(id, _)| *id == figure.id);
+    let (_, clip) =
+        clip.ok_or_else(|| Failure::failed(format!("{}: a map without a clip of its colours", figure.id)))?;
+    let id = format!("values-{}-{}", figure.id, panel.name);
+    elements.push_str(&element(&id, &singles(table.rows().map(|row| row[2]))));
+    let column = &table.columns[2];
+    Ok(json!({
+        "figure": figure.id, "panel": panel.name.replace('_', " "), "id": id, "table": format!("data/{name}.csv"),
+        "difference": scenes::difference(recipe, panel), "x": x, "y": y, "clip": clip,
+        "value": { "symbol": source.symbol(&name, column), "words": source.words(&name, column) },
+    }))
+}
+
+/// An axis of a map, as its scene has it.
+fn axis(source: &Source<'_>, table: &str, panel: &Panel, which: &str) -> Result<Value, Failure> {
+    let values = scenes::values(panel);
+    let text = |key: &str| values.get(&format!("map.{which}.{key}")).cloned().unwrap_or_default();
+    let number = |key: &str| {
+        let bad = |_| Failure::failed(format!("{table}: map.{which}.{key} is not a number"));
+        text(key).parse::<f64>().map_err(bad)
+    };
+    let parameter = text("parameter");
+    Ok(json!({
+        "symbol": symbol(&parameter), "words": source.words(table, &parameter), "from": number("from")?,
+        "to": number("to")?, "cells": number("cells")? as u64,
+    }))
+}
+
+/// The curves of a figure: every table of it, the first column against the one that is drawn.
+fn figure_curves(
+    source: &Source<'_>,
+    figure: &Figure,
+    recipe: &Recipe,
+    elements: &mut String,
+) -> Result<Vec<Value>, Failure> {
+    let mut curves = Vec::new();
+    for file in checkout::outputs::tables(source.paths, figure)? {
+        let name = file.trim_start_matches("data/").trim_end_matches(".csv").to_owned();
+        let table = source.table(&name)?;
+        let short = name.rsplit('/').next().unwrap_or(&name);
+        let (x, y) = (table.columns[0].clone(), table.columns[table.columns.len() - 1].clone());
+        let (abscissae, ordinates) = (column(&table, &x)?, column(&table, &y)?);
+        let id = format!("values-{}-{short}", figure.id);
+        elements.push_str(&element(&id, &singles(abscissae.into_iter().chain(ordinates))));
+        let panel = recipe.panels.iter().find(|panel| panel.name == short);
+        curves.push(json!({
+            "figure": figure.id, "panel": short.replace('_', " "), "id": id, "table": file, "rows": table.len(),
+            "difference": panel.map_or(String::new(), |panel| scenes::difference(recipe, panel)),
+            "x": { "symbol": symbol(&x), "words": source.words(&name, &x) },
+            "y": { "symbol": symbol(&y), "words": source.words(&name, &y) },
+        }));
+    }
+    Ok(curves)
+}
+
+fn column(table: &Table, name: &str) -> Result<Vec<f64>, Failure> {
+    table.column(name).map_err(Failure::failed)
+}
+
+/// The trajectories of figure 11: positions as steps from one sample to the next, and speeds, in whole multiples of
+/// [`STEP`].
+fn ring(source: &Source<'_>, elements: &mut String) -> Result<Value, Failure> {
+    let table = source.table("fig11/trajectories")?;
+    let times = column(&table, "t")?;
+    let count = times.iter().take_while(|&&time| time == times[0]).count();
+    let positions = whole(&column(&table, "x")?);
+    let speeds = whole(&column(&table, "v")?);
+    let steps = (count..positions.len()).map(|row| positions[row] - positions[row - count]);
+    elements.push_str(&element("ring-steps", &shorts(steps)?));
+    elements.push_str(&element("ring-speeds", &shorts(speeds.iter().copied())?));
+    let recipe =
+        source.figures.iter().find(|figure| figure.id == "fig11").and_then(|figure| figure.recipe.as_ref().ok());
+    let length = recipe.and_then(|recipe| scenes::shared(recipe).get("ring.length")?.parse::<f64>().ok());
+    let length = length.ok_or_else(|| Failure::failed("figure 11: no length of the ring"))?;
+    Ok(json!({
+        "pedestrians": count, "samples": times.len() / count, "start": positions[..count], "unit": STEP,
+        "length": length, "last": times.last(),
+    }))
+}
+
+fn whole(values: &[f64]) -> Vec<i64> {
+    values.iter().map(|value| (value * PER_UNIT).round() as i64).collect()
+}
+
+fn shorts(values: impl Iterator<Item = i64>) -> Result<Vec<u8>, Failure> {
+    let mut bytes = Vec::new();
+    for value in values {
+        let bad = |_| Failure::failed(format!("trajectories: {value} steps of {STEP} do not fit into two bytes"));
+        bytes.extend(i16::try_from(value).map_err(bad)?.to_le_bytes());
+    }
+    Ok(bytes)
+}
+
+/// Published beside regenerated numbers.
+#[derive(Debug)]
+pub struct Published {
+    /// Name of the set.
+    pub id: &'static str,
+    /// What it shows, in words.
+    pub title: &'static str,
+    /// The published table, below `data/reference`.
+    pub file: &'static str,
+    /// The regenerated table, `fig12/t300`.
+    pub curve: &'static str,
+    /// Names of the two columns.
+    pub columns: [&'static str; 2],
+    /// Where a number is known.
+    pub x: Vec<f64>,
+    /// The published number there.
+    pub published: Vec<f64>,
+    /// The regenerated one.
+    pub regenerated: Vec<f64>,
+    /// The largest error of reading.
+    pub reading: f64,
+}
+
+impl Published {
+    /// Published minus regenerated numbers.
+    pub fn differences(&self) -> Vec<f64> {
+        self.published.iter().zip(&self.regenerated).map(|(published, regenerated)| published - regenerated).collect()
+    }
+}
+
+/// The two sets that are known: name, title, published table, regenerated table, columns.
+const PUBLISHED: [(&str, &str, &str, &str, [&str; 2]); 2] = [
+    ("speeds", "Figure 12, left: speeds", "published_speed_t300", "fig12/t300", ["n", "v"]),
+    ("deviations", "Figure 13: standard deviation of the speeds", "published_std_log", "fig13/std", ["t", "std"]),
+];
+
+/// Reads published and regenerated numbers.
+///
+/// # Errors
+/// A table is missing, or a published number has no partner.
+pub fn published(source: &Source<'_>) -> Result<Vec<Published>, Failure> {
+    let read = |(id, title, file, curve, columns): (&'static str, &'static str, &'static str, &'static str, _)| {
+        let [x, y]: [&'static str; 2] = columns;
+        let path = source.paths.reference(file);
+        let theirs = Table::read(&path).map_err(Failure::at(&path))?;
+        let ours = source.table(curve)?;
+        let (places, values) = (column(&ours, x)?, column(&ours, y)?);
+        // numbers of pedestrians were read off an axis: whole up to their reading error
+        let wanted: Vec<f64> = column(&theirs, x)?.into_iter().map(f64::round).collect();
+        let partner = |x: &f64| {
+            let row = places.iter().position(|place| place == x);
+            row.map(|row| values[row]).ok_or_else(|| Failure::failed(format!("{curve}: nothing at {x}")))
+        };
+        let regenerated = wanted.iter().map(partner).collect::<Result<Vec<f64>, Failure>>()?;
+        let reading = reading_error(source, &format!("{file}.csv"))?;
+        let published = column(&theirs, y)?;
+        Ok(Published { id, title, file, curve, columns, x: wanted, published, regenerated, reading })
+    };
+    PUBLISHED.into_iter().map(read).collect()
+}
+
+fn published_json(source: &Source<'_>) -> Result<Value, Failure> {
+    let one = |set: &Published| {
+        json!({
+            "id": set.id, "title": set.title, "table": format!("data/{}.csv", set.curve),
+            "reference": format!("data/reference/{}.csv", set.file),
+            "curve": format!("values-{}", set.curve.replace('/', "-")), "x": set.x, "published": set.published,
+            "regenerated": set.regenerated, "difference": set.differences(), "reading": set.reading,
+            "symbols": set.columns.map(symbol), "words": source.words(set.curve, set.columns[1]),
+        })
+    };
+    Ok(published(source)?.iter().map(one).collect())
+}
+
+/// The largest number in the column of reading errors of `data/reference/README.md`.
+fn reading_error(source: &Source<'_>, file: &str) -> Result<f64, Failure> {
+    let text = source.text("data/reference/README.md")?;
+    let line = text.lines().find(|line| line.starts_with(&format!("| {file} ")));
+    let cell = line.and_then(|line| line.trim_end_matches(['|', ' ']).rsplit('|').next()).unwrap_or("");
+    let words = cell.split(|letter: char| !(letter.is_ascii_alphanumeric() || ".-+".contains(letter)));
+    let numbers = words.filter_map(|word| word.parse::<f64>().ok());
+    numbers
+        .max_by(f64::total_cmp)
+        .ok_or_else(|| Failure::failed(format!("data/reference/README.md: no error of {file}")))
+}

@@ -1,0 +1,54 @@
+//! How far the regenerated curves are from the published ones, and how well those can be read.
+
+use super::sheet::Sheet;
+use super::{Quantities, Source};
+use checkout::disk;
+use checkout::failure::Failure;
+
+/// What is compared: short name, published points, their column, our table and column, and the key that both share.
+const PAIRS: [(&str, &str, &str, &str, &str); 2] = [
+    ("speeds", "published_speed_t300", "data/fig12/t300.csv", "v", "n"),
+    ("deviations", "published_std_log", "data/fig13/std.csv", "std", "t"),
+];
+
+/// Adds number of points, largest and root-mean-square distance, and the reading errors that `data/reference` states.
+///
+/// # Errors
+/// A table is missing or lacks a column; a reading error is not stated.
+pub fn collect(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
+    for (short, points, ours, column, key) in PAIRS {
+        let published = Sheet::read(source.paths, &format!("data/reference/{points}.csv"))?;
+        let made = Sheet::read(source.paths, ours)?;
+        let (keys, values) = (made.numbers(key)?, made.numbers(column)?);
+        let read = published.numbers(key)?.into_iter().zip(published.numbers(column)?);
+        // read off a drawing, so keys are whole numbers only nearly
+        let at = |wanted: f64| keys.iter().position(|&key| key == wanted.round()).map(|place| values[place]);
+        let distances: Vec<f64> = read.filter_map(|(key, value)| Some((at(key)? - value).abs())).collect();
+        let from = format!("{ours} against data/reference/{points}.csv");
+        let squares: f64 = distances.iter().map(|distance| distance * distance).sum();
+        all.exact(&format!("published.{short}.points"), distances.len() as f64, &from);
+        let largest = distances.iter().fold(0.0, |a: f64, &b| if b > a { b } else { a });
+        all.rounded(&format!("published.{short}.largest"), largest, 2, &from);
+        all.rounded(&format!("published.{short}.rms"), (squares / distances.len() as f64).sqrt(), 2, &from);
+        let mut sorted = distances;
+        sorted.sort_by(f64::total_cmp);
+        all.rounded(&format!("published.{short}.median"), sorted[sorted.len() / 2], 2, &from);
+    }
+    reading_errors(source, all)
+}
+
+/// The last column of the table in `data/reference/README.md`: `3e-5`, or `median 4e-4, largest 2e-3 (...)`.
+fn reading_errors(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
+    let name = "data/reference/README.md";
+    let text = disk::read_text(&source.paths.root.join(name))?.unwrap_or_default();
+    for (short, points, ..) in PAIRS {
+        let row = text.lines().find(|line| line.starts_with(&format!("| {points}.csv")));
+        let cell = row.and_then(|row| row.trim_end_matches([' ', '|']).rsplit('|').next()).unwrap_or("");
+        let numbers: Vec<f64> = cell.split([' ', ',']).filter_map(|word| word.parse().ok()).collect();
+        let missing = || Failure::Usage(format!("{name}: no reading error of {points}"));
+        let (first, last) = (numbers.first().ok_or_else(missing)?, numbers.last().ok_or_else(missing)?);
+        all.exact(&format!("published.{short}.reading"), *last, name);
+        all.exact(&format!("published.{short}.reading-median"), *first, name);
+    }
+    Ok(())
+}

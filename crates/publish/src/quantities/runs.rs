@@ -1,0 +1,140 @@
+//! What the runs of the figures say: events, errors, and single values of their curves.
+
+use super::sheet::Sheet;
+use super::{Quantities, Source};
+use checkout::failure::Failure;
+use checkout::paths::EVENTS;
+use serde_json::Value;
+
+/// Adds all of it.
+///
+/// # Errors
+/// A table is missing, or lacks a column or a row.
+pub fn collect(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
+    let figures = source.figures.iter().filter(|figure| !figure.is_supplement()).count();
+    all.exact("figures.count", figures as f64, "figures/");
+    errors(source, all);
+    events(source, all)?;
+    for figure in ["fig04", "fig07"] {
+        decay(source, all, figure)?;
+        growth(source, all, figure)?;
+    }
+    jams(source, all)?;
+    plateau(source, all)
+}
+
+/// Of each figure: the largest error of a column, and method, tolerance and counts of its tables.
+fn errors(source: &Source<'_>, all: &mut Quantities) {
+    for figure in source.figures {
+        let mut largest: Option<f64> = None;
+        let start = format!("data/{}/", figure.id);
+        for (name, entry) in source.manifest.iter().filter(|(name, _)| name.starts_with(&start)) {
+            let from = format!("data/manifest.json: {name}");
+            let table = name[start.len()..].trim_end_matches(".csv");
+            for (column, error) in &entry.error {
+                let Some(error) = error else { continue };
+                all.rounded(&format!("{}.{table}.{column}.error", figure.id), *error, 2, &from);
+                largest = Some(largest.map_or(*error, |old| if *error > old { *error } else { old }));
+            }
+            for (key, value) in &entry.counts {
+                let name = format!("{}.{table}.{key}", figure.id);
+                match value {
+                    Value::Number(number) => all.exact(&name, number.as_f64().unwrap_or(f64::NAN), &from),
+                    Value::String(word) => all.word(&name, word, &from),
+                    _ => {}
+                }
+            }
+        }
+        if let Some(largest) = largest {
+            all.rounded(
+                &format!("{}.error", figure.id),
+                largest,
+                2,
+                &format!("data/manifest.json: largest of {start}"),
+            );
+        }
+    }
+}
+
+/// The time and the pedestrian of each event.
+fn events(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
+    let sheet = Sheet::read(source.paths, EVENTS)?;
+    for (scene, event) in sheet.words("scene")?.into_iter().zip(sheet.words("event")?) {
+        let row = sheet.only(&[("scene", &*scene), ("event", &*event)])?;
+        let from = format!("{EVENTS}: {scene}, {event}");
+        all.uncertain(&format!("{scene}.{event}.t"), row.first("t")?, row.first("uncertainty")?, &from);
+        all.rounded(&format!("{scene}.{event}.short"), row.first("t")?, 6, &from);
+        all.exact(&format!("{scene}.{event}.n"), row.first("n")?, &from);
+    }
+    Ok(())
+}
+
+/// A stable run: its largest deviation, and what is left at the end.
+fn decay(source: &Source<'_>, all: &mut Quantities, figure: &str) -> Result<(), Failure> {
+    let name = format!("data/{figure}/stable.csv");
+    let sheet = Sheet::read(source.paths, &name)?;
+    let (times, std) = (sheet.numbers("t")?, sheet.numbers("std")?);
+    all.rounded(&format!("{figure}.stable.peak"), sheet.largest("std")?, 2, &name);
+    all.rounded(&format!("{figure}.stable.end"), *std.last().unwrap_or(&f64::NAN), 2, &name);
+    if let Some(at) = times.iter().position(|&t| t == 1000.0) {
+        all.rounded(&format!("{figure}.stable.at-1000"), std[at], 2, &name);
+    }
+    Ok(())
+}
+
+/// An unstable run: its last deviation, before the event that ends it.
+fn growth(source: &Source<'_>, all: &mut Quantities, figure: &str) -> Result<(), Failure> {
+    let name = format!("data/{figure}/unstable.csv");
+    let sheet = Sheet::read(source.paths, &name)?;
+    all.rounded(&format!("{figure}.unstable.largest"), sheet.largest("std")?, 3, &name);
+    Ok(())
+}
+
+/// The jams at the end of figure 12's right panel, and the least speed of the whole run once all have started.
+fn jams(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
+    let name = "data/fig12/t2000.csv";
+    let speeds = Sheet::read(source.paths, name)?.numbers("v")?;
+    let half = 0.5;
+    let is_slow: Vec<bool> = speeds.iter().map(|&speed| speed < half).collect();
+    let begins = (0..speeds.len()).filter(|&n| is_slow[n] && !is_slow[(n + speeds.len() - 1) % speeds.len()]);
+    all.exact("fig12.jams", begins.count() as f64, &format!("{name}: runs of pedestrians slower than half of v0"));
+    let slow = is_slow.iter().filter(|slow| **slow).count();
+    all.exact("fig12.slow", slow as f64, &format!("{name}: pedestrians slower than half of v0"));
+    let sheet = Sheet::read(source.paths, name)?;
+    all.rounded("fig12.least", sheet.least("v")?, 3, name);
+    all.rounded("fig12.largest", sheet.largest("v")?, 3, name);
+    let name = "data/fig11/trajectories.csv";
+    let sheet = Sheet::read(source.paths, name)?;
+    let (times, speeds) = (sheet.numbers("t")?, sheet.numbers("v")?);
+    let moving = times.iter().zip(&speeds).filter(|(t, _)| **t >= 1.0).map(|(_, v)| *v);
+    let least = moving.fold(f64::INFINITY, |a, b| if b < a { b } else { a });
+    all.rounded("fig11.least", least, 3, &format!("{name}: v at t >= 1"));
+    Ok(())
+}
+
+/// The plateau of figure 13, and when each of its two runs gets to a third of it.
+fn plateau(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
+    const LATE: f64 = 2000.0;
+    const HIGH: f64 = 0.1;
+    let early = 300.0;
+    all.exact("fig13.early", early, "data/fig12/t300.csv: its time");
+    all.exact("fig12.late", LATE, "data/fig12/t2000.csv: its time");
+    let mut reached = Vec::new();
+    for (table, short) in [("std", "large"), ("std_small_shift", "small")] {
+        let name = format!("data/fig13/{table}.csv");
+        let sheet = Sheet::read(source.paths, &name)?;
+        let (times, std) = (sheet.numbers("t")?, sheet.numbers("std")?);
+        let late: Vec<f64> = times.iter().zip(&std).filter(|(t, _)| **t >= LATE).map(|(_, std)| *std).collect();
+        let mean = late.iter().sum::<f64>() / late.len() as f64;
+        all.rounded(&format!("fig13.{short}.plateau"), mean, 2, &format!("{name}: mean of std at t >= {LATE}"));
+        let first = times.iter().zip(&std).find(|(_, std)| **std > HIGH).map_or(f64::NAN, |(t, _)| *t);
+        all.exact(&format!("fig13.{short}.reaches"), first, &format!("{name}: first t with std > {HIGH}"));
+        if let Some(at) = times.iter().position(|&t| t == early) {
+            all.rounded(&format!("fig13.{short}.at-300"), std[at], 2, &name);
+        }
+        reached.push(first);
+    }
+    all.exact("fig13.high", HIGH, "chosen: a third of the plateau");
+    all.exact("fig13.delay", reached[1] - reached[0], "data/fig13: difference of the two times");
+    Ok(())
+}

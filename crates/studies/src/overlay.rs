@@ -1,0 +1,120 @@
+//! The published curves of figures 12 (left) and 13 beside runs by fixed steps: how far each run is from them.
+
+use crate::hard::rows::{Cell, Rows, row};
+use crate::parameters::jammed::{Run, snapshots};
+use figures::failure::Failure;
+use files::table::Table;
+use ode::{Control, Method};
+
+/// A run as it is compared: the standard deviation at whole times from 0, the speeds at t = 300.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sampled {
+    /// Standard deviations of the speeds.
+    pub spread: Vec<f64>,
+    /// Speeds of the pedestrians.
+    pub speeds: Vec<f64>,
+}
+
+/// The time of figure 12, left.
+const EARLY: f64 = 300.0;
+
+impl Sampled {
+    /// From the tables of a run.
+    ///
+    /// # Errors
+    /// A column is missing.
+    pub fn from_tables(std: &Table, trajectories: &Table) -> Result<Sampled, Failure> {
+        let speeds = trajectories.rows().filter(|row| (row[0] - EARLY).abs() < 0.5).map(|row| row[3]).collect();
+        Ok(Sampled { spread: std.column("std")?, speeds })
+    }
+
+    /// The run of the figures by steps of fixed length.
+    ///
+    /// # Errors
+    /// The integration failed.
+    pub fn by_steps(method: Method, step: f64) -> Result<Sampled, Failure> {
+        let run = Run::default();
+        // the start, at rest, is no sample
+        let mut sampled = Sampled { spread: vec![0.0], speeds: Vec::new() };
+        for snapshot in snapshots(&run, (method, Control::Fixed { step }))? {
+            sampled.spread.push(snapshot.spread);
+            if (snapshot.time - EARLY).abs() < 0.5 * run.sample {
+                sampled.speeds = snapshot.speeds;
+            }
+        }
+        Ok(sampled)
+    }
+
+    /// Published minus regenerated standard deviations, at the times of the published ones.
+    pub fn spread_differences(&self, published: &[(f64, f64)]) -> Vec<f64> {
+        published.iter().map(|&(t, std)| std - at(&self.spread, t)).collect()
+    }
+
+    /// Published minus regenerated speeds.
+    pub fn speed_differences(&self, published: &[(f64, f64)]) -> Vec<f64> {
+        published.iter().map(|&(n, v)| v - at(&self.speeds, n)).collect()
+    }
+}
+
+/// The value at a place that was read off an axis: whole up to its reading error.
+fn at(values: &[f64], place: f64) -> f64 {
+    values.get(place.round() as usize).copied().unwrap_or(f64::NAN)
+}
+
+/// The largest, the root of the mean square, and the median of the sizes of differences.
+pub fn sizes(differences: &[f64]) -> [f64; 3] {
+    let mut sizes: Vec<f64> = differences.iter().map(|difference| difference.abs()).collect();
+    sizes.sort_by(f64::total_cmp);
+    let squares: f64 = sizes.iter().map(|size| size * size).sum();
+    let count = sizes.len();
+    let median = 0.5 * (sizes[(count - 1) / 2] + sizes[count / 2]);
+    [sizes[count - 1], (squares / count as f64).sqrt(), median]
+}
+
+/// The published curves: `(t, std)` of figure 13 and `(n, v)` of figure 12, left.
+#[derive(Clone, Debug)]
+pub struct Published {
+    /// Figure 13.
+    pub spread: Vec<(f64, f64)>,
+    /// Figure 12, left.
+    pub speeds: Vec<(f64, f64)>,
+}
+
+/// One row of the table of schemes; `step` is `None` for a run whose error does not count.
+pub fn scheme(name: &str, step: Option<f64>, run: &Sampled, published: &Published) -> Vec<Cell> {
+    let [std_largest, std_rms, std_median] = sizes(&run.spread_differences(&published.spread));
+    let [speed_largest, speed_rms, speed_median] = sizes(&run.speed_differences(&published.speeds));
+    row![name, step, std_largest, std_rms, std_median, speed_largest, speed_rms, speed_median]
+}
+
+/// The columns of the table of schemes.
+pub const SCHEMES: [&str; 8] =
+    ["method", "dt", "std_largest", "std_rms", "std_median", "speed_largest", "speed_rms", "speed_median"];
+
+/// Distances of two runs from the published curves beside the stated errors of reading: typical and largest.
+pub fn distance(runs: &[(&str, &Sampled)], published: &Published) -> Rows {
+    let mut rows = Rows::new(&[
+        "figure",
+        "curve",
+        "run",
+        "points",
+        "largest",
+        "root_mean_square",
+        "median",
+        "reading_error_typical",
+        "reading_error_largest",
+    ]);
+    // data/reference/README.md
+    let (of_speeds, of_spread) = ((3e-5, 3e-5), (4e-4, 2e-3));
+    for (name, run) in runs {
+        let speeds = run.speed_differences(&published.speeds);
+        let spread = run.spread_differences(&published.spread);
+        for (figure, curve, differences, reading) in
+            [("fig12", "t300", speeds, of_speeds), ("fig13", "std", spread, of_spread)]
+        {
+            let [largest, rms, median] = sizes(&differences);
+            rows.push(row![figure, curve, *name, differences.len(), largest, rms, median, reading.0, reading.1]);
+        }
+    }
+    rows
+}

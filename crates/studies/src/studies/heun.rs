@@ -1,0 +1,119 @@
+//! Heun's scheme three times: as the other runs have it, with compensated sums, and in numbers of 106 bits.
+
+use figures::failure::Failure;
+use jam::states::Form;
+use math::simd::{Kernel, dispatch};
+use math::twofold::Twofold;
+use ode::{Control, Method, Problem, Step, integrate};
+use reference::ring::Ring as ExactRing;
+use std::ops::ControlFlow;
+
+/// A state under way: every component is `state + carry`, of which the equations see `state` alone.
+#[derive(Clone, Debug)]
+pub struct Sum {
+    /// What the equations see.
+    pub state: Vec<f64>,
+    /// What rounding dropped of it; all 0 for plain sums.
+    pub carry: Vec<f64>,
+}
+
+/// How steps are added up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Adding {
+    /// In doubles.
+    Plain,
+    /// What rounding drops of a sum is added to the next step (Kahan 1965).
+    Compensated,
+}
+
+impl Sum {
+    /// This state, exactly.
+    pub fn new(state: Vec<f64>) -> Sum {
+        Sum { carry: vec![0.0; state.len()], state }
+    }
+
+    /// Goes on for a time that is a multiple of the step `h`.
+    ///
+    /// # Errors
+    /// The state is no longer finite.
+    pub fn advance(&mut self, form: &dyn Form, h: f64, time: f64, adding: Adding) -> Result<(), Failure> {
+        match adding {
+            Adding::Plain => {
+                let (start, control) = (&self.state, Control::Fixed { step: h });
+                let problem = Problem { system: form, start, begin: 0.0, end: time, method: Method::Heun, control };
+                let quiet = &mut |_: &mut Step<'_>| ControlFlow::Continue(());
+                self.state = integrate(&problem, quiet).map_err(Failure::work)?.state;
+            }
+            Adding::Compensated => self.compensated(form, h, (time / h).round() as u64),
+        }
+        Ok(())
+    }
+
+    fn compensated(&mut self, form: &dyn Form, h: f64, count: u64) {
+        let size = self.state.len();
+        let (mut stage, mut first, mut second) = (vec![0.0; size], vec![0.0; size], vec![0.0; size]);
+        for _ in 0..count {
+            form.rates(&self.state, &mut first);
+            dispatch(Predict { state: &self.state, rates: &first, h, stage: &mut stage });
+            form.rates(&stage, &mut second);
+            dispatch(Correct { sum: self, rates: [&first, &second], half: 0.5 * h });
+        }
+    }
+}
+
+/// `stage = state + h rates`.
+struct Predict<'a> {
+    state: &'a [f64],
+    rates: &'a [f64],
+    h: f64,
+    stage: &'a mut [f64],
+}
+
+impl Kernel for Predict<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        for ((stage, state), rate) in self.stage.iter_mut().zip(self.state).zip(self.rates) {
+            *stage = state + self.h * rate;
+        }
+    }
+}
+
+/// `state + carry` grows by `half (rates_0 + rates_1)`.
+struct Correct<'a> {
+    sum: &'a mut Sum,
+    rates: [&'a [f64]; 2],
+    half: f64,
+}
+
+impl Kernel for Correct<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let rates = self.rates[0].iter().zip(self.rates[1]);
+        for ((state, carry), (first, second)) in self.sum.state.iter_mut().zip(&mut self.sum.carry).zip(rates) {
+            let new = Twofold::sum(*state, self.half * (first + second) + *carry);
+            (*state, *carry) = (new.hi, new.lo);
+        }
+    }
+}
+
+/// `count` steps of length `h` of the scheme in numbers of 106 bits: its truncation without its rounding.
+pub fn without_rounding(ring: &ExactRing, state: &mut [Twofold], h: Twofold, count: u64) {
+    let size = ring.dimension();
+    let (mut stage, mut first, mut second) =
+        (vec![Twofold::ZERO; size], vec![Twofold::ZERO; size], vec![Twofold::ZERO; size]);
+    let half = h.times(0.5);
+    for _ in 0..count {
+        ring.rates(state, &mut first);
+        for ((stage, state), rate) in stage.iter_mut().zip(&*state).zip(&first) {
+            *stage = *state + h * *rate;
+        }
+        ring.rates(&stage, &mut second);
+        for ((state, first), second) in state.iter_mut().zip(&first).zip(&second) {
+            *state = *state + half * (*first + *second);
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! The reference solution of figure 4's stable run, and states of all forms as it writes them.
+
+use super::figure_4_stable;
+use super::heun::Sum;
+use figures::failure::Failure;
+use files::write::with_path;
+use jam::states::FormKind;
+use math::twofold::{Twofold, decimal};
+use reference::ring::Ring as ExactRing;
+use reference::scenes::{Parameters, Scene, scene};
+use reference::table::spread;
+use std::path::Path;
+
+/// The scene whose solution is known to 20 digits.
+const NAME: &str = "algebraic_stable";
+
+/// Distances from the solution: the largest of the gaps, the largest of the speeds, that of the standard deviation.
+pub type Distances = [f64; 3];
+
+/// The scene as the reference has it.
+///
+/// # Errors
+/// There is none of this name.
+pub fn exact_scene() -> Result<Scene, Failure> {
+    scene(NAME, Parameters::Doubles).ok_or_else(|| Failure::work(format!("no scene {NAME}")))
+}
+
+/// The state at a whole time from the folder of solutions: clearances, speeds, and a place that nobody compares.
+///
+/// # Errors
+/// The table cannot be read, or has no such time.
+pub fn state_at(folder: &Path, ring: &ExactRing, time: f64) -> Result<Vec<Twofold>, Failure> {
+    let (n, contact) = (ring.pedestrians, ring.law.contact());
+    let mut state = vec![Twofold::ZERO; ring.dimension()];
+    let mut found = 0;
+    for cells in rows(&folder.join(format!("{NAME}.csv")))? {
+        let [t, pedestrian, gap, speed] = cells[..] else { continue };
+        if t.hi == time {
+            let index = pedestrian.hi as usize % n;
+            (state[index], state[n + index]) = (gap - contact, speed);
+            found += 1;
+        }
+    }
+    if found == n { Ok(state) } else { Err(Failure::work(format!("{NAME}.csv: {found} rows at t = {time}"))) }
+}
+
+/// The standard deviations at every unit of time, from 0.
+///
+/// # Errors
+/// The table cannot be read.
+pub fn spreads(folder: &Path) -> Result<Vec<f64>, Failure> {
+    Ok(rows(&folder.join(format!("{NAME}_std.csv")))?.iter().map(|cells| cells[1].into()).collect())
+}
+
+/// The rows of a table of numbers, with all their digits.
+fn rows(file: &Path) -> Result<Vec<Vec<Twofold>>, Failure> {
+    let text = std::fs::read_to_string(file).map_err(|error| with_path(error, file))?;
+    let numbers = |line: &str| line.split(',').map(decimal::parse).collect::<Option<Vec<Twofold>>>();
+    let damaged = || Failure::work(format!("{}: a cell is no number", file.display()));
+    text.lines().skip(1).map(|line| numbers(line).ok_or_else(damaged)).collect()
+}
+
+/// A state of any form as the reference writes it, with its carries and without rounding: clearances, speeds, 0.
+pub fn written(kind: FormKind, ring: &ExactRing, sum: &Sum) -> Vec<Twofold> {
+    let n = ring.pedestrians;
+    let at = |index: usize| Twofold::sum(sum.state[index], sum.carry[index]);
+    let length = Twofold::from(figure_4_stable().1.length);
+    let contact = ring.law.contact();
+    let clearance = |index: usize| match kind {
+        FormKind::Positions if index + 1 < n => at(index + 1) - at(index) - contact,
+        FormKind::Positions => at(0) + length - at(index) - contact,
+        FormKind::Gaps => at(index),
+        FormKind::Deviations => length / n as f64 - contact + at(index),
+    };
+    let speed = |index: usize| match kind {
+        FormKind::Positions | FormKind::Gaps => at(n + index),
+        FormKind::Deviations => at(2 * n + 2) + at(n + index),
+    };
+    (0..n).map(clearance).chain((0..n).map(speed)).chain([Twofold::ZERO]).collect()
+}
+
+/// How far a state is from another.
+pub fn distances(ring: &ExactRing, state: &[Twofold], other: &[Twofold]) -> Distances {
+    let (gap, speed) = reference::table::distances(ring, state, other);
+    [gap, speed, (spread(ring, state) - spread(ring, other)).hi.abs()]
+}

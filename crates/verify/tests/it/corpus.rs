@@ -1,0 +1,20 @@
+//! Kept inputs of the fuzzers of readers of events and of tables of accuracy.
+
+#[path = "../../../../fuzz/targets/events.rs"]
+mod events;
+#[path = "../../../../fuzz/targets/precision.rs"]
+mod precision;
+#[path = "../../../../fuzz/targets/replay.rs"]
+mod replay;
+
+const TO_ROOT: &str = "../..";
+
+#[test]
+fn events_are_read_or_refused() {
+    replay::replay("events", events::read);
+}
+
+#[test]
+fn tables_of_precision_are_read_or_refused() {
+    replay::replay("precision", precision::read);
+}

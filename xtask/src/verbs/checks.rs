@@ -1,0 +1,160 @@
+//! `test` and `ci`: what is run, in which order, and what was not tried here.
+
+use super::{figures, publish, verify};
+use crate::cli::{BundleArgs, CiArgs, FiguresArgs, Selection, VerifyArgs};
+use crate::gate;
+use checkout::failure::Failure;
+use checkout::paths::Paths;
+use checkout::print;
+use checkout::process;
+use std::io::{BufRead, BufReader};
+use std::process::{Command, Stdio};
+
+/// A script below the root that needs more than Rust. It ends with 0 when all is well, with 5 when it cannot be tried
+/// here (the last line on stderr says why), else with another code.
+struct Script {
+    /// What it looks at.
+    what: &'static str,
+    /// The script and its arguments.
+    command: &'static [&'static str],
+}
+
+/// Tried by `test`, where their tools are there; `ci` installs these.
+const SCRIPTS: [Script; 4] = [
+    Script { what: "values by NumPy", command: &["checks/spot.sh"] },
+    Script { what: "trajectories as PedPy reads them", command: &["checks/pedpy/run.sh"] },
+    Script { what: "the article and its PDF", command: &["checks/article.sh"] },
+    Script { what: "the page in a browser", command: &["checks/browser/run.sh"] },
+];
+
+/// Tried by `ci --full` alone.
+const SLOW: [Script; 5] = [
+    Script { what: "other machines", command: &["checks/other-machines.sh"] },
+    Script { what: "instruction counts", command: &["checks/cost.sh"] },
+    Script { what: "licences and sources of crates", command: &["checks/deny.sh"] },
+    Script { what: "kept inputs of the fuzzer", command: &["checks/fuzz.sh", "--regress"] },
+    Script { what: "20000 inputs for each reader", command: &["checks/fuzz.sh", "20000"] },
+];
+
+/// Why a script was not tried: what it looks at, and the reason.
+type Untried = (&'static str, String);
+
+/// `test`.
+///
+/// # Errors
+/// Differs: a test fails.
+pub fn test(paths: &Paths) -> Result<(), Failure> {
+    let mut untried = tests(paths, false)?;
+    untried.extend(SLOW.iter().map(|script| (script.what, "only in cargo xtask ci --full".to_owned())));
+    tell(&untried)
+}
+
+/// `ci`; stops at the first step that fails.
+///
+/// # Errors
+/// Differs: a step fails, or, on a machine that says it is one for CI (`CI` is set), could not be tried.
+pub fn ci(paths: &Paths, arguments: &CiArgs) -> Result<(), Failure> {
+    cargo(paths, &["fmt", "--all", "--check"])?;
+    cargo(paths, &["clippy", "--locked", "--workspace", "--all-targets", "--", "-D", "warnings"])?;
+    // the tables first: the scripts read them
+    eprintln!("ci: figures");
+    figures::run(paths, &FiguresArgs::default())?;
+    let mut untried = tests(paths, true)?;
+    eprintln!("ci: verify");
+    verify::run(paths, &VerifyArgs::default())?;
+    if arguments.full {
+        cargo(paths, &["test", "--release", "--locked", "--workspace", "--", "--ignored"])?;
+        for script in &SLOW {
+            untried.extend(attempt(paths, script, true)?);
+        }
+        untried.extend(archive(paths)?);
+    } else {
+        untried.extend(SLOW.iter().map(|script| (script.what, "only with --full".to_owned())));
+    }
+    tell(&untried)?;
+    let is_ci = std::env::var_os("CI").is_some();
+    match untried.iter().find(|(what, _)| is_ci && SCRIPTS.iter().any(|script| script.what == *what)) {
+        Some((what, why)) => Err(Failure::Differs(format!("not tried: {what}: {why}"))),
+        None => Ok(()),
+    }
+}
+
+fn tests(paths: &Paths, install: bool) -> Result<Vec<Untried>, Failure> {
+    cargo(paths, &["test", "--release", "--locked", "--workspace"])?;
+    let mut untried = Vec::new();
+    for script in &SCRIPTS {
+        untried.extend(attempt(paths, script, install)?);
+    }
+    Ok(untried)
+}
+
+fn tell(untried: &[Untried]) -> Result<(), Failure> {
+    let lines: String = untried.iter().map(|(what, why)| format!("  {what}: {why}\n")).collect();
+    match untried.len() {
+        0 => print::out("everything was tried\n"),
+        count => print::out(&format!("{count} not tried here:\n{lines}")),
+    }
+}
+
+/// Runs a script; why it could not be tried, if so.
+fn attempt(paths: &Paths, script: &Script, install: bool) -> Result<Option<Untried>, Failure> {
+    let name = script.command.join(" ");
+    eprintln!("{name}");
+    let mut command = Command::new("bash");
+    command.args(script.command).current_dir(&paths.root).env("CARGO_TARGET_DIR", &paths.target);
+    if install {
+        command.env("CHECKS_INSTALL", "1");
+    }
+    if let Ok(runner) = std::env::current_exe() {
+        command.env("XTASK", runner);
+    }
+    let mut child = match command.stderr(Stdio::piped()).spawn() {
+        Ok(child) => child,
+        Err(error) => return Ok(Some((script.what, format!("bash: {error}")))),
+    };
+    let mut last = name.clone();
+    if let Some(words) = child.stderr.take() {
+        for line in BufReader::new(words).lines().map_while(Result::ok) {
+            eprintln!("{line}");
+            last = line;
+        }
+    }
+    let status = child.wait().map_err(|error| Failure::Failed(format!("{name}: {error}")))?;
+    match status.code() {
+        Some(0) => Ok(None),
+        Some(5) => Ok(Some((script.what, last))),
+        _ => Err(Failure::Differs(format!("{name} failed ({status})"))),
+    }
+}
+
+/// The archive, unpacked and tried; only of a commit.
+fn archive(paths: &Paths) -> Result<Option<Untried>, Failure> {
+    if gate::modified(paths)?.is_none_or(|names| !names.is_empty()) {
+        return Ok(Some(("bundle --check", "it needs a commit, and no tracked file that differs from it".to_owned())));
+    }
+    eprintln!("ci: figures --all");
+    let selection = Selection { all: true, ..Selection::default() };
+    figures::run(paths, &FiguresArgs { selection, ..FiguresArgs::default() })?;
+    eprintln!("ci: bundle --check");
+    publish::bundle(paths, &BundleArgs { out: None, check: true }).map(|()| None)
+}
+
+fn cargo(paths: &Paths, arguments: &[&str]) -> Result<(), Failure> {
+    eprintln!("cargo {}", arguments.join(" "));
+    step(process::cargo().args(arguments).current_dir(&paths.root).env("CARGO_TARGET_DIR", &paths.target))
+}
+
+/// Runs one step; its words go to our stdout and stderr.
+///
+/// # Errors
+/// Differs: it fails. Unsupported: the program is missing.
+pub fn step(command: &mut Command) -> Result<(), Failure> {
+    let name: Vec<String> = std::iter::once(command.get_program())
+        .chain(command.get_args())
+        .map(|word| word.to_string_lossy().into_owned())
+        .collect();
+    process::run_shown(command).map_err(|failure| match failure {
+        Failure::Child(code) => Failure::Differs(format!("{} failed (exit code {code})", name.join(" "))),
+        other => other,
+    })
+}
