@@ -9,6 +9,7 @@ pub mod map;
 pub mod panels;
 pub mod simulate;
 pub mod titles;
+pub mod uniform;
 
 pub use failure::Failure;
 pub use job::{Job, figure};

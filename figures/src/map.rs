@@ -2,8 +2,9 @@
 
 use crate::failure::{Failure, print};
 use crate::panels::{Labels, map_panel};
+use crate::uniform;
 use clap::Parser;
-use files::recipe::{self, Kind};
+use files::recipe::{self, Kind, Recipe};
 use files::write::{atomic_all, with_path};
 use plot::style::COLUMN_WIDTH;
 use plot::{ColorScale, Picture};
@@ -36,7 +37,7 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     let recipe = recipe::read(&arguments.scene)?;
     let panels: Vec<_> = recipe.panels.iter().filter(|panel| panel.kind == Kind::Map).collect();
     if panels.is_empty() {
-        return Err(Failure::input(format!("{}: has no [map]; a run is made with `simulate`", recipe.file)));
+        return points(&recipe, arguments);
     }
     let mut computed = Vec::new();
     for panel in panels {
@@ -76,6 +77,25 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
         atomic_all(&files)?;
     }
     print(&if arguments.json { json!({ "schema_version": 1, "maps": summary }).to_string() } else { words.join("\n") })
+}
+
+/// Of a scene that is run, the stability of its uniform flow: a map of one point. Nothing is written.
+fn points(recipe: &Recipe, arguments: &Arguments) -> Result<(), Failure> {
+    let (mut summary, mut words) = (Vec::new(), Vec::new());
+    for panel in recipe.panels.iter().filter(|panel| panel.kind == Kind::Run) {
+        let scene = scene::run::read(&recipe.file, &panel.tables)?;
+        let speed = scene.steady_speed;
+        summary.push(json!({ "panel": panel.name, "steady_speed": speed, "uniform_flow": uniform::as_json(&scene) }));
+        words.push(format!("{}: {}", panel.name, uniform::in_words(&scene)));
+    }
+    if words.is_empty() {
+        return Err(Failure::input(format!("{}: has neither [map] nor [run]", recipe.file)));
+    }
+    print(&if arguments.json {
+        json!({ "schema_version": 1, "points": summary }).to_string()
+    } else {
+        words.join("\n")
+    })
 }
 
 /// Why a cell is blank.

@@ -243,6 +243,7 @@ fn summary(scene: &Scene, ended: &Ended, errors: Option<&Errors>) -> Value {
         "pedestrians": scene.ring.pedestrians,
         "length": scene.ring.length,
         "steady_speed": scene.steady_speed,
+        "uniform_flow": crate::uniform::as_json(scene),
         "method": scene.method.name(),
         "control": control,
         "steps": outcome.statistics.steps,
@@ -312,6 +313,7 @@ fn in_words(scene: &Scene, outcome: &Outcome, errors: Option<&Errors>, seconds: 
         statistics.rejected,
         statistics.evaluations,
     );
+    let _ = write!(text, "\n{}", crate::uniform::in_words(scene));
     for (index, happening) in outcome.events.iter().enumerate() {
         let (event, time) = (happening.event, happening.time);
         let is_same = |other: &Happening| (other.event, other.time) == (event, time);

@@ -152,8 +152,7 @@ impl Response {
     /// The largest margin over all waves: the best of a grid, `fineness` points for each wave length of the stencil's
     /// widest pair, and what lies next to it.
     fn over_all(&self, fineness: usize) -> (f64, f64) {
-        let widest = self.spacings.iter().chain(&self.speeds).map(|(j, _)| j.unsigned_abs()).max();
-        let count = 16 * fineness * (widest.unwrap_or(0) as usize + 2);
+        let count = self.grid(fineness);
         let step = PI / count as f64;
         let better = |best: (f64, f64), k: f64| {
             let margin = self.margin_of(k);
@@ -161,6 +160,47 @@ impl Response {
         };
         let coarse = (1..=count).map(|i| step * i as f64).fold((self.long_wave_margin(), 0.0), better);
         self.refined(coarse, step)
+    }
+
+    /// The waves that grow, of all `k` in (0, pi]: the least and the largest of them (0: the limit of long waves). `None` where
+    /// none does. Between the two, a wide stencil may have waves that decay.
+    pub fn growing(&self) -> Option<(f64, f64)> {
+        let step = PI / self.grid(4) as f64;
+        let grows = |k: f64| self.margin_of(k) > 0.0;
+        let grid: Vec<f64> = (1..=self.grid(4)).map(|i| step * i as f64).collect();
+        let (first, last) = (grid.iter().position(|k| grows(*k)), grid.iter().rposition(|k| grows(*k)));
+        let (Some(first), Some(last)) = (first, last) else {
+            // a band that lies between two of the grid, or the limit alone
+            let (margin, k) = self.margin(Waves::All);
+            return (margin > 0.0).then_some((k, k));
+        };
+        let between = |decaying: f64, growing: f64| {
+            let (mut decaying, mut growing) = (decaying, growing);
+            for _ in 0..60 {
+                let middle = 0.5 * (decaying + growing);
+                if grows(middle) { growing = middle } else { decaying = middle }
+            }
+            growing
+        };
+        let least = match first {
+            0 if self.long_wave_margin() > 0.0 => 0.0,
+            0 => between(1e-9, grid[0]),
+            _ => between(grid[first - 1], grid[first]),
+        };
+        let largest = if last + 1 == grid.len() { grid[last] } else { between(grid[last + 1], grid[last]) };
+        Some((least, largest))
+    }
+
+    /// The largest growth rate among the waves of a ring, `k = 2 pi l / N` for `l = 1 .. N/2`, and its `l`.
+    pub fn fastest(&self, pedestrians: usize) -> (f64, usize) {
+        let rate = |l: usize| (self.growth_rate(2.0 * PI * l as f64 / pedestrians as f64), l);
+        (2..=pedestrians / 2).map(rate).fold(rate(1), |best, next| if next.0 > best.0 { next } else { best })
+    }
+
+    /// How many waves of a grid are looked at: `fineness` times the stencil.
+    fn grid(&self, fineness: usize) -> usize {
+        let widest = self.spacings.iter().chain(&self.speeds).map(|(j, _)| j.unsigned_abs()).max();
+        16 * fineness * (widest.unwrap_or(0) as usize + 2)
     }
 
     /// The maximum next to the best of a grid, by a golden section.

@@ -10,6 +10,7 @@ pub mod map;
 pub mod overrides;
 pub mod run;
 pub mod simulation;
+pub mod uniform;
 
 pub use files::reader::RecipeError;
 pub use overrides::Overrides;

@@ -1,0 +1,40 @@
+//! The stability of a scene's uniform flow, in words and as JSON.
+
+use scene::run::Scene;
+use scene::uniform::{Stability, stability};
+use serde_json::{Value, json};
+
+/// One line.
+pub fn in_words(scene: &Scene) -> String {
+    let Some(Stability { speed, margin, margin_on_ring, growing, growth_rate, waves }) = stability(scene) else {
+        return "no uniform flow with a response of its own: nothing to be stable".to_owned();
+    };
+    let flow = format!("uniform flow at speed {speed:.6}");
+    let count = scene.ring.pedestrians;
+    let on_ring = if margin_on_ring > 0.0 {
+        format!("on this ring {waves} in {count} grow fastest, at rate {growth_rate:.4e}")
+    } else {
+        format!("on this ring all decay, {waves} in {count} slowest, at rate {growth_rate:.4e}")
+    };
+    match growing {
+        Some((least, largest)) => {
+            let from = if least == 0.0 { "long ones".to_owned() } else { format!("k = {least:.4}") };
+            format!("{flow}: unstable (margin {margin:.4}), waves from {from} to k = {largest:.4} grow; {on_ring}")
+        }
+        None => format!("{flow}: stable (margin {margin:.4}) for waves of all lengths; {on_ring}"),
+    }
+}
+
+/// The same for `summary.json`.
+pub fn as_json(scene: &Scene) -> Value {
+    stability(scene).map_or(Value::Null, |flow| {
+        json!({
+            "stable": flow.growing.is_none(),
+            "margin": flow.margin,
+            "margin_on_ring": flow.margin_on_ring,
+            "growing_k": flow.growing.map(|(least, largest)| [least, largest]),
+            "growth_rate": flow.growth_rate,
+            "waves": flow.waves,
+        })
+    })
+}
