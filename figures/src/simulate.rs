@@ -6,10 +6,10 @@ use crate::panels::{points, trajectories};
 use files::recipe::{self, Kind};
 use files::table::Table;
 use files::write::atomic_all;
+use jam::events::Happening;
 use ode::{Control, Method};
 use plot::style::COLUMN_WIDTH;
 use plot::{Axis, ColorScale, Legend, Lines, Picture, Series, SpaceTime};
-use jam::events::Happening;
 use scene::Overrides;
 use scene::check::{self, Errors};
 use scene::run::Scene;
@@ -284,7 +284,11 @@ fn sure(number: f64, error: Option<f64>) -> String {
     match error {
         Some(error) if error > 0.0 && error < 1.0 => {
             let digits = (-math::log10(error)).ceil() as usize;
-            if digits > 17 { format!("{number:?} (± {error:.0e})") } else { format!("{number:.digits$} (± {error:.0e})") }
+            if digits > 17 {
+                format!("{number:?} (± {error:.0e})")
+            } else {
+                format!("{number:.digits$} (± {error:.0e})")
+            }
         }
         Some(error) => format!("{number:?} (± {error:.0e})"),
         None => format!("{number:?}"),

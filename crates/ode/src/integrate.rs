@@ -344,7 +344,7 @@ impl<'a> Run<'a> {
         norm.start(&self.state);
         let (size, rate) = (norm.of(&self.state), norm.of(&self.rates));
         let guess = if size > 0.0 && rate > 0.0 { 0.01 * (size / rate) } else { 1e-3 };
-        guess.min(problem.end - problem.begin)
+        math::smaller(guess, problem.end - problem.begin)
     }
 }
 

@@ -40,7 +40,9 @@ pub fn errors(scene: &Scene, outcome: &Outcome) -> Errors {
     let std = |outcome: &Outcome| outcome.std.rows().map(|row| row[1]).collect::<Vec<f64>>();
     // a stop may lie on either side of a sample
     let has_samples = other.std.len() + usize::from(outcome.stop().is_some()) >= outcome.std.len();
-    let state = |numbers: fn(&Outcome) -> &[f64]| (ends_alike && is_same_time).then(|| difference(numbers(outcome), numbers(&other)));
+    let state = |numbers: fn(&Outcome) -> &[f64]| {
+        (ends_alike && is_same_time).then(|| difference(numbers(outcome), numbers(&other)))
+    };
     Errors {
         std: (ends_alike && has_samples).then(|| {
             let (found, least) = (difference(&std(outcome), &std(&other)), rounding(scene, outcome));

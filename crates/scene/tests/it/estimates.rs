@@ -82,13 +82,21 @@ fn estimates_are_honest_and_not_too_shy() {
         let size = outcome.std.rows().fold(0.0, |most: f64, row| most.max(row[1]));
         // what is as small as the reference's own error says nothing
         if true_error > 1e-13 * size {
-            if true_error > 3.0 * stated { println!("scene {seed}: {true_error:e} stated {stated:e} {scene:?}"); }
+            if true_error > 3.0 * stated {
+                println!("scene {seed}: {true_error:e} stated {stated:e} {scene:?}");
+            }
             ratios.push(true_error / stated);
         }
     }
     ratios.sort_by(f64::total_cmp);
     let (count, at) = (ratios.len(), |part: f64| ratios[((ratios.len() - 1) as f64 * part) as usize]);
-    println!("{count} scenes, {unknown} unknown; true over stated: {:e} {:e} {:e} {:e}", at(0.1), at(0.5), at(0.99), at(1.0));
+    println!(
+        "{count} scenes, {unknown} unknown; true over stated: {:e} {:e} {:e} {:e}",
+        at(0.1),
+        at(0.5),
+        at(0.99),
+        at(1.0)
+    );
     assert!(count > 40 && unknown < count / 10, "{count}, {unknown} unknown");
     assert!(at(1.0) < 10.0 && at(0.99) < 3.0 && at(0.1) > 0.01, "{:e} {:e} {:e}", at(1.0), at(0.99), at(0.1));
 }
