@@ -115,5 +115,5 @@ fn spread_is_the_population_deviation() {
     assert_eq!(spread(&[-1.0, 1.0]), 1.0);
     // no digits are lost to a common offset that the numbers can hold
     assert_eq!(spread(&[1e6 - 0.5, 1e6 + 0.5]), 0.5);
-    assert_eq!(spread(&[-1e-300, 1e-300]), 0.0, "squares below the smallest number");
+    assert_eq!(spread(&[-1e-300, 1e-300]), 1e-300, "squares below the smallest number are not formed");
 }
