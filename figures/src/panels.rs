@@ -115,6 +115,9 @@ fn std_panel(points: Vec<(f64, f64)>, place: [f64; 4]) -> Lines {
         .inset(place, inset)
 }
 
+/// More pedestrians than a run can have are not drawn.
+const MOST_DRAWN: f64 = 1e7 + 1.0;
+
 /// The trajectories of a table `t, n, x, v`, one for each pedestrian.
 ///
 /// # Errors
@@ -122,7 +125,13 @@ fn std_panel(points: Vec<(f64, f64)>, place: [f64; 4]) -> Lines {
 pub fn trajectories(table: &Table) -> Result<Vec<Trajectory>, Failure> {
     let (times, numbers) = (table.column("t")?, table.column("n")?);
     let (positions, speeds) = (table.column("x")?, table.column("v")?);
-    let count = numbers.iter().fold(0, |most, &n| most.max(n as usize + 1));
+    if let Some((row, n)) =
+        numbers.iter().enumerate().find(|(_, n)| !(n.fract() == 0.0 && (0.0..MOST_DRAWN).contains(*n)))
+    {
+        let problem = format!("line {}: n = {n:?} is not the number of a pedestrian; must be whole, from 0", row + 2);
+        return Err(Failure::input(problem));
+    }
+    let count = numbers.iter().fold(0.0, |most: f64, &n| if n > most { n } else { most }) as usize + 1;
     let mut trajectories = vec![Trajectory::new(); count];
     for (row, &n) in numbers.iter().enumerate() {
         trajectories[n as usize].push([times[row], positions[row], speeds[row]]);

@@ -290,8 +290,8 @@ fn sure(number: f64, error: Option<f64>) -> String {
                 format!("{number:.digits$} (± {error:.0e})")
             }
         }
-        Some(error) => format!("{number:?} (± {error:.0e})"),
-        None => format!("{number:?}"),
+        Some(error) if error > 0.0 => format!("{number:?} (± {error:.0e})"),
+        _ => format!("{number:?}"),
     }
 }
 

@@ -77,7 +77,8 @@ pub fn scene(name: &str, parameters: Parameters) -> Option<Scene> {
         "exponential_stable" => (exponential(1.5), 1e4, STABLE),
         "exponential_unstable" => (exponential(3.0), 1e4, EXPONENTIAL),
         "logarithmic" => (logarithmic, 10.0, LOGARITHMIC),
-        _ => (logarithmic, 1e4, LOGARITHMIC),
+        "logarithmic_small_shift" => (logarithmic, 1e4, LOGARITHMIC),
+        _ => return None,
     };
     Some(Scene { name, ring, shift: number(1.0, shift), times, has_events: name.ends_with("_unstable") })
 }
