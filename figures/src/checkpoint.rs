@@ -78,6 +78,11 @@ impl Care {
         Ok(Ended { outcome, broken, seconds, resumed_steps: steps, steps: keeper.steps })
     }
 
+    /// Whether steps.csv is asked for.
+    pub fn prints_steps(&self) -> bool {
+        self.steps
+    }
+
     /// Removes the checkpoint of a run whose results are safe.
     ///
     /// # Errors

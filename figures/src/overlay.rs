@@ -47,18 +47,22 @@ impl Sampled {
 
     /// Published minus regenerated standard deviations, at the times of the published ones.
     pub fn spread_differences(&self, published: &[(f64, f64)]) -> Vec<f64> {
-        published.iter().map(|&(t, std)| std - at(&self.spread, t)).collect()
+        differences(published, &self.spread)
     }
 
     /// Published minus regenerated speeds.
     pub fn speed_differences(&self, published: &[(f64, f64)]) -> Vec<f64> {
-        published.iter().map(|&(n, v)| v - at(&self.speeds, n)).collect()
+        differences(published, &self.speeds)
     }
 }
 
-/// The value at a place that was read off an axis: whole up to its reading error.
-fn at(values: &[f64], place: f64) -> f64 {
-    values.get(place.round() as usize).copied().unwrap_or(f64::NAN)
+/// Published values minus those at their places, which were read off an axis: whole up to their reading error.
+///
+/// # Panics
+/// If there is no value at a place: the run was to be as long as the published curve.
+fn differences(published: &[(f64, f64)], values: &[f64]) -> Vec<f64> {
+    let at = |place: f64| values[place.round() as usize];
+    published.iter().map(|&(place, value)| value - at(place)).collect()
 }
 
 /// The largest, the root of the mean square, and the median of the sizes of differences.

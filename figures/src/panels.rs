@@ -165,6 +165,9 @@ fn power_of_ten(power: i32) -> f64 {
     if power < 0 { 1.0 / size } else { size }
 }
 
+/// More pedestrians than a run can have are not drawn.
+const MOST_DRAWN: f64 = 1e7 + 1.0;
+
 /// The trajectories of a table `t, n, x, v`, one for each pedestrian.
 ///
 /// # Errors
@@ -172,6 +175,12 @@ fn power_of_ten(power: i32) -> f64 {
 pub fn trajectories(table: &Table) -> Result<Vec<Trajectory>, Failure> {
     let (times, numbers) = (table.column("t")?, table.column("n")?);
     let (positions, speeds) = (table.column("x")?, table.column("v")?);
+    if let Some((row, n)) =
+        numbers.iter().enumerate().find(|(_, n)| !(n.fract() == 0.0 && (0.0..MOST_DRAWN).contains(*n)))
+    {
+        let problem = format!("line {}: n = {n:?} is not the number of a pedestrian; must be whole, from 0", row + 2);
+        return Err(Failure::input(problem));
+    }
     let count = numbers.iter().fold(0.0, |most: f64, &n| if n > most { n } else { most }) as usize + 1;
     let mut trajectories = vec![Trajectory::default(); count];
     for (row, &n) in numbers.iter().enumerate() {

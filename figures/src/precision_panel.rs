@@ -59,7 +59,7 @@ pub fn tables(job: &mut Job, scene: &str) -> Result<(), Failure> {
         let (number, order) = (number as f64, method.order() as f64);
         let seconds = of(&timed, method, &["control", "seconds"])?;
         for row in of(&measured, method, &["control", "right_hand_sides", "error_gap", "error_speed"])?.rows() {
-            let (control, error) = (row[0], f64::max(row[2], row[3]));
+            let (control, error) = (row[0], math::larger(row[2], row[3]));
             work.push(&[number, order, control, row[1], error]);
             if let Some(timing) = seconds.rows().find(|timing| timing[0] == control) {
                 time.push(&[number, order, control, timing[1], error]);
@@ -131,7 +131,7 @@ const HALF_WIDTH: f64 = 1.8;
 
 /// The least and the largest number.
 fn range(numbers: impl Iterator<Item = f64>) -> (f64, f64) {
-    numbers.fold((f64::INFINITY, 0.0), |(low, high), number| (f64::min(low, number), f64::max(high, number)))
+    numbers.fold((f64::INFINITY, 0.0), |(low, high), number| (math::smaller(low, number), math::larger(high, number)))
 }
 
 fn decade_below(number: f64) -> f64 {

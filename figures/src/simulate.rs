@@ -6,10 +6,12 @@ use crate::panels::{points, trajectories};
 use files::recipe::{self, Kind};
 use files::table::Table;
 use files::write::atomic_all;
+use jam::events::Happening;
 use ode::{Control, Method};
 use plot::style::COLUMN_WIDTH;
 use plot::{Axis, ColorScale, Legend, Lines, Picture, Series, SpaceTime};
 use scene::Overrides;
+use scene::check::{self, Errors};
 use scene::run::Scene;
 use scene::simulation::{Broken, Outcome};
 use serde_json::{Value, json};
@@ -54,6 +56,9 @@ pub struct Arguments {
     /// The independent run that estimates the error: another method at a tighter tolerance
     #[arg(long, conflicts_with_all = ["method", "tol", "dt"])]
     check: bool,
+    /// Leave out the second run, which estimates the errors of the numbers; with --check or --steps it is left out, too
+    #[arg(long)]
+    no_check: bool,
     /// Progress, checkpoints, prints of steps.
     #[command(flatten)]
     care: Care,
@@ -81,22 +86,25 @@ fn methods() -> String {
 pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     let scene = read_scene(arguments)?;
     let ended = arguments.care.run(&scene)?;
-    let summary = summary(&scene, &ended);
+    let is_checked = !(arguments.no_check || arguments.check || arguments.care.prints_steps());
+    let errors = is_checked.then(|| check::errors(&scene, &ended.outcome));
+    let errors = errors.as_ref();
+    let summary = summary(&scene, &ended, errors);
     let Ended { outcome, broken, seconds, steps, .. } = ended;
     let mut files = Vec::new();
     if let Some(folder) = &arguments.out {
-        files.extend(tables(folder, &scene, &outcome));
+        files.extend(tables(folder, &scene, &outcome, errors));
         files.extend(steps.map(|steps| (folder.join("steps.csv"), steps.to_csv().as_bytes().to_vec())));
         files.push((folder.join("summary.json"), pretty(&summary).into_bytes()));
         if !arguments.tables_only {
-            files.extend(pictures(folder, &scene, &outcome)?);
+            files.extend(pictures(folder, &scene, &outcome, errors)?);
         }
         std::fs::create_dir_all(folder).map_err(|error| files::write::with_path(error, folder))?;
     }
     files.extend(arguments.state.iter().map(|file| (file.clone(), state(&outcome).to_csv())));
     atomic_all(&files)?;
     arguments.care.remove()?;
-    let words = if arguments.json { summary.to_string() } else { in_words(&scene, &outcome, seconds) };
+    let words = if arguments.json { summary.to_string() } else { in_words(&scene, &outcome, errors, seconds) };
     print(&words)?;
     broken.map_or(Ok(()), |broken| Err(Failure::work(broken)))
 }
@@ -137,14 +145,24 @@ fn read_scene(arguments: &Arguments) -> Result<Scene, Failure> {
 }
 
 /// Pictures of the standard deviation and, if they are kept, of the trajectories.
-fn pictures(folder: &Path, scene: &Scene, outcome: &Outcome) -> Result<Vec<(PathBuf, Vec<u8>)>, Failure> {
+fn pictures(
+    folder: &Path,
+    scene: &Scene,
+    outcome: &Outcome,
+    errors: Option<&Errors>,
+) -> Result<Vec<(PathBuf, Vec<u8>)>, Failure> {
     let std = points(&outcome.std, "t", "std")?;
     // a run that a stop ends is drawn up to its last sample
     let last = std.last().map_or(0.0, |&(t, _)| t);
     let times = Axis::linear("$t$", 0.0, if last > 0.0 { last } else { scene.t_end }).steps(4);
     let heights = Axis::around("std of speeds", std.iter().map(|&(_, std)| std));
     let panel = Lines::new(times.clone(), heights).legend(Legend::Hidden).series(Series::line("", std));
-    let mut files = rendered(folder, "std", Picture::new(COLUMN_WIDTH, 60.0).panel(panel))?;
+    let picture = Picture::new(COLUMN_WIDTH, 60.0);
+    let picture = match errors.and_then(|errors| errors.std) {
+        Some(error) => picture.titled(&format!("error of the std: about {error:.0e}"), panel),
+        None => picture.panel(panel),
+    };
+    let mut files = rendered(folder, "std", picture)?;
     if scene.keeps_trajectories {
         let length = scene.ring.length;
         let speeds = ColorScale::sequential("speed $v_n$", 0.0, scene.model.desired_speed());
@@ -160,21 +178,26 @@ fn rendered(folder: &Path, name: &str, picture: Picture) -> Result<Vec<(PathBuf,
     Ok(vec![(folder.join(format!("{name}.svg")), rendered.svg), (folder.join(format!("{name}.png")), rendered.png)])
 }
 
-fn tables(folder: &Path, scene: &Scene, outcome: &Outcome) -> Vec<(PathBuf, Vec<u8>)> {
-    let mut files =
-        vec![(folder.join("std.csv"), outcome.std.to_csv()), (folder.join("events.csv"), events(outcome).into_bytes())];
+fn tables(folder: &Path, scene: &Scene, outcome: &Outcome, errors: Option<&Errors>) -> Vec<(PathBuf, Vec<u8>)> {
+    let events = events(outcome, errors).into_bytes();
+    let mut files = vec![(folder.join("std.csv"), outcome.std.to_csv()), (folder.join("events.csv"), events)];
     if scene.keeps_trajectories {
         files.push((folder.join("trajectories.csv"), outcome.trajectories.to_csv()));
     }
     files
 }
 
-/// `event,t,n`: the first event of each kind, a line for each pedestrian to whom it happens.
-fn events(outcome: &Outcome) -> String {
-    let mut text = "event,t,n\n".to_owned();
-    for happening in &outcome.events {
+/// `event,t,n`: the first event of each kind, a line for each pedestrian to whom it happens; and `error` of its time, if it
+/// is estimated, empty where the second run has no such event.
+fn events(outcome: &Outcome, errors: Option<&Errors>) -> String {
+    let mut text = if errors.is_some() { "event,t,n,error\n" } else { "event,t,n\n" }.to_owned();
+    for (index, happening) in outcome.events.iter().enumerate() {
         // writing to a String cannot fail
-        let _ = writeln!(text, "{},{:?},{}", happening.event.name(), happening.time, happening.pedestrian);
+        let _ = write!(text, "{},{:?},{}", happening.event.name(), happening.time, happening.pedestrian);
+        if let Some(errors) = errors {
+            let _ = write!(text, ",{}", errors.events[index].map_or(String::new(), |error| format!("{error:?}")));
+        }
+        text.push('\n');
     }
     text
 }
@@ -191,7 +214,7 @@ fn pretty(summary: &Value) -> String {
     format!("{summary:#}\n")
 }
 
-fn summary(scene: &Scene, ended: &Ended) -> Value {
+fn summary(scene: &Scene, ended: &Ended, errors: Option<&Errors>) -> Value {
     let Ended { outcome, broken, seconds, resumed_steps, .. } = ended;
     let control = match scene.control {
         Control::Fixed { step } => json!({ "dt": step }),
@@ -200,14 +223,19 @@ fn summary(scene: &Scene, ended: &Ended) -> Value {
     let events: Vec<Value> = outcome
         .events
         .iter()
-        .map(|happening| {
-            json!({
+        .enumerate()
+        .map(|(index, happening)| {
+            let mut event = json!({
                 "event": happening.event.name(),
                 "t": happening.time,
                 "n": happening.pedestrian,
                 "gap": happening.gap,
                 "step": happening.step,
-            })
+            });
+            if let Some(errors) = errors {
+                event["error"] = json!(errors.events[index]);
+            }
+            event
         })
         .collect();
     json!({
@@ -227,6 +255,7 @@ fn summary(scene: &Scene, ended: &Ended) -> Value {
         "stop": stop(outcome, broken.as_ref()),
         "reason": broken.as_ref().map(ToString::to_string),
         "events": events,
+        "error": errors.map(|errors| json!({ "std": errors.std, "x": errors.positions, "v": errors.speeds })),
         "jams": scene.keeps_trajectories.then(|| jams(outcome)),
     })
 }
@@ -250,12 +279,28 @@ fn jams(outcome: &Outcome) -> Value {
     })
 }
 
+/// A number to the digits that are sure, with its error.
+fn sure(number: f64, error: Option<f64>) -> String {
+    match error {
+        Some(error) if error > 0.0 && error < 1.0 => {
+            let digits = (-math::log10(error)).ceil() as usize;
+            if digits > 17 {
+                format!("{number:?} (± {error:.0e})")
+            } else {
+                format!("{number:.digits$} (± {error:.0e})")
+            }
+        }
+        Some(error) => format!("{number:?} (± {error:.0e})"),
+        None => format!("{number:?}"),
+    }
+}
+
 /// A time in words, to a thousandth.
 fn rounded(time: f64) -> f64 {
     (1e3 * time).round() / 1e3
 }
 
-fn in_words(scene: &Scene, outcome: &Outcome, seconds: f64) -> String {
+fn in_words(scene: &Scene, outcome: &Outcome, errors: Option<&Errors>, seconds: f64) -> String {
     let statistics = &outcome.statistics;
     let mut text = format!(
         "{} law, {} pedestrians on {}: {} to t = {:?}\n{} steps ({} rejected), {} right-hand sides, {seconds:.3} s",
@@ -268,16 +313,28 @@ fn in_words(scene: &Scene, outcome: &Outcome, seconds: f64) -> String {
         statistics.rejected,
         statistics.evaluations,
     );
-    for happening in &outcome.events {
+    for (index, happening) in outcome.events.iter().enumerate() {
+        let (event, time) = (happening.event, happening.time);
+        let is_same = |other: &Happening| (other.event, other.time) == (event, time);
+        if index > 0 && is_same(&outcome.events[index - 1]) {
+            continue;
+        }
+        let at_once = outcome.events[index + 1..].iter().take_while(|other| is_same(other)).count();
+        let others = if at_once > 0 { format!(" and {at_once} more") } else { String::new() };
         let _ = write!(
             text,
-            "\n{} at t = {:?}, pedestrian {}, gap {:?}, within a step of {:e}",
-            happening.event.name(),
-            happening.time,
+            "\n{} at t = {}, pedestrian {}{others}, gap {:?}, within a step of {:e}",
+            event.name(),
+            sure(time, errors.and_then(|errors| errors.events[index])),
             happening.pedestrian,
             happening.gap,
             happening.step
         );
+    }
+    if let Some(errors) = errors {
+        let number = |error: Option<f64>| error.map_or("unknown".to_owned(), |error| format!("{error:.0e}"));
+        let (std, x, v) = (number(errors.std), number(errors.positions), number(errors.speeds));
+        let _ = write!(text, "\nestimated errors: std {std}; at the end x {x}, v {v}");
     }
     if let Some((speed, time)) = outcome.drift.speed() {
         let count = outcome.drift.jams().len();

@@ -22,9 +22,9 @@ pub fn spread(values: &[f64]) -> f64 {
     }
 }
 
-/// 2^400 and 2^-400.
-const UP: f64 = f64::from_bits((1023 + 400) << 52);
-const DOWN: f64 = f64::from_bits((1023 - 400) << 52);
+/// 2^600 and 2^-600.
+const UP: f64 = f64::from_bits((1023 + 600) << 52);
+const DOWN: f64 = f64::from_bits((1023 - 600) << 52);
 /// The square of less has lost digits.
 const TINY: f64 = 1e-130;
 /// The square of more may be too large.

@@ -27,3 +27,30 @@ pub mod twofold;
 
 pub use complex::complex_sqrt;
 pub use scalar::{cos, exp, exp_m1, ln, ln_1p, log10, pow, sin};
+
+/// The larger of two numbers; NaN if either is: `f64::max` would lose it, and may differ in the sign of a zero.
+#[inline]
+pub fn larger(a: f64, b: f64) -> f64 {
+    if a >= b || a.is_nan() { a } else { b }
+}
+
+/// The smaller of two numbers; NaN if either is.
+#[inline]
+pub fn smaller(a: f64, b: f64) -> f64 {
+    if a <= b || a.is_nan() { a } else { b }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{larger, smaller};
+
+    #[test]
+    fn neither_of_two_numbers_hides_that_the_other_is_none() {
+        for (a, b) in [(f64::NAN, 1.0), (1.0, f64::NAN), (f64::NAN, f64::NAN)] {
+            assert!(larger(a, b).is_nan() && smaller(a, b).is_nan());
+        }
+        for (a, b) in [(1.0, 2.0), (2.0, 1.0), (-3.0, 2.0), (f64::INFINITY, 0.0), (1.0, 1.0)] {
+            assert_eq!((larger(a, b), smaller(a, b)), (f64::max(a, b), f64::min(a, b)));
+        }
+    }
+}

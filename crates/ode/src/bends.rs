@@ -149,3 +149,40 @@ fn last_before(mut before: f64, mut past: f64, is_past: &dyn Fn(f64) -> bool) ->
         if is_past(middle) { past = middle } else { before = middle }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{EDGE, LIMIT, Path};
+
+    /// The end of the straight path between two arguments.
+    fn straight(from: f64, to: f64) -> Option<f64> {
+        Path::new([from, to - from, to, to - from]).end()
+    }
+
+    #[test]
+    fn a_long_path_ends_where_it_comes_to_the_bend() {
+        for (from, to) in [(1000.0, -1000.0), (-1000.0, 1000.0), (1000.0, 0.0), (1e6, -1e7)] {
+            let end = straight(from, to).expect("it is too long");
+            assert!((from + end * (to - from)).abs() - EDGE < 1e-8 * (from - to).abs(), "{from} to {to}: {end}");
+        }
+        // from within the bend, or next to it, it goes as far as it may
+        for (from, to) in [(0.0, 1000.0), (5.0, -400.0), (EDGE + 1.0, -500.0)] {
+            let end = straight(from, to).expect("it is too long");
+            assert!((end * (to - from).abs() - LIMIT).abs() < 1e-9, "{from} to {to}: {end}");
+        }
+    }
+
+    #[test]
+    fn paths_beside_the_bend_and_short_ones_are_free() {
+        for (from, to) in [(1000.0, 50.0), (-50.0, -1e9), (3.0, -3.0), (EDGE, EDGE - LIMIT)] {
+            assert_eq!(straight(from, to), None, "{from} to {to}");
+        }
+    }
+
+    #[test]
+    fn a_dip_into_the_bend_between_two_ends_is_seen() {
+        // from 100 down to 100 - 400 / 4 = 0 and back; and not so deep
+        assert!(Path::new([100.0, -400.0, 100.0, 400.0]).end().is_some());
+        assert_eq!(Path::new([100.0, -200.0, 100.0, 200.0]).end(), None);
+    }
+}

@@ -52,19 +52,13 @@ impl std::fmt::Display for Failure {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Failure::StepTooSmall { time, step } => {
-                write!(
-                    f,
-                    "at t = {time:?} the tolerance asks for a step of {step:e}, too small to go on"
-                )
+                write!(f, "at t = {time:?} the tolerance asks for a step of {step:e}, too small to go on")
             }
             Failure::TooManySteps { time, steps } => {
                 write!(f, "{steps} steps, as many as are allowed, reach t = {time:?} only")
             }
             Failure::NotFinite { time, step } => {
-                write!(
-                    f,
-                    "in the step of {step:e} from t = {time:?} the state is no longer finite"
-                )
+                write!(f, "in the step of {step:e} from t = {time:?} the state is no longer finite")
             }
             Failure::NoSeries => {
                 write!(
@@ -77,7 +71,10 @@ impl std::fmt::Display for Failure {
                 let name = method.name();
                 write!(f, "{name} has no error estimate: give it a step, or choose one of {}", names.join(", "))
             }
-            Failure::NotResumable => write!(f, "fixed steps are resumed from a mark of fixed steps, adaptive ones from one of adaptive steps"),
+            Failure::NotResumable => write!(
+                f,
+                "fixed steps are resumed from a mark of fixed steps, adaptive ones from one of adaptive steps"
+            ),
         }
     }
 }

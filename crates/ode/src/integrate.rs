@@ -135,12 +135,7 @@ impl<'a> Run<'a> {
         from: Place,
         observer: &mut dyn Observer,
     ) -> Result<(), Failure> {
-        let count = (problem.end - problem.begin) / h;
-        // the quotient is off by a rounding or two of itself
-        let is_multiple = (count - count.round()).abs() < 1e-9 + 4.0 * f64::EPSILON * count;
-        // of a step much longer than the whole time the number may vanish
-        let least = u64::from(problem.begin < problem.end);
-        let whole = (if is_multiple { count.round() } else { count.ceil() } as u64).max(least);
+        let (whole, is_multiple) = whole_steps(problem.end - problem.begin, h);
         let Place { step: mut k, mut slow_until } = from;
         let mut next_mark = k + LONGEST_BURST;
         while k < whole {
@@ -344,7 +339,7 @@ impl<'a> Run<'a> {
         norm.start(&self.state);
         let (size, rate) = (norm.of(&self.state), norm.of(&self.rates));
         let guess = if size > 0.0 && rate > 0.0 { 0.01 * (size / rate) } else { 1e-3 };
-        guess.min(problem.end - problem.begin)
+        math::smaller(guess, problem.end - problem.begin)
     }
 }
 
@@ -360,3 +355,36 @@ pub const SHORTEST: f64 = 1e-290;
 
 /// A larger defect is taken for a sign that the law is another one at the end of the step than at its start.
 const LARGEST_DEFECT: f64 = 32.0;
+
+/// The number of steps of length `h` over this time, and whether all of them are whole; else the last one is shorter.
+fn whole_steps(time: f64, h: f64) -> (u64, bool) {
+    let count = time / h;
+    // the quotient is off by a rounding or two of itself
+    let is_multiple = count > 0.5 && (count - count.round()).abs() < 1e-9 + 4.0 * f64::EPSILON * count;
+    // of a step much longer than the whole time the number may vanish
+    let least = u64::from(time > 0.0);
+    let whole = if is_multiple { count.round() } else { count.ceil() } as u64;
+    (if whole > least { whole } else { least }, is_multiple)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::whole_steps;
+
+    #[test]
+    fn many_steps_are_counted_as_few_are() {
+        for (time, h, whole, is_multiple) in [
+            (1.0, 0.1, 10, true),
+            (1.05, 0.1, 11, false),
+            (3000.0, 1e-5, 300_000_000, true),
+            (3000.000_004, 1e-5, 300_000_001, false),
+            // beyond 5e8 steps a part of a step is as much as before
+            (10_000.000_005, 1e-5, 1_000_000_001, false),
+            (1e5, 1e-6, 100_000_000_000, true),
+            (5e-324, 2.0, 1, false),
+            (0.25, 1.0, 1, false),
+        ] {
+            assert_eq!(whole_steps(time, h), (whole, is_multiple), "{time} by {h}");
+        }
+    }
+}

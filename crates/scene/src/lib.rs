@@ -1,7 +1,8 @@
 //! From a scene file to tables: validated scenes ([`law`], [`run`], [`map`], [`curve`]) and their numbers, in memory;
-//! long runs as bytes to go on from ([`checkpoint`]).
+//! long runs as bytes to go on from ([`checkpoint`]); how far their numbers are off ([`check`]).
 //! No file is opened here, so that the tables can be computed wherever Rust runs.
 
+pub mod check;
 pub mod checkpoint;
 pub mod curve;
 pub mod law;

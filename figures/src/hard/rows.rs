@@ -65,8 +65,11 @@ impl Rows {
     }
 
     /// Appends a row.
+    ///
+    /// # Panics
+    /// If the row has not one cell for each column: an error of the program, not of its input.
     pub fn push(&mut self, row: Vec<Cell>) {
-        debug_assert_eq!(row.len(), self.columns.len(), "a row of {:?}", self.columns);
+        assert_eq!(row.len(), self.columns.len(), "a row of {:?}", self.columns);
         self.rows.push(row);
     }
 
@@ -106,17 +109,30 @@ impl Rows {
     /// Reads a table as [`Rows::to_csv`] writes it.
     ///
     /// # Errors
-    /// The file cannot be read.
+    /// The file cannot be read, or a row has another number of cells than the header.
     pub fn read(path: &Path) -> Result<Rows, Failure> {
         let text = std::fs::read_to_string(path).map_err(|error| files::write::with_path(error, path))?;
         let mut lines = text.lines().map(|line| line.split(','));
         let columns = lines.next().map(|names| names.map(str::to_owned).collect()).unwrap_or_default();
+        // `inf` and `nan` are words: no table holds such a number
         let cell = |text: &str| match text.parse() {
-            Ok(number) => Cell::Number(number),
+            Ok(number) if f64::is_finite(number) => Cell::Number(number),
+            Ok(_) => Cell::Word(text.to_owned()),
             Err(_) if text.is_empty() => Cell::Nothing,
             Err(_) => Cell::Word(text.to_owned()),
         };
-        Ok(Rows { columns, rows: lines.map(|cells| cells.map(cell).collect()).collect() })
+        let columns: Vec<String> = columns;
+        let rows: Vec<Vec<Cell>> = lines.map(|cells| cells.map(cell).collect()).collect();
+        match rows.iter().position(|row| row.len() != columns.len()) {
+            None => Ok(Rows { columns, rows }),
+            Some(index) => Err(Failure::input(format!(
+                "{}: line {}: {} cells; must be {}, one for each column",
+                path.display(),
+                index + 2,
+                rows[index].len(),
+                columns.len()
+            ))),
+        }
     }
 
     /// The rows that have these words in these columns, as numbers of the columns `take`; rows without one are left out.

@@ -170,5 +170,5 @@ pub fn two_methods(tolerance: f64) -> [(Method, Control); 2] {
 
 /// The largest difference between two lists of numbers.
 pub fn difference(one: &[f64], other: &[f64]) -> f64 {
-    one.iter().zip(other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    one.iter().zip(other).map(|(a, b)| (a - b).abs()).fold(0.0, math::larger)
 }

@@ -287,8 +287,8 @@ impl Late {
         let place = (t, positions.iter().sum::<f64>() / positions.len() as f64);
         self.places = Some([self.places.map_or(place, |places| places[0]), place]);
         for &v in speeds {
-            self.slowest = Some(self.slowest.map_or(v, |least| f64::min(least, v)));
-            self.fastest = Some(self.fastest.map_or(v, |most| f64::max(most, v)));
+            self.slowest = Some(self.slowest.map_or(v, |least| math::smaller(least, v)));
+            self.fastest = Some(self.fastest.map_or(v, |most| math::larger(most, v)));
         }
     }
 }

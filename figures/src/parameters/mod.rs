@@ -131,7 +131,7 @@ fn two(changed: &Run) -> Result<(Vec<Snapshot>, Vec<Snapshot>), Failure> {
 fn jams_of(run: &Run, at: &Snapshot, share: f64) -> Vec<Jam> {
     // below a contrast that counts there is no threshold either
     let Some(middle) = jams::threshold(&at.speeds, run.desired_speed) else { return Vec::new() };
-    let low = at.speeds.iter().copied().fold(f64::INFINITY, f64::min);
+    let low = at.speeds.iter().copied().fold(f64::INFINITY, math::smaller);
     jams::find(&at.positions, &at.speeds, run.length, low + 2.0 * share * (middle - low))
 }
 

@@ -134,7 +134,7 @@ impl Problem {
     /// The least seconds of some runs of the same, so that a short one is not measured by chance.
     fn least_seconds(&self, method: Method, control: Control, first: f64) -> f64 {
         let again = |_| measure(&self.scene, method, control, &self.solution).seconds;
-        (0..repeats(first)).map(again).fold(first, f64::min)
+        (0..repeats(first)).map(again).fold(first, math::smaller)
     }
 }
 

@@ -96,7 +96,7 @@ impl Observer for Judge<'_> {
         let end = if until < step.end { until } else { step.end };
         sampler.within(step, end, &mut |time, state| {
             std.push(spread(&state[*pedestrians..2 * *pedestrians]));
-            if let Some(instant) = solution.get(*passed).filter(|instant| instant.time == time) {
+            if let Some(instant) = solution.get(*passed).filter(|instant| (instant.time - time).abs() < 1e-9) {
                 let (gap, speed) = distance(instant, state);
                 *worst = (larger(worst.0, gap), larger(worst.1, speed));
                 *passed += 1;
@@ -124,5 +124,5 @@ fn distance(instant: &Instant, state: &[f64]) -> (f64, f64) {
 
 /// The larger of two numbers; infinite when the second is none, so that no error is lost.
 fn larger(a: f64, b: f64) -> f64 {
-    if b.is_nan() { f64::INFINITY } else { f64::max(a, b) }
+    if b.is_nan() { f64::INFINITY } else { math::larger(a, b) }
 }

@@ -15,7 +15,7 @@ pub fn tables(_extent: Extent, solutions: &Path) -> Result<Tables, Failure> {
     for scene in NAMES {
         let of = |direction| growth.select(&[("scene", scene), ("direction", direction)], &["t", "growth"]);
         for (shift, random) in of("shift")?.rows().zip(of("random")?.rows()) {
-            let exponent = math::ln(shift[1].max(random[1])) / shift[0];
+            let exponent = math::ln(math::larger(shift[1], random[1])) / shift[0];
             rows.push(row![scene, shift[0], shift[1], random[1], exponent]);
         }
     }

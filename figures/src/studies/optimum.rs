@@ -17,7 +17,7 @@ pub fn table(rounding: &Rows) -> Result<Rows, Failure> {
         for sum in ["plain", "compensated"] {
             let columns = ["t", "dt", "error_gap", "truncation_gap", "rounding_gap"];
             let all = rounding.select(&[("state", state), ("sum", sum)], &columns)?;
-            let longest = all.rows().map(|row| row[1]).fold(0.0, f64::max);
+            let longest = all.rows().map(|row| row[1]).fold(0.0, math::larger);
             for first in all.rows().filter(|row| row[1] == longest) {
                 let (time, h) = (first[0], first[1]);
                 let here = all.rows().filter(|row| row[0] == time);

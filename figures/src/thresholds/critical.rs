@@ -141,7 +141,7 @@ pub fn thresholds() -> Result<Rows, Failure> {
             let asked = Asked { quantity: "critical_mu", law: "algebraic", closed, ..Asked::default() };
             let asked = Asked { delta: Some(delta), q: Some(q), a_v: Some(a_v), d_gap: Some(gap), ..asked };
             // a negative delta lessens gamma = mu + delta eps ln 2, which must be positive
-            let least = 1e-9 + f64::max(0.0, -delta * 0.1 * LN_2);
+            let least = 1e-9 + math::larger(0.0, -delta * 0.1 * LN_2);
             asked.push(&mut rows, 67, &family, (least, 1e3));
         }
     }
@@ -247,7 +247,7 @@ pub fn minus_delta() -> Result<Rows, Failure> {
         let delta = 0.25 * f64::from(i);
         let linear = |mu: f64, gap: f64| algebraic(mu, (delta, 2.0, 0.0)).linearise(gap);
         // with gamma <= 0 there is no force at equal speeds; kappa < -1/2 is unstable whatever the strength
-        let least = f64::max(1e-9, -delta * 0.1 * LN_2 + 1e-9);
+        let least = math::larger(1e-9, -delta * 0.1 * LN_2 + 1e-9);
         let family = |mu: f64| linear(mu, 1.0);
         let found = bisect(&|mu| fastest(&family(mu)) > 0.0, least, 10.0);
         let other = bisect(&|mu| margin(&family(mu)) > 0.0, least, 10.0);
@@ -267,13 +267,13 @@ pub fn minus_delta() -> Result<Rows, Failure> {
 
 /// The largest growth rate over waves from very long to alternating ones.
 fn fastest(linear: &Linear) -> f64 {
-    wave_numbers().map(|k| linear.growth_rate(k)).fold(f64::NEG_INFINITY, f64::max)
+    wave_numbers().map(|k| linear.growth_rate(k)).fold(f64::NEG_INFINITY, math::larger)
 }
 
 /// The same question by algebra: the margin of the worst wave, or instability of the damping itself.
 fn margin(linear: &Linear) -> f64 {
-    let damping = -(1.0 + 2.0 * f64::min(linear.beta, linear.kappa));
-    wave_numbers().map(|k| linear.margin(k)).fold(damping, f64::max)
+    let damping = -(1.0 + 2.0 * math::smaller(linear.beta, linear.kappa));
+    wave_numbers().map(|k| linear.margin(k)).fold(damping, math::larger)
 }
 
 /// Wave numbers from 1e-4 to pi.

@@ -39,7 +39,7 @@ pub trait Form: ode::System {
 
 /// Perturbations and clearances keep their relative precision down to this size; below it the tolerance of their errors
 /// would come near the least doubles, which have no digits.
-const LEAST_SIZE: f64 = 1e-290;
+const LEAST_SIZE: f64 = 1e-305;
 
 /// Which form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

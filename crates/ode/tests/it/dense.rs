@@ -93,14 +93,14 @@ fn next_to_an_end_the_state_is_that_of_the_end() {
     let mut state = [0.0; 2];
     watched(&oscillator(), &[1.0, 0.5], 1.0, Method::Dop853, Control::Fixed { step: 0.5 }, &mut |step| {
         let ends = [step.before().to_vec(), step.after().to_vec()];
-        // a change of 1e-10 of such a step would show in either component
-        for (theta, end) in [(-5e-10, 0), (5e-10, 0), (1.0 - 5e-10, 1), (1.0 + 5e-10, 1)] {
+        for (theta, end) in [(-5e-14, 0), (5e-14, 0), (1.0 - 5e-14, 1), (1.0 + 5e-14, 1)] {
             step.at_fraction(theta, &mut state);
             assert_eq!(state, *ends[end], "{theta}");
         }
-        for (theta, end) in [(1e-9, 0), (2e-9, 0), (1.0 - 2e-9, 1)] {
+        // a change of 1e-12 of such a step shows in either component
+        for (theta, end) in [(2e-12, 0), (1e-9, 0), (1.0 - 2e-12, 1)] {
             step.at_fraction(theta, &mut state);
-            assert!(distance(&state, &ends[end]) > 1e-10, "{theta}");
+            assert!(distance(&state, &ends[end]) > 1e-13, "{theta}");
         }
     })
     .expect("nothing stands in the way");
@@ -181,4 +181,20 @@ fn where_a_step_ends_with_rates_that_are_no_numbers_the_chord_is_taken() {
     // the second from 1 to 3/2 with rates 1 and 3/2: 1 + theta / 2 + theta (1 - theta) (0 (1 - theta) - theta / 4)
     let second = |theta: f64| 1.0 + 0.5 * theta - 0.25 * theta * theta * (1.0 - theta);
     assert_eq!(inside, [[0.625, second(0.25)], [0.75, second(0.5)]]);
+}
+
+#[test]
+fn a_time_near_an_end_of_a_step_is_not_taken_for_the_end() {
+    let control = Control::Fixed { step: 0.5 };
+    let (mut near, mut seen) = ([0.0; 2], 0);
+    watched(&oscillator(), &[1.0, 0.0], 4.0, Method::Extrapolation, control, &mut |step| {
+        for t in [step.start + 2e-10, step.end - 2e-10] {
+            step.at(t, &mut near);
+            // 2e-10 times a speed of up to 1 would be missing
+            assert!(distance(&near, &oscillation(t)) < 1e-13, "{t}: {near:?}");
+            seen += 1;
+        }
+    })
+    .expect("nothing stands in the way");
+    assert_eq!(seen, 16);
 }

@@ -29,7 +29,7 @@ fn a_blow_up_ends_at_its_time() {
         assert!((time - 1.0).abs() < 1e-11 && step < 1e-60, "{failure:?}");
         let text = failure.to_string();
         let start = format!("at t = {time:?} the tolerance asks for a step of {step:e}, too small to go on");
-        assert_eq!(text, format!("{start}; raise the tolerance"));
+        assert_eq!(text, start, "raising the tolerance would not help");
     }
 }
 
@@ -44,7 +44,7 @@ fn fixed_steps_end_with_the_last_finite_state() {
     .expect_err("the state overflows");
     assert_eq!(failure, Failure::NotFinite { time: last.0, step: 0.125 });
     assert!(last.1.is_finite() && last.1 > 1e100, "{}", last.1);
-    let words = "the state is no longer finite; a smaller step may help";
+    let words = "the state is no longer finite";
     assert_eq!(failure.to_string(), format!("in the step of 1.25e-1 from t = {:?} {words}", last.0));
 }
 

@@ -2,8 +2,8 @@
 
 use crate::problems::{general_methods, oscillator, solve};
 use ode::{
-    Control, Failure, Group, Mark, Measure, Method, Observer, Pace, Place, Problem, Statistics, Step, System, integrate,
-    resume,
+    Control, Failure, Group, Mark, Measure, Method, Observer, Pace, Place, Problem, Statistics, Step, System,
+    integrate, resume,
 };
 use std::ops::{ControlFlow, Range};
 
@@ -76,7 +76,7 @@ impl Observer for PaceKeeper {
 fn adaptive_steps_resumed_from_any_mark_have_the_same_bits_and_counts() {
     let system = Wide(oscillator());
     let start: Vec<f64> = (0..WIDTH).map(|i| if i % 2 == 0 { 1.0 } else { 0.0 }).collect();
-    for method in general_methods().into_iter().filter(|method| method.is_adaptive()) {
+    for method in general_methods().filter(|method| method.is_adaptive()) {
         let control = Control::Adaptive { tolerance: if method == Method::Bs32 { 1e-7 } else { 1e-9 } };
         let problem = Problem { system: &system, start: &start, begin: 0.0, end: 100.0, method, control };
         let mut keeper = PaceKeeper::default();

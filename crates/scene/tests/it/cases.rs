@@ -213,7 +213,7 @@ fn a_force_in_contact_is_seen_where_the_run_goes_on() {
     // where the force is infinite nothing goes on
     let text = std::fs::read_to_string(file("blow-up-guo")).expect("a file");
     let error = refusal(&text.replace("[run]\n", "[run]\nat_overlap = \"continue\"\n"));
-    assert!(error.line == 12 && error.problem.contains("at_overlap"), "{error}");
+    assert!(error.line == 14 && error.problem.contains("at_overlap"), "{error}");
 }
 
 #[test]

@@ -365,7 +365,11 @@ fn complaints_about_maps() {
     assert_complaints(
         MAP,
         &[
-            ("\"growth_rate\"", "\"speed\"", ":8: map.value = \"speed\": must be one of margin, criterion, growth_rate"),
+            (
+                "\"growth_rate\"",
+                "\"speed\"",
+                ":8: map.value = \"speed\": must be one of margin, criterion, growth_rate",
+            ),
             ("\"mu\"", "\"nu\"", &format!(":9: map.x.parameter = \"nu\": must be one of {parameters}")),
             ("from = 0.1", "from = -0.1", ":9: map.x.from = -0.1: must be a number >= 0.0"),
             ("to = 1.5", "to = 0.1", ":9: map.x.to = 0.1: must be above from = 0.1"),

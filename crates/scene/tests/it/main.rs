@@ -6,6 +6,7 @@ mod checkpoint;
 mod contours;
 mod corpus;
 mod errors;
+mod estimates;
 mod figures;
 mod hard;
 mod maps;

@@ -91,7 +91,7 @@ fn a_run_that_changes_its_state_at_the_walls_counts_both_parts() {
     // each step that is taken evaluates eleven stages and the rates at its end, each that is not at most as many; a step
     // that is looked into evaluates three more, once for each sample, or some tens of times where an event is searched
     let stages = 12 * steps + 11 * rejected;
-    assert_eq!((steps, rejected), (12_214, 3_629), "both parts have some of each; seen once and written down");
+    assert_eq!((steps, rejected), (12_215, 3_640), "both parts have some of each; seen once and written down");
     assert!((12 * steps..stages + 3 * 20 * steps).contains(&evaluations), "{evaluations}, stages {stages}");
 }
 
@@ -221,12 +221,10 @@ fn a_run_without_shift_stays_uniform_to_the_last_bit() {
 fn a_tiny_shift_is_the_linear_run() {
     // a perturbation of 1e-300 keeps its digits: the same curve as with 1e-9, up to terms of 1e-9
     let std = |shift: &str| short(&[("shift = 0.1", shift)]).std.column("std").expect("std");
-    for (tiny, small) in std("shift = 1e-300").iter().zip(std("shift = 1e-9")).skip(1) {
-        // squares of 1e-300 are 0: what is left of the tiny run's standard deviation is nothing
-        assert!(*tiny == 0.0 && small > 0.0, "{tiny:e} {small:e}");
-    }
-    for (tiny, small) in std("shift = 1e-100").iter().zip(std("shift = 1e-9")).skip(1) {
-        assert!((tiny * 1e91 / small - 1.0).abs() < 1e-7, "{tiny:e} {small:e}");
+    for (shift, factor) in [("shift = 1e-100", 1e91), ("shift = 1e-300", 1e291)] {
+        for (tiny, small) in std(shift).iter().zip(std("shift = 1e-9")).skip(1) {
+            assert!((tiny * factor / small - 1.0).abs() < 1e-7, "{tiny:e} {small:e}");
+        }
     }
 }
 
