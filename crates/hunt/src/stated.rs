@@ -5,6 +5,7 @@ use crate::judge::{Ratio, is_beyond, is_blown_up, kind};
 use files::table::Table;
 use jam::states::FormKind;
 use ode::{Control, Method};
+use scene::check;
 use scene::run::Scene;
 use scene::simulation::{Outcome, run};
 
@@ -66,9 +67,21 @@ pub fn ratios(scene: &Scene, outcome: &Outcome, answer: &Answer, stated: &Stated
     ratios
 }
 
-/// What a run states: its difference from a second one by the same code, by extrapolation (`dop853` if it is that) at a
-/// tenth of the tolerance, or with half the step; and the roundings that both have in common.
+/// What a run states; of the table of trajectories, of which it states nothing, what [`difference`] finds.
 pub fn of(scene: &Scene, outcome: &Outcome) -> Stated {
+    let errors = check::errors(scene, outcome);
+    let or_none = |error: Option<f64>| error.unwrap_or(f64::INFINITY);
+    Stated {
+        std: or_none(errors.std),
+        end: [or_none(errors.positions), or_none(errors.speeds)],
+        events: errors.events.into_iter().map(or_none).collect(),
+        table: difference(scene, outcome).table,
+    }
+}
+
+/// A run's difference from a second one by the same code, by extrapolation (`dop853` if it is that) at a
+/// tenth of the tolerance, or with half the step; and the roundings that both have in common.
+fn difference(scene: &Scene, outcome: &Outcome) -> Stated {
     let end = outcome.statistics.time;
     let mut other = Scene { t_end: end, ..scene.clone() };
     let factor = match scene.control {
