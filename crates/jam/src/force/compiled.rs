@@ -1,6 +1,6 @@
 //! The force of a law that is a Rust function: compiled for blocks of pedestrians.
 
-use super::blocks::{Block, around};
+use super::blocks::{Block, Pace, around};
 use super::heun::{self, Cut};
 use super::series::{Memory, Motion};
 use super::{Flow, Force, Rows, Steps};
@@ -99,8 +99,17 @@ impl<L: Law> Force for Compiled<L> {
     }
 }
 
-/// So many pedestrians at a time.
-const W: usize = 8;
+/// How the accelerations of a law are computed whose terms are constants.
+#[inline(always)]
+fn plain_pace<L: Law>(law: &L) -> Pace {
+    if law.is_long() { Pace::Wide } else { Pace::Single }
+}
+
+/// How a law is carried out otherwise.
+#[inline(always)]
+fn pace<L: Law>(law: &L) -> Pace {
+    if law.is_long() { Pace::Wide } else { Pace::Narrow }
+}
 
 /// The accelerations of all pedestrians.
 struct Accelerations<'a, L> {
@@ -110,13 +119,14 @@ struct Accelerations<'a, L> {
     accelerations: &'a mut [f64],
 }
 
-struct Values<L>(L);
+/// The accelerations of a law, block by block.
+pub(super) struct Values<L>(pub(super) L);
 
-impl<L: Law> Block<W> for Values<L> {
+impl<L: Law> Block for Values<L> {
     const FILLER: [f64; 2] = [1.0, 0.0];
 
     #[inline(always)]
-    fn value(&self, net_gap: Lanes<W>, speed: Lanes<W>, ahead: Lanes<W>) -> Lanes<W> {
+    fn value<const W: usize>(&self, net_gap: Lanes<W>, speed: Lanes<W>, ahead: Lanes<W>) -> Lanes<W> {
         self.0.acceleration(net_gap, speed, ahead)
     }
 }
@@ -128,8 +138,8 @@ impl<L: Law> Kernel for Accelerations<'_, L> {
     fn run(self) {
         let Accelerations { law, net_gaps, speeds, accelerations } = self;
         match law.plain() {
-            Some(plain) => around(&Values(plain), net_gaps, speeds, accelerations),
-            None => around(&Values(law), net_gaps, speeds, accelerations),
+            Some(law) => around(&Values(law), plain_pace(&law), net_gaps, speeds, accelerations),
+            None => around(&Values(law), pace(&law), net_gaps, speeds, accelerations),
         }
     }
 }
@@ -148,11 +158,11 @@ struct Changes<'a, L> {
     tape: &'a Tape,
 }
 
-impl<L: Law> Block<W> for Changes<'_, L> {
+impl<L: Law> Block for Changes<'_, L> {
     const FILLER: [f64; 2] = [0.0, 0.0];
 
     #[inline(always)]
-    fn value(&self, spacing: Lanes<W>, speed: Lanes<W>, ahead: Lanes<W>) -> Lanes<W> {
+    fn value<const W: usize>(&self, spacing: Lanes<W>, speed: Lanes<W>, ahead: Lanes<W>) -> Lanes<W> {
         let player = Player::new(self.tape);
         self.law.acceleration(player.variable(spacing), player.variable(speed), player.variable(ahead)).change()
     }
@@ -165,8 +175,8 @@ impl<L: Law> Kernel for Deviations<'_, L> {
     fn run(self) {
         let Deviations { law, tape, spacings, speeds, accelerations } = self;
         match law.plain() {
-            Some(law) => around(&Changes { law, tape }, spacings, speeds, accelerations),
-            None => around(&Changes { law, tape }, spacings, speeds, accelerations),
+            Some(law) => around(&Changes { law, tape }, pace(&law), spacings, speeds, accelerations),
+            None => around(&Changes { law, tape }, pace(&law), spacings, speeds, accelerations),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The force on all pedestrians of a ring at once: what the forms of a state ask of a law.
 
-mod blocks;
+pub(crate) mod blocks;
 mod compiled;
 mod formula;
 mod heun;

@@ -65,6 +65,11 @@ impl Law for Algebraic {
     }
 
     #[inline(always)]
+    fn is_long(&self) -> bool {
+        self.relative != 0.0 || math::number::whole(self.power).is_none()
+    }
+
+    #[inline(always)]
     fn plain(&self) -> Option<Algebraic> {
         let is_plain = self.relative == 0.0 && self.widening == 0.0 && self.power == 2.0;
         is_plain.then_some(Algebraic { relative: 0.0, widening: 0.0, power: 2.0, ..*self })

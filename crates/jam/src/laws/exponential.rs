@@ -62,6 +62,11 @@ impl Law for Exponential {
     }
 
     #[inline(always)]
+    fn is_long(&self) -> bool {
+        self.contact != 0.0
+    }
+
+    #[inline(always)]
     fn plain(&self) -> Option<Exponential> {
         let is_plain = self.contact == 0.0 && self.widening == 0.0;
         is_plain.then_some(Exponential { contact: 0.0, widening: 0.0, ..*self })

@@ -65,6 +65,10 @@ pub trait Law: Copy + Default + Send + Sync + std::fmt::Debug + 'static {
     /// Whether the force, the relaxation of one's own speed apart, depends on speeds.
     fn uses_speeds(&self) -> bool;
 
+    /// Whether the formula is so long, with several functions or a logarithm in it, that the operations of many pedestrians
+    /// have to overlap.
+    fn is_long(&self) -> bool;
+
     /// The law with the terms of the paper's runs and no others, if these are all that it has: the same law, with the
     /// parameters that leave a term out as constants, so that the compiler leaves it out as well.
     fn plain(&self) -> Option<Self>;

@@ -5,7 +5,7 @@
 //! become wrong with every step, the block itself never. Blocks are done in order, the foremost last, so that those
 //! ahead are still as they were. Every pedestrian is computed by the same operations as in one piece: the same bits, for any cut.
 
-use super::road::Road;
+use super::road::{Road, Scheme};
 use crate::force::Steps;
 use crate::laws::Law;
 use math::simd::{Kernel, dispatch_up_to};
@@ -109,23 +109,24 @@ impl<L: Law> Kernel for Blocks<'_, L> {
     fn run(self) -> bool {
         let law = self.law;
         match law.plain() {
-            Some(plain) => self.all(&plain),
-            None => self.all(&law),
+            Some(plain) => self.all(&plain, plain.is_long()),
+            None => self.all(&law, true),
         }
     }
 }
 
 impl<L: Law> Blocks<'_, L> {
     #[inline(always)]
-    fn all(self, law: &L) -> bool {
+    fn all(self, law: &L, in_rows: bool) -> bool {
         let Blocks { steps, size, mut part, .. } = self;
+        let scheme = Scheme { law, in_rows, h: steps.h };
         // one place more for the image of pedestrian 0
         let mut road = Road::new(size + 2 * steps.count as usize + 1);
         let count = part.positions.len();
         let mut begin = 0;
         while begin < count {
             let end = count.min(begin + size);
-            if !block(law, &steps, &mut part, begin..end, &mut road) {
+            if !block(scheme, &steps, &mut part, begin..end, &mut road) {
                 return false;
             }
             begin = end;
@@ -136,8 +137,14 @@ impl<L: Law> Blocks<'_, L> {
 
 /// The steps of one block.
 #[inline(always)]
-fn block<L: Law>(law: &L, steps: &Steps, part: &mut Part<'_>, range: Range<usize>, road: &mut Road) -> bool {
-    let Steps { length, h, count, .. } = *steps;
+fn block<L: Law>(
+    scheme: Scheme<'_, L>,
+    steps: &Steps,
+    part: &mut Part<'_>,
+    range: Range<usize>,
+    road: &mut Road,
+) -> bool {
+    let Steps { length, count, .. } = *steps;
     let own = range.len();
     let all = own + 2 * count as usize;
     let image = part.positions.len() - range.start;
@@ -152,14 +159,14 @@ fn block<L: Law>(law: &L, steps: &Steps, part: &mut Part<'_>, range: Range<usize
         }
         // those taken along become wrong, and so does what happens to them
         for (range, is_own) in [(0..own, true), (own..end, false)] {
-            if !road.predict(law, h, range) && is_own {
+            if !road.predict(scheme, range) && is_own {
                 return false;
             }
         }
         if has_image {
             road.guess.put_image(image, image + 1, length);
         }
-        road.correct(law, h, 0..end);
+        road.correct(scheme, 0..end);
     }
     part.positions[range.clone()].copy_from_slice(&road.now.positions[..own]);
     part.speeds[range].copy_from_slice(&road.now.speeds[..own]);

@@ -13,9 +13,10 @@ use super::Steps;
 use crate::laws::{Law, Model};
 use crate::ring::Ring;
 use blocks::in_blocks;
+use math::row::LANES;
 use math::simd::{Kernel, Width, dispatch_up_to};
 use ode::Burst;
-use road::{Road, W};
+use road::{Road, Scheme};
 
 /// Makes steps of the state `[x_0 .. x_{N-1}, v_0 .. v_{N-1}]`. An eventful burst leaves the state untouched.
 pub(super) fn burst<L: Law>(law: &L, steps: Steps, cut: Option<Cut>, state: &mut [f64]) -> Burst {
@@ -63,18 +64,19 @@ impl<L: Law> Kernel for InOne<'_, L> {
     fn run(self) -> bool {
         let law = self.law;
         match law.plain() {
-            Some(plain) => self.steps(&plain),
-            None => self.steps(&law),
+            Some(plain) => self.steps(&plain, plain.is_long()),
+            None => self.steps(&law, true),
         }
     }
 }
 
 impl<L: Law> InOne<'_, L> {
     #[inline(always)]
-    fn steps(self, law: &L) -> bool {
+    fn steps(self, law: &L, in_rows: bool) -> bool {
         let Steps { length, h, count, .. } = self.steps;
+        let scheme = Scheme { law, in_rows, h };
         let n = self.state.len() / 2;
-        let size = n.next_multiple_of(W);
+        let size = n.next_multiple_of(LANES);
         let mut road = Road::new(size);
         let (positions, speeds) = self.state.split_at_mut(n);
         road.now.positions[..n].copy_from_slice(positions);
@@ -87,12 +89,12 @@ impl<L: Law> InOne<'_, L> {
         for _ in 0..count {
             road.now.put_image(n, 0, length);
             road.now.put_image(size, last, turns);
-            if !road.predict(law, h, 0..size) {
+            if !road.predict(scheme, 0..size) {
                 return false;
             }
             road.guess.put_image(n, 0, length);
             road.guess.put_image(size, last, turns);
-            road.correct(law, h, 0..size);
+            road.correct(scheme, 0..size);
         }
         positions.copy_from_slice(&road.now.positions[..n]);
         speeds.copy_from_slice(&road.now.speeds[..n]);

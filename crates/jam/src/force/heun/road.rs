@@ -1,7 +1,9 @@
 //! A stretch of road: pedestrians of whom each follows the next element, and the two halves of a step of Heun's scheme.
 
+use crate::force::blocks::along;
+use crate::force::compiled::Values;
 use crate::laws::Law;
-use math::lanes::Lanes;
+use math::row::LENGTH;
 use std::ops::Range;
 
 /// Positions and speeds in order along the road.
@@ -30,38 +32,70 @@ pub(super) struct Road {
     /// Where an Euler step leads.
     pub(super) guess: Places,
     accelerations: Vec<f64>,
+    row: [f64; LENGTH],
 }
 
-/// So many pedestrians at a time.
-pub(super) const W: usize = 4;
+/// A law at work: how, and with which length of a step.
+#[derive(Clone, Copy)]
+pub(super) struct Scheme<'a, L> {
+    /// The law.
+    pub(super) law: &'a L,
+    /// Whether accelerations are computed in a loop of their own, blocks of pedestrians at a time; short laws are computed
+    /// where they are used.
+    pub(super) in_rows: bool,
+    /// Length of a step.
+    pub(super) h: f64,
+}
 
 impl Road {
     /// A road for so many pedestrians.
     pub(super) fn new(size: usize) -> Road {
-        Road { now: Places::new(size + 1), guess: Places::new(size + 1), accelerations: vec![0.0; size] }
+        let (now, guess) = (Places::new(size + 1), Places::new(size + 1));
+        Road { now, guess, accelerations: vec![0.0; size], row: [0.0; LENGTH] }
     }
 
     /// The accelerations now, and the state that an Euler step would reach. False if one of these pedestrians has no room
     /// or a negative speed; what is not a number may pass for quiet.
     #[inline(always)]
-    pub(super) fn predict<L: Law>(&mut self, law: &L, h: f64, range: Range<usize>) -> bool {
-        let Road { now, guess, accelerations } = self;
-        let (here, next) = (range.clone(), range.start + 1..range.end + 1);
-        let (x, ahead) = (&now.positions[here.clone()], &now.positions[next.clone()]);
-        let (v, v_ahead) = (&now.speeds[here.clone()], &now.speeds[next]);
-        let (x_guess, v_guess) = (&mut guess.positions[here.clone()], &mut guess.speeds[here.clone()]);
-        euler(law, h, x, ahead, v, v_ahead, &mut accelerations[here], x_guess, v_guess) >> 63 == 0
+    pub(super) fn predict<L: Law>(&mut self, scheme: Scheme<'_, L>, range: Range<usize>) -> bool {
+        let Road { now, guess, accelerations, row } = self;
+        let mut signs = 0;
+        for begin in range.clone().step_by(LENGTH) {
+            let (here, next) = (begin..range.end.min(begin + LENGTH), begin + 1..range.end.min(begin + LENGTH) + 1);
+            let (x, ahead) = (&now.positions[here.clone()], &now.positions[next.clone()]);
+            let (v, v_ahead) = (&now.speeds[here.clone()], &now.speeds[next.clone()]);
+            accelerate(scheme, x, ahead, &now.speeds[begin..next.end], row);
+            let (x_guess, v_guess) = (&mut guess.positions[here.clone()], &mut guess.speeds[here.clone()]);
+            signs |= euler(scheme, x, ahead, v, v_ahead, row, &mut accelerations[here], x_guess, v_guess);
+        }
+        signs >> 63 == 0
     }
 
     /// The step with the mean of the rates at both ends.
     #[inline(always)]
-    pub(super) fn correct<L: Law>(&mut self, law: &L, h: f64, range: Range<usize>) {
-        let Road { now, guess, accelerations } = self;
-        let (here, next) = (range.clone(), range.start + 1..range.end + 1);
-        let (x_guess, ahead) = (&guess.positions[here.clone()], &guess.positions[next.clone()]);
-        let (v_guess, v_ahead) = (&guess.speeds[here.clone()], &guess.speeds[next]);
-        let (x, v) = (&mut now.positions[here.clone()], &mut now.speeds[here.clone()]);
-        heun(law, h, x_guess, ahead, v_guess, v_ahead, &accelerations[here], x, v);
+    pub(super) fn correct<L: Law>(&mut self, scheme: Scheme<'_, L>, range: Range<usize>) {
+        let Road { now, guess, accelerations, row } = self;
+        for begin in range.clone().step_by(LENGTH) {
+            let (here, next) = (begin..range.end.min(begin + LENGTH), begin + 1..range.end.min(begin + LENGTH) + 1);
+            let (x_guess, ahead) = (&guess.positions[here.clone()], &guess.positions[next.clone()]);
+            let (v_guess, v_ahead) = (&guess.speeds[here.clone()], &guess.speeds[next.clone()]);
+            accelerate(scheme, x_guess, ahead, &guess.speeds[begin..next.end], row);
+            let (x, v) = (&mut now.positions[here.clone()], &mut now.speeds[here.clone()]);
+            heun(scheme, x_guess, ahead, v_guess, v_ahead, row, &accelerations[here], x, v);
+        }
+    }
+}
+
+/// For a law in rows, fills a row with accelerations; others are computed where they are used. The speeds are one more.
+#[inline(always)]
+fn accelerate<L: Law>(scheme: Scheme<'_, L>, x: &[f64], ahead: &[f64], speeds: &[f64], row: &mut [f64; LENGTH]) {
+    if scheme.in_rows {
+        let n = x.len();
+        let (row, ahead) = (&mut row[..n], &ahead[..n]);
+        for i in 0..n {
+            row[i] = ahead[i] - x[i] - L::CONTACT;
+        }
+        along(&Values(*scheme.law), speeds, row);
     }
 }
 
@@ -70,86 +104,54 @@ impl Road {
 #[inline(always)]
 #[expect(clippy::too_many_arguments, reason = "only slices that are arguments are known not to overlap")]
 fn euler<L: Law>(
-    law: &L,
-    h: f64,
+    scheme: Scheme<'_, L>,
     x: &[f64],
     ahead: &[f64],
     v: &[f64],
     v_ahead: &[f64],
+    row: &[f64; LENGTH],
     accelerations: &mut [f64],
     x_guess: &mut [f64],
     v_guess: &mut [f64],
 ) -> u64 {
+    let Scheme { law, in_rows, h } = scheme;
     let n = x.len();
-    let (ahead, v, v_ahead) = (&ahead[..n], &v[..n], &v_ahead[..n]);
+    let (ahead, v, v_ahead, row) = (&ahead[..n], &v[..n], &v_ahead[..n], &row[..n]);
     let (accelerations, x_guess, v_guess) = (&mut accelerations[..n], &mut x_guess[..n], &mut v_guess[..n]);
-    let whole = n - n % W;
-    let mut signs = [0; W];
-    let own = lanes(x).zip(lanes(ahead)).zip(lanes(v)).zip(lanes(v_ahead));
-    let results = lanes_mut(accelerations).zip(lanes_mut(x_guess)).zip(lanes_mut(v_guess));
-    for ((((x, ahead), v), v_ahead), ((acceleration, x_guess), v_guess)) in own.zip(results) {
-        let (x, v, v_ahead) = (Lanes(*x), Lanes(*v), Lanes(*v_ahead));
-        let net_gap = Lanes(*ahead) - x - L::CONTACT;
-        let a = law.acceleration(net_gap, v, v_ahead);
-        *acceleration = a.0;
-        *x_guess = (v * h + x).0;
-        *v_guess = (a * h + v).0;
-        let room = law.effective_gap(net_gap, v, v_ahead);
-        for lane in 0..W {
-            signs[lane] |= room.0[lane].to_bits() | v.0[lane].to_bits();
-        }
-    }
-    for i in whole..n {
+    let mut signs = 0;
+    for i in 0..n {
         let net_gap = ahead[i] - x[i] - L::CONTACT;
-        let a = law.acceleration(net_gap, v[i], v_ahead[i]);
+        let a = if in_rows { row[i] } else { law.acceleration(net_gap, v[i], v_ahead[i]) };
         accelerations[i] = a;
         x_guess[i] = x[i] + h * v[i];
         v_guess[i] = v[i] + h * a;
-        signs[0] |= law.effective_gap(net_gap, v[i], v_ahead[i]).to_bits() | v[i].to_bits();
+        signs |= law.effective_gap(net_gap, v[i], v_ahead[i]).to_bits() | v[i].to_bits();
     }
-    signs.into_iter().fold(0, |all, sign| all | sign)
+    signs
 }
 
 /// The step of `x`, `v` with the mean of the accelerations there and at the guess.
 #[inline(always)]
 #[expect(clippy::too_many_arguments, reason = "only slices that are arguments are known not to overlap")]
 fn heun<L: Law>(
-    law: &L,
-    h: f64,
+    scheme: Scheme<'_, L>,
     x_guess: &[f64],
     ahead: &[f64],
     v_guess: &[f64],
     v_ahead: &[f64],
+    row: &[f64; LENGTH],
     accelerations: &[f64],
     x: &mut [f64],
     v: &mut [f64],
 ) {
+    let Scheme { law, in_rows, h } = scheme;
     let n = x.len();
     let (x_guess, v_guess, accelerations) = (&x_guess[..n], &v_guess[..n], &accelerations[..n]);
-    let (ahead, v_ahead, v) = (&ahead[..n], &v_ahead[..n], &mut v[..n]);
-    let whole = n - n % W;
-    let guess = lanes(x_guess).zip(lanes(ahead)).zip(lanes(v_guess)).zip(lanes(v_ahead)).zip(lanes(accelerations));
-    for (((((x_guess, ahead), v_guess), v_ahead), acceleration), (x, v)) in guess.zip(lanes_mut(x).zip(lanes_mut(v))) {
-        let v_guess = Lanes(*v_guess);
-        let a = law.acceleration(Lanes(*ahead) - Lanes(*x_guess) - L::CONTACT, v_guess, Lanes(*v_ahead));
-        *x = (Lanes(*x) + (Lanes(*v) * 0.5 + v_guess * 0.5) * h).0;
-        *v = (Lanes(*v) + (Lanes(*acceleration) * 0.5 + a * 0.5) * h).0;
-    }
-    for i in whole..n {
-        let a = law.acceleration(ahead[i] - x_guess[i] - L::CONTACT, v_guess[i], v_ahead[i]);
+    let (ahead, v_ahead, row, v) = (&ahead[..n], &v_ahead[..n], &row[..n], &mut v[..n]);
+    for i in 0..n {
+        let net_gap = ahead[i] - x_guess[i] - L::CONTACT;
+        let a = if in_rows { row[i] } else { law.acceleration(net_gap, v_guess[i], v_ahead[i]) };
         x[i] += h * (0.5 * v[i] + 0.5 * v_guess[i]);
         v[i] += h * (0.5 * accelerations[i] + 0.5 * a);
     }
-}
-
-/// The whole blocks of a row.
-#[inline(always)]
-fn lanes(row: &[f64]) -> std::slice::Iter<'_, [f64; W]> {
-    row.as_chunks().0.iter()
-}
-
-/// The same, to be written.
-#[inline(always)]
-fn lanes_mut(row: &mut [f64]) -> std::slice::IterMut<'_, [f64; W]> {
-    row.as_chunks_mut().0.iter_mut()
 }
