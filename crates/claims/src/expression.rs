@@ -1,30 +1,27 @@
-//! What stands in `of` and `where`: a column, a number, or two of them with a sign between; and comparisons of such.
+//! What stands in `of` and `where`: formulas whose names are columns, and comparisons of such.
 
 use crate::sheet::{Sheet, Stated};
-use crate::uncertain::{Outcome, Relation, Sign, Uncertain};
+use crate::uncertain::{Outcome, Relation, Uncertain};
 use files::table::Cell;
+use formula::Place;
 
-/// A number or the name of a column (or, on the right of a comparison, a word; in quotes where a column has that name).
-#[derive(Clone, Debug, PartialEq)]
-enum Term {
-    Number(f64),
-    Name(String),
-    Quoted(String),
-}
+/// `v`, `2`, `v - v_beside`: a formula whose names are columns.
+#[derive(Clone, Debug)]
+pub struct Expression(formula::Expression);
 
-/// `v`, `2`, `v - v_beside`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Expression {
-    first: Term,
-    rest: Option<(Sign, Term)>,
+/// The right of a comparison: a formula, or a word; in quotes where a column has that name.
+#[derive(Clone, Debug)]
+struct Right {
+    text: String,
+    expression: Option<Expression>,
 }
 
 /// `phi < 0`, `event = overlap`, `overlap_t != empty`, `v < 0.4 * v0`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Condition {
     left: Expression,
     relation: Relation,
-    right: Expression,
+    right: Right,
 }
 
 /// Where the error of a column's numbers stands.
@@ -38,17 +35,11 @@ enum Source {
     Column(usize),
 }
 
-#[derive(Clone, Copy, Debug)]
-enum Value {
-    Number(f64),
-    Column(usize, Source),
-}
-
 /// An expression whose names are columns of a certain sheet.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Bound {
-    first: Value,
-    rest: Option<(Sign, Value)>,
+    expression: Expression,
+    columns: Vec<(usize, Source)>,
 }
 
 /// A condition whose names are columns of a certain sheet.
@@ -71,66 +62,21 @@ pub struct Binding<'a> {
     pub errors: Option<(&'a [String], usize)>,
 }
 
-impl Term {
-    fn parse(text: &str) -> Result<Term, String> {
-        let quoted = text.strip_prefix('\'').and_then(|text| text.strip_suffix('\''));
-        match text.parse::<f64>() {
-            _ if quoted.is_some() => Ok(Term::Quoted(quoted.unwrap_or("").to_owned())),
-            Ok(number) if number.is_finite() => Ok(Term::Number(number)),
-            Ok(_) => Err(format!("{text} is not finite")),
-            Err(_) if text.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"_-".contains(&byte)) => {
-                Ok(Term::Name(text.to_owned()))
-            }
-            Err(_) => Err(format!("{text} is neither a number nor the name of a column")),
-        }
-    }
-}
-
 impl Expression {
-    /// Reads an expression; blanks stand around the sign.
+    /// Reads an expression.
     ///
     /// # Errors
-    /// What is wrong and what would be valid.
+    /// What is wrong, at which column of the text, and what would be valid.
     pub fn parse(text: &str) -> Result<Expression, String> {
-        Expression::from_tokens(&text.split_whitespace().collect::<Vec<_>>()).map_err(|problem| {
-            format!("{text:?}: {problem}; valid: a column, a number, or two of them with + - * / between blanks")
+        let parsed = formula::Expression::parse("", Place { line: 1, column: 1 }, text);
+        parsed.map(Expression).map_err(|error| {
+            format!("{text:?}: column {}: {}; valid: {}", error.place.column, error.found, error.valid)
         })
-    }
-
-    fn from_tokens(tokens: &[&str]) -> Result<Expression, String> {
-        match tokens {
-            [one] => Ok(Expression { first: Term::parse(one)?, rest: None }),
-            [one, sign, other] => {
-                let sign = Sign::parse(sign).ok_or_else(|| format!("{sign} is no sign"))?;
-                Ok(Expression { first: Term::parse(one)?, rest: Some((sign, Term::parse(other)?)) })
-            }
-            _ => Err(format!("{} words", tokens.len())),
-        }
     }
 
     /// The names in it.
     pub fn names(&self) -> Vec<String> {
-        let terms = [Some(&self.first), self.rest.as_ref().map(|(_, term)| term)];
-        let name = |term: &Term| match term {
-            Term::Name(name) => Some(name.clone()),
-            Term::Number(_) | Term::Quoted(_) => None,
-        };
-        terms.into_iter().flatten().filter_map(name).collect()
-    }
-
-    fn lone_name(&self) -> Option<&str> {
-        match (&self.first, &self.rest) {
-            (Term::Name(name), None) => Some(name),
-            _ => None,
-        }
-    }
-
-    /// The word that this is, in a table with these columns.
-    fn word(&self, sheet: &Sheet) -> Option<&str> {
-        match (&self.first, &self.rest) {
-            (Term::Quoted(word), None) => Some(word),
-            _ => self.lone_name().filter(|name| sheet.place(name).is_none()),
-        }
+        self.0.names().iter().map(|(name, _)| name.clone()).collect()
     }
 
     /// Finds the columns.
@@ -138,24 +84,38 @@ impl Expression {
     /// # Errors
     /// A name that is no column, with those that are.
     pub fn bind(&self, binding: &Binding<'_>) -> Result<Bound, String> {
-        let value = |term: &Term| match term {
-            Term::Number(number) => Ok(Value::Number(*number)),
-            Term::Name(name) => binding.column(name),
-            Term::Quoted(word) => Err(format!("'{word}' is a word, where a number or a column is needed")),
+        let columns = self.0.names().iter().map(|(name, _)| binding.column(name)).collect::<Result<_, _>>()?;
+        Ok(Bound { expression: self.clone(), columns })
+    }
+}
+
+impl Right {
+    fn parse(text: &str) -> Result<Right, String> {
+        let is_word = text.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"_-'".contains(&byte));
+        let expression = match Expression::parse(text) {
+            Err(_) if is_word && !text.is_empty() => None,
+            parsed => Some(parsed?),
         };
-        let rest = self.rest.as_ref().map(|(sign, term)| Ok::<_, String>((*sign, value(term)?))).transpose()?;
-        Ok(Bound { first: value(&self.first)?, rest })
+        Ok(Right { text: text.to_owned(), expression })
+    }
+
+    /// The formula, if all its names are columns; one of several operands is taken for one anyway, so that its names are
+    /// complained of.
+    fn formula(&self, sheet: &Sheet) -> Option<&Expression> {
+        let is_column = |name: &String| sheet.place(name).is_some();
+        let expression = self.expression.as_ref()?;
+        (self.text.contains(' ') || expression.names().iter().all(is_column)).then_some(expression)
     }
 }
 
 impl Binding<'_> {
-    fn column(&self, name: &str) -> Result<Value, String> {
+    fn column(&self, name: &str) -> Result<(usize, Source), String> {
         let place = self.sheet.place(name).ok_or_else(|| self.sheet.no_column(name))?;
         let source = match self.errors {
             Some((columns, errors)) if columns.iter().any(|column| column == name) => Source::Column(errors),
             _ => self.sheet.error(place).map_or(Source::Nowhere, Source::Stated),
         };
-        Ok(Value::Column(place, source))
+        Ok((place, source))
     }
 }
 
@@ -165,33 +125,23 @@ impl Bound {
     /// # Errors
     /// A cell is a word.
     pub fn value(&self, sheet: &Sheet, row: usize) -> Result<Option<Uncertain>, String> {
-        let Some(first) = self.first.value(sheet, row)? else { return Ok(None) };
-        match self.rest {
-            None => Ok(Some(first)),
-            Some((sign, other)) => Ok(other.value(sheet, row)?.map(|other| first.combine(sign, other))),
-        }
+        let cells = self.columns.iter().map(|&column| cell(column, sheet, row));
+        let Some(cells) = cells.collect::<Result<Option<Vec<Uncertain>>, String>>()? else { return Ok(None) };
+        Ok(Some(self.expression.0.carry_out(Uncertain::exact, |name| cells[name])))
     }
 }
 
-impl Value {
-    fn value(self, sheet: &Sheet, row: usize) -> Result<Option<Uncertain>, String> {
-        let (place, source) = match self {
-            Value::Number(number) => return Ok(Some(Uncertain::exact(number))),
-            Value::Column(place, source) => (place, source),
-        };
-        let Some(value) = number(sheet, place, row)? else { return Ok(None) };
-        let error = match source {
-            Source::Stated(stated) => stated.at(value),
-            Source::Nowhere => 0.0,
-            Source::Column(errors) => {
-                let error = number(sheet, errors, row)?;
-                error
-                    .map(f64::abs)
-                    .ok_or_else(|| format!("row {row} (from 0): {} is empty beside a value", sheet.names()[errors]))?
-            }
-        };
-        Ok(Some(Uncertain { value, error }))
-    }
+/// The number in a cell, with its error; nothing where it is empty.
+fn cell((place, source): (usize, Source), sheet: &Sheet, row: usize) -> Result<Option<Uncertain>, String> {
+    let Some(value) = number(sheet, place, row)? else { return Ok(None) };
+    let error = match source {
+        Source::Stated(stated) => stated.at(value),
+        Source::Nowhere => 0.0,
+        Source::Column(errors) => number(sheet, errors, row)?
+            .map(f64::abs)
+            .ok_or_else(|| format!("row {row} (from 0): {} is empty beside a value", sheet.names()[errors]))?,
+    };
+    Ok(Some(Uncertain { value, error }))
 }
 
 fn number(sheet: &Sheet, place: usize, row: usize) -> Result<Option<f64>, String> {
@@ -212,12 +162,12 @@ impl Condition {
     pub fn parse(text: &str) -> Result<Condition, String> {
         let tokens: Vec<&str> = text.split_whitespace().collect();
         let found = tokens.iter().enumerate().find_map(|(at, token)| Some((at, Relation::parse(token)?)));
-        let valid = "valid: `column op other`, op one of < <= > >= = !=, other a number, a column or a word";
+        let valid = "valid: `column op other`, op one of < <= > >= = !=, other an expression or a word";
         let (at, relation) = found.ok_or_else(|| format!("{text:?}: no comparison; {valid}"))?;
-        let side = |tokens: &[&str]| {
-            Expression::from_tokens(tokens).map_err(|problem| format!("{text:?}: {problem}; {valid}"))
-        };
-        Ok(Condition { left: side(&tokens[..at])?, relation, right: side(&tokens[at + 1..])? })
+        let wrong = |problem: String| format!("{problem}; {valid}");
+        let left = Expression::parse(&tokens[..at].join(" ")).map_err(wrong)?;
+        let right = Right::parse(&tokens[at + 1..].join(" ")).map_err(wrong)?;
+        Ok(Condition { left, relation, right })
     }
 
     /// Finds the columns. A name on the right that is no column is a word, which must stand somewhere in the column on the
@@ -226,11 +176,11 @@ impl Condition {
     /// # Errors
     /// A name that is no column, a word that stands nowhere, or words that are to be ordered.
     pub fn bind(&self, binding: &Binding<'_>) -> Result<BoundCondition, String> {
-        let Some(word) = self.right.word(binding.sheet) else {
-            let (left, right) = (self.left.bind(binding)?, self.right.bind(binding)?);
-            return Ok(BoundCondition::Numbers(left, self.relation, right));
-        };
-        let name = self.left.lone_name().ok_or_else(|| binding.sheet.no_column(word))?;
+        if let Some(right) = self.right.formula(binding.sheet) {
+            return Ok(BoundCondition::Numbers(self.left.bind(binding)?, self.relation, right.bind(binding)?));
+        }
+        let word = self.right.text.trim_matches('\'');
+        let [name] = &self.left.names()[..] else { return Err(binding.sheet.no_column(word)) };
         let place = binding.sheet.place(name).ok_or_else(|| binding.sheet.no_column(name))?;
         let is_equal = match self.relation {
             Relation::Equal => true,

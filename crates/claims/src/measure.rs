@@ -6,7 +6,7 @@ use crate::expression::{Binding, Bound, BoundCondition, Condition, Expression};
 use crate::sheet::Sheet;
 use crate::source::Place;
 use crate::tables::Tables;
-use crate::uncertain::{Outcome, Sign, Uncertain};
+use crate::uncertain::{Outcome, Uncertain};
 use checkout::failure::Failure;
 use std::rc::Rc;
 
@@ -22,13 +22,12 @@ pub fn evaluate(measure: &Measure, tables: &Tables<'_>, place: &Place) -> Result
         Operand::Number(number) => Uncertain::exact(number),
         Operand::Measure(measure) => evaluate(&measure, tables, &Place(format!("{}, {key}", place.0)))?,
     };
-    let sign = match key {
-        "times" => Sign::Times,
-        "over" => Sign::Over,
-        "less" => Sign::Less,
-        _ => Sign::Plus,
-    };
-    Ok(own.combine(sign, other))
+    Ok(match key {
+        "times" => own * other,
+        "over" => own / other,
+        "less" => own - other,
+        _ => own + other,
+    })
 }
 
 fn of_table(measure: &Measure, tables: &Tables<'_>, place: &Place) -> Result<Uncertain, Failure> {
@@ -135,7 +134,7 @@ fn counted(take: Take, chosen: &Chosen, all: usize) -> Result<Uncertain, String>
     let found = Uncertain { value: chosen.sure.len() as f64, error: chosen.open.len() as f64 };
     match (take, all) {
         (Take::Share, 0) => Err("no row is left to be a share of".to_owned()),
-        (Take::Share, all) => Ok(found.combine(Sign::Over, Uncertain::exact(all as f64))),
+        (Take::Share, all) => Ok(found / Uncertain::exact(all as f64)),
         _ => Ok(found),
     }
 }
@@ -177,11 +176,11 @@ fn taken(take: Take, values: &Values) -> Result<Uncertain, String> {
         Take::Largest => Ok(extreme(values, |a, b| b.total_cmp(a))),
         Take::Span => {
             let (least, largest) = (extreme(values, f64::total_cmp), extreme(values, |a, b| b.total_cmp(a)));
-            Ok(largest.combine(Sign::Less, least))
+            Ok(largest - least)
         }
         Take::Mean => {
-            let sum = sure.iter().fold(Uncertain::exact(0.0), |sum, &value| sum.combine(Sign::Plus, value));
-            Ok(bounded(sum.combine(Sign::Over, Uncertain::exact(sure.len() as f64))))
+            let sum = sure.iter().fold(Uncertain::exact(0.0), |sum, &value| sum + value);
+            Ok(bounded(sum / Uncertain::exact(sure.len() as f64)))
         }
         Take::Only if sure.len() > 1 => Err(format!("{} rows are left where `only` needs one", sure.len())),
         Take::Last => Ok(bounded(sure.last().copied().unwrap_or(first))),

@@ -1,6 +1,8 @@
 //! A value with its error, arithmetic that carries the error along, and comparisons that may stay open.
 
+use math::number::Number;
 use serde::{Deserialize, Serialize};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A value and how far the true one may be from it; an error that nothing bounds is infinite.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,19 +23,6 @@ pub enum Outcome {
     False,
     /// It holds for some of them.
     Undecided,
-}
-
-/// A sign of arithmetic between two values.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sign {
-    /// `+`
-    Plus,
-    /// `-`
-    Less,
-    /// `*`
-    Times,
-    /// `/`
-    Over,
 }
 
 /// A comparison of two values.
@@ -75,19 +64,13 @@ impl Uncertain {
         self.value + self.error
     }
 
-    /// The result for the two values, with the largest error that theirs allow; rounding of this arithmetic is not
-    /// counted.
-    pub fn combine(self, sign: Sign, other: Uncertain) -> Uncertain {
-        let (a, b) = (self.value, other.value);
-        let (da, db) = (self.error, other.error);
-        match sign {
-            Sign::Plus => Uncertain { value: a + b, error: da + db },
-            Sign::Less => Uncertain { value: a - b, error: da + db },
-            Sign::Times => Uncertain { value: a * b, error: a.abs() * db + b.abs() * da + da * db },
-            // a divisor that may be 0 bounds nothing
-            Sign::Over if b.abs() <= db => Uncertain { value: a / b, error: f64::INFINITY },
-            Sign::Over => Uncertain { value: a / b, error: (da + (a / b).abs() * db) / (b.abs() - db) },
-        }
+    /// The value of a function that only rises or only falls.
+    fn monotone(self, f: impl Fn(f64) -> f64) -> Uncertain {
+        let (low, high, value) = (f(self.low()), f(self.high()), f(self.value));
+        let (low, high) = if high < low { (high, low) } else { (low, high) };
+        // an end outside of the domain bounds nothing
+        let is_bounded = self.error == 0.0 || low.is_finite() && high.is_finite();
+        if is_bounded { Uncertain::between(low, high, value) } else { Uncertain { value, error: f64::INFINITY } }
     }
 
     /// Compares with another value: open when the errors of both together reach over the border.
@@ -108,6 +91,105 @@ impl Uncertain {
     }
 }
 
+/// Arithmetic of two values, with the largest error that theirs allow; its own rounding is not counted.
+macro_rules! arithmetic {
+    ($operation:ident, $name:ident, |$a:ident, $b:ident| $result:expr) => {
+        impl $operation for Uncertain {
+            type Output = Uncertain;
+
+            fn $name(self, other: Uncertain) -> Uncertain {
+                let ($a, $b) = (self, other);
+                let (value, error) = $result;
+                Uncertain { value, error }
+            }
+        }
+
+        impl $operation<f64> for Uncertain {
+            type Output = Uncertain;
+
+            fn $name(self, other: f64) -> Uncertain {
+                $operation::$name(self, Uncertain::exact(other))
+            }
+        }
+    };
+}
+
+arithmetic!(Add, add, |a, b| (a.value + b.value, a.error + b.error));
+arithmetic!(Sub, sub, |a, b| (a.value - b.value, a.error + b.error));
+arithmetic!(Mul, mul, |a, b| {
+    (a.value * b.value, a.value.abs() * b.error + b.value.abs() * a.error + a.error * b.error)
+});
+arithmetic!(Div, div, |a, b| {
+    let (value, room) = (a.value / b.value, b.value.abs() - b.error);
+    // a divisor that may be 0 bounds nothing
+    (value, if room <= 0.0 { f64::INFINITY } else { (a.error + value.abs() * b.error) / room })
+});
+
+impl Neg for Uncertain {
+    type Output = Uncertain;
+
+    fn neg(self) -> Uncertain {
+        Uncertain { value: -self.value, error: self.error }
+    }
+}
+
+impl Number for Uncertain {
+    fn recip(self) -> Uncertain {
+        Uncertain::exact(1.0) / self
+    }
+
+    fn powi(self, n: i32) -> Uncertain {
+        let power =
+            (1..n.unsigned_abs()).fold(if n == 0 { Uncertain::exact(1.0) } else { self }, |power, _| power * self);
+        if n < 0 { power.recip() } else { power }
+    }
+
+    fn powf(self, q: f64) -> Uncertain {
+        self.monotone(|x| Number::powf(x, q))
+    }
+
+    fn abs(self) -> Uncertain {
+        Uncertain { value: self.value.abs(), error: self.error }
+    }
+
+    fn min(self, other: Uncertain) -> Uncertain {
+        let least = |end: fn(Uncertain) -> f64| Number::min(end(self), end(other));
+        Uncertain::between(least(Uncertain::low), least(Uncertain::high), Number::min(self.value, other.value))
+    }
+
+    fn max(self, other: Uncertain) -> Uncertain {
+        -Number::min(-self, -other)
+    }
+
+    fn exp(self) -> Uncertain {
+        self.monotone(Number::exp)
+    }
+
+    fn exp_m1(self) -> Uncertain {
+        self.monotone(Number::exp_m1)
+    }
+
+    fn ln(self) -> Uncertain {
+        self.monotone(Number::ln)
+    }
+
+    fn ln_1p(self) -> Uncertain {
+        self.monotone(Number::ln_1p)
+    }
+
+    fn sqrt(self) -> Uncertain {
+        self.monotone(Number::sqrt)
+    }
+
+    fn tanh(self) -> Uncertain {
+        self.monotone(Number::tanh)
+    }
+
+    fn softplus(self) -> Uncertain {
+        self.monotone(Number::softplus)
+    }
+}
+
 impl Outcome {
     /// True when it holds for all values, false when for none, open otherwise.
     pub fn of(for_all: bool, for_none: bool) -> Outcome {
@@ -125,19 +207,6 @@ impl Outcome {
             Outcome::False => "false",
             Outcome::Undecided => "undecided",
         }
-    }
-}
-
-impl Sign {
-    /// Reads a sign.
-    pub fn parse(text: &str) -> Option<Sign> {
-        Some(match text {
-            "+" => Sign::Plus,
-            "-" => Sign::Less,
-            "*" => Sign::Times,
-            "/" => Sign::Over,
-            _ => return None,
-        })
     }
 }
 

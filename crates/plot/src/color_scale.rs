@@ -70,6 +70,18 @@ impl ColorScale {
         Self { range: Axis::around(label, values), stops: &SEQUENTIAL, shades: CLASSES, pointed: false }
     }
 
+    /// The upper end of the scale.
+    #[must_use]
+    pub fn limit(&self) -> f64 {
+        self.range.to
+    }
+
+    /// Red, green and blue of the equally spaced stops between which the colours lie, from the lower end.
+    #[must_use]
+    pub fn stops(&self) -> Vec<[u8; 3]> {
+        self.stops.iter().map(|&Color(red, green, blue)| [red, green, blue]).collect()
+    }
+
     /// The shade of a value, from 0; NaN has the one after the last.
     pub(crate) fn shade(&self, value: f64) -> usize {
         if value.is_nan() {

@@ -137,7 +137,13 @@ impl<'a> Parser<'a> {
     /// What a name that has just been taken stands for.
     fn word(&mut self, name: &str, place: Place) -> Result<(), Problem> {
         let is_law = self.vocabulary == Vocabulary::Law;
-        if let Some((_, unary)) = names::UNARY.iter().find(|(known, _)| *known == name) {
+        let is_operand =
+            matches!(self.next().token, Token::End | Token::Symbol(')' | ',' | '+' | '-' | '*' | '/' | '^'));
+        if !is_law && is_operand && names::functions().any(|known| known == name) {
+            // the ledger's columns have such names
+            self.push(Entry::Name(name.into()), place);
+            Ok(())
+        } else if let Some((_, unary)) = names::UNARY.iter().find(|(known, _)| *known == name) {
             self.arguments(name, place, 1, false, Entry::Unary(*unary))
         } else if let Some((_, binary)) = names::CHOICES.iter().find(|(known, _)| *known == name) {
             self.arguments(name, place, 2, true, Entry::Binary(*binary))

@@ -10,43 +10,9 @@ use checkout::failure::Failure;
 use checkout::figure::Figure;
 use files::recipe::{Kind, Panel, Recipe};
 use files::table::Table;
+use plot::ColorScale;
 use serde_json::{Value, json};
 
-/// Stops of the diverging colours, as in crate `plot`: a test compares.
-pub const DIVERGING: [[u8; 3]; 17] = [
-    [0x01, 0x51, 0xa1],
-    [0x33, 0x65, 0xad],
-    [0x50, 0x79, 0xb9],
-    [0x6b, 0x8d, 0xc5],
-    [0x85, 0xa2, 0xd0],
-    [0x9f, 0xb7, 0xdb],
-    [0xbb, 0xcc, 0xe5],
-    [0xd7, 0xe1, 0xef],
-    [0xf6, 0xf6, 0xf6],
-    [0xf1, 0xdc, 0xd2],
-    [0xe8, 0xc3, 0xb2],
-    [0xde, 0xaa, 0x94],
-    [0xd3, 0x91, 0x78],
-    [0xc7, 0x77, 0x5e],
-    [0xba, 0x5e, 0x47],
-    [0xac, 0x43, 0x31],
-    [0x9d, 0x23, 0x1e],
-];
-/// Stops of the sequential colours, as in crate `plot`.
-pub const SEQUENTIAL: [[u8; 3]; 9] = [
-    [0x44, 0x01, 0x54],
-    [0x48, 0x24, 0x75],
-    [0x41, 0x44, 0x87],
-    [0x35, 0x5f, 0x8d],
-    [0x2a, 0x78, 0x8e],
-    [0x21, 0x91, 0x8c],
-    [0x22, 0xa8, 0x84],
-    [0x44, 0xbf, 0x70],
-    [0x7a, 0xd1, 0x51],
-];
-/// Where colours are clipped, in both directions, as in the figures' programs: a test compares.
-pub const CLIPS: [(&str, f64); 7] =
-    [("fig03", 0.5), ("fig05", 0.5), ("fig06", 0.5), ("fig09", 0.2), ("fig10", 0.12), ("fig14", 0.2), ("fig15", 0.5)];
 /// Positions and speeds of the trajectories are rounded to this.
 pub const STEP: f64 = 1e-3;
 /// Its inverse, which is exact.
@@ -87,8 +53,9 @@ pub fn collect(source: &Source<'_>) -> Result<Data, Failure> {
     for figure in &source.figures {
         let Ok(recipe) = &figure.recipe else { continue };
         if has_maps(figure) {
+            let limit = colors(source, figure, recipe)?.limit();
             for panel in &recipe.panels {
-                maps.push(map(source, figure, recipe, panel, &mut data.elements)?);
+                maps.push(map(source, figure, (recipe, panel), limit, &mut data.elements)?);
             }
         } else if has_curves(figure) {
             curves.extend(figure_curves(source, figure, recipe, &mut data.elements)?);
@@ -96,7 +63,7 @@ pub fn collect(source: &Source<'_>) -> Result<Data, Failure> {
     }
     data.index = json!({
         "maps": maps, "curves": curves, "ring": ring(source, &mut data.elements)?, "published": published_json(source)?,
-        "diverging": DIVERGING, "sequential": SEQUENTIAL,
+        "diverging": ColorScale::diverging("", []).stops(), "sequential": ColorScale::sequential("", []).stops(),
     });
     Ok(data)
 }
@@ -110,11 +77,21 @@ fn singles(values: impl Iterator<Item = f64>) -> Vec<u8> {
     values.flat_map(|value| (value as f32).to_le_bytes()).collect()
 }
 
+/// The colours that a figure's maps share.
+fn colors(source: &Source<'_>, figure: &Figure, recipe: &Recipe) -> Result<ColorScale, Failure> {
+    let mut values = Vec::new();
+    for panel in &recipe.panels {
+        let table = source.table(&format!("{}/{}", figure.id, panel.name))?;
+        values.extend(table.rows().filter_map(|row| row.get(2).copied()));
+    }
+    Ok(ColorScale::diverging("", values))
+}
+
 fn map(
     source: &Source<'_>,
     figure: &Figure,
-    recipe: &Recipe,
-    panel: &Panel,
+    (recipe, panel): (&Recipe, &Panel),
+    limit: f64,
     elements: &mut String,
 ) -> Result<Value, Failure> {
     let name = format!("{}/{}", figure.id, panel.name);
@@ -124,15 +101,12 @@ fn map(
     if table.columns.len() != 3 || table.len() as u64 != cells {
         return Err(Failure::failed(format!("data/{name}.csv: {} rows for a map of {cells} cells", table.len())));
     }
-    let clip = CLIPS.iter().find(|(id, _)| *id == figure.id);
-    let (_, clip) =
-        clip.ok_or_else(|| Failure::failed(format!("{}: a map without a clip of its colours", figure.id)))?;
     let id = format!("values-{}-{}", figure.id, panel.name);
     elements.push_str(&element(&id, &singles(table.rows().map(|row| row[2]))));
     let column = &table.columns[2];
     Ok(json!({
         "figure": figure.id, "panel": panel.name.replace('_', " "), "id": id, "table": format!("data/{name}.csv"),
-        "difference": scenes::difference(recipe, panel), "x": x, "y": y, "clip": clip,
+        "difference": scenes::difference(recipe, panel), "x": x, "y": y, "clip": limit,
         "value": { "symbol": source.symbol(&name, column), "words": source.words(&name, column) },
     }))
 }

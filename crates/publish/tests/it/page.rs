@@ -1,7 +1,7 @@
 //! The page: its sources hold no measured number, what it repeats of other crates is what they have, and it is made
 //! from good figures only. What it shows is tested in a browser (`checks/browser`).
 
-use publish::page::{SCRIPTS, TEMPLATE, data};
+use publish::page::{SCRIPTS, TEMPLATE};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -114,32 +114,4 @@ fn every_picture_has_words_without_numbers() {
     for (id, words) in lines {
         assert!(words.len() > 60 && numerals(words).is_empty(), "{id}: {words}");
     }
-}
-
-#[test]
-fn colours_are_those_of_the_pictures() {
-    let source = read("crates/plot/src/color.rs");
-    let stops = |name: &str| {
-        let body = source.split_once(&format!("const {name}: [Color;")).expect(name).1;
-        let body = body.split_once("= [").expect("stops").1.split_once("];").expect("an end").0;
-        let bytes = body.split("0x").skip(1).map(|part| u8::from_str_radix(&part[..2], 16).expect("a byte"));
-        bytes.collect::<Vec<u8>>()
-    };
-    assert_eq!(stops("DIVERGING"), data::DIVERGING.concat());
-    assert_eq!(stops("SEQUENTIAL"), data::SEQUENTIAL.concat());
-}
-
-#[test]
-fn colours_are_clipped_where_the_pictures_clip_them() {
-    let mut clipped = 0;
-    for folder in fs::read_dir(root().join("figures")).expect("figures").flatten() {
-        let program = fs::read_to_string(folder.path().join("main.rs")).unwrap_or_default();
-        let Some((_, rest)) = program.split_once("ColorScale::diverging(\"") else { continue };
-        let limit = rest.split_once("\", ").and_then(|(_, rest)| rest.split_once(')')).expect("a limit").0;
-        let name = folder.file_name().to_string_lossy().into_owned();
-        let clip = data::CLIPS.iter().find(|(id, _)| name.starts_with(id)).map(|(_, clip)| *clip);
-        assert_eq!(clip, limit.parse().ok(), "{name}");
-        clipped += 1;
-    }
-    assert_eq!(clipped, data::CLIPS.len());
 }
