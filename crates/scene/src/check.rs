@@ -24,7 +24,7 @@ pub struct Errors {
 }
 
 /// The tolerance of the second run over that of the run.
-const LOOSER: f64 = 10.0;
+const LOOSER: f64 = 2.0;
 
 /// Ends of both runs that are this near, relative to the time, are one.
 const SAME_TIME: f64 = 1e-9;
