@@ -1,9 +1,10 @@
 //! What the figures' binaries share: the command line and where tables and pictures go ([`job`]), panels that several
 //! figures draw ([`panels`]) and their titles ([`titles`]), exit codes ([`failure`]); and the two programs for scenes of
-//! one's own ([`simulate`] with [`checkpoint`], [`map`]).
+//! one's own ([`simulate`] with [`checkpoint`], [`map`]); the contact sheet of published laws ([`gallery`]).
 
 pub mod checkpoint;
 pub mod failure;
+pub mod gallery;
 pub mod job;
 pub mod map;
 pub mod panels;

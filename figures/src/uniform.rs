@@ -21,6 +21,7 @@ pub fn in_words(scene: &Scene) -> String {
             let from = if least == 0.0 { "long ones".to_owned() } else { format!("k = {least:.4}") };
             format!("{flow}: unstable (margin {margin:.4}), waves from {from} to k = {largest:.4} grow; {on_ring}")
         }
+        None if margin == 0.0 => format!("{flow}: neutral (margin 0), no wave grows, but not all decay; {on_ring}"),
         None => format!("{flow}: stable (margin {margin:.4}) for waves of all lengths; {on_ring}"),
     }
 }

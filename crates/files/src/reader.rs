@@ -197,6 +197,11 @@ impl<'a> Reader<'a> {
         self.section.entries.contains_key(key)
     }
 
+    /// Whether a number stands under this key, which counts as known from now on.
+    pub fn is_number(&mut self, key: &'static str) -> bool {
+        self.has(key) && matches!(self.section.entries[key].value, Value::Number(_))
+    }
+
     /// The number under `key`, which must lie in `range` and must not be missing.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! What both files say of themselves: the run, the ring, and the units.
 
 use crate::problem::Problem;
-use files::reader::{POSITIVE, Reader};
+use files::reader::{POSITIVE, Reader, RecipeError};
 use files::recipe::{Kind, Panel, Recipe};
 use std::ops::RangeInclusive;
 
@@ -38,8 +38,8 @@ pub struct Header {
     pub pedestrians: u32,
     /// The length of the ring in units of `a_0`.
     pub ring: f64,
-    /// The desired speed in units of `a_0 / tau`.
-    pub desired_speed: f64,
+    /// The desired speed in units of `a_0 / tau`; `None` of a formula that has neither `v0` nor `scale`.
+    pub desired_speed: Option<f64>,
     /// Metres and seconds.
     pub units: Units,
     /// Frames a second.
@@ -59,10 +59,13 @@ impl Header {
         let mut tables = Reader::new(&recipe.file, "scene", &panel.tables);
         let mut ring = Reader::new(&recipe.file, "ring", tables.section("ring")?);
         let mut law = Reader::new(&recipe.file, "law", tables.section("law")?);
-        let desired_speed = law.number("v0", POSITIVE)?;
+        let desired_speed = desired_speed(&mut law)?;
         let is_derived = length.is_none();
-        let derived = f64::from(TYPICAL_SPEED) * time / (10.0 * desired_speed);
-        let length = length.unwrap_or(derived);
+        let length = match (length, desired_speed) {
+            (Some(length), _) => length,
+            (None, Some(speed)) => f64::from(TYPICAL_SPEED) * time / (10.0 * speed),
+            (None, None) => return Err(law.complaint("v0", NO_SPEED).into()),
+        };
         if !LENGTHS.contains(&length) {
             let (low, high) = (LENGTHS.start(), LENGTHS.end());
             return Err(Problem::Input(format!(
@@ -103,7 +106,8 @@ impl Header {
             true => format!("desired speed of {:?} m/s", f64::from(TYPICAL_SPEED) / 10.0),
             false => "given".to_owned(),
         };
-        vec![
+        let speed = self.desired_speed.map(|speed| ("desired_speed", format!("{:.6} m/s", speed * length / time)));
+        let facts = [
             ("title", self.title.clone()),
             ("source", self.source.clone()),
             ("scene_sha256", self.scene.clone()),
@@ -112,10 +116,28 @@ impl Header {
             ("a_0_from", origin),
             ("tau", format!("{time:?} s")),
             ("ring_length", format!("{:?} m", self.circumference())),
-            ("desired_speed", format!("{:.6} m/s", self.desired_speed * length / time)),
-            ("x", "unwrapped; modulo ring_length it is the place on the ring".to_owned()),
-        ]
+        ];
+        let place = ("x", "unwrapped; modulo ring_length it is the place on the ring".to_owned());
+        facts.into_iter().chain(speed).chain([place]).collect()
     }
+}
+
+/// What a formula without a speed of its own needs.
+const NO_SPEED: &str = "the formulas have neither a number v0 nor a number scale, so that a_0 cannot follow from the desired \
+                        speed; must have one of them above 0, or give --a0 METRES";
+
+/// The parameter `v0`; of a formula else `scale`, if it has one of them.
+fn desired_speed(law: &mut Reader<'_>) -> Result<Option<f64>, RecipeError> {
+    let is_formula = law.has("kind") && law.text("kind", "the name of a law")? == "formula";
+    if !is_formula {
+        return law.number("v0", POSITIVE).map(Some);
+    }
+    for name in ["v0", "scale"] {
+        if law.is_number(name) {
+            return law.number(name, POSITIVE).map(Some);
+        }
+    }
+    Ok(None)
 }
 
 /// A text on one line.

@@ -144,9 +144,9 @@ fn publish(drafts: Vec<(Draft, u64)>, header: &Header) -> Result<(), Problem> {
     }
     write::publish(drafts.into_iter().map(|(draft, _)| draft).collect())?;
     let facts = header.facts();
-    let fact = |name| facts.iter().find(|(known, _)| *known == name).map_or("", |(_, value)| value);
-    let units =
-        ["a_0", "a_0_from", "tau", "ring_length", "desired_speed"].map(|name| format!("{name}: {}", fact(name)));
+    let is_unit = |name: &str| ["a_0", "a_0_from", "tau", "ring_length", "desired_speed"].contains(&name);
+    let units: Vec<String> =
+        facts.iter().filter(|(name, _)| is_unit(name)).map(|(name, value)| format!("{name}: {value}")).collect();
     words.push_str(&format!("{} frames a second; {}\n", header.rate, units.join("; ")));
     match std::io::stdout().write_all(words.as_bytes()) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Problem::Work(format!("stdout: {error}"))),

@@ -110,7 +110,28 @@ impl Response {
         let (b, c) = self.polynomial(k);
         let d = b.0 * b.0 * c.0 + b.0 * b.1 * c.1 - c.1 * c.1;
         let half = math::sin(0.5 * k);
+        // a neutral wave, one that all neighbours together do not answer, neither grows nor decays
+        let d = if d.abs() <= self.rounding(k, b, c) { 0.0 } else { d };
         self.damped(-d / (2.0 * half * half * self.stiffness()), b.0)
+    }
+
+    /// As large an error as the rounding of `b(k)` and `c(k)` can leave in `D`; 0 with one neighbour, whose terms do not
+    /// cancel.
+    fn rounding(&self, k: f64, b: Complex, c: Complex) -> f64 {
+        if self.spacings.len() < 2 {
+            return 0.0;
+        }
+        let sum = |list: &[(i32, f64)], part: &dyn Fn(f64) -> f64| -> f64 {
+            list.iter().map(|(j, slope)| slope.abs() * part(f64::from(*j).abs() * k)).sum()
+        };
+        let half = math::sin(0.5 * k).abs();
+        // a wave number rounded by half a unit turns a term by that times its angle
+        let speeds = sum(&self.speeds, &|angle| 1.0 + angle);
+        let spacings = 2.0 * half * sum(&self.spacings, &|angle| 1.0 + angle);
+        let largest = b.0.abs() + b.1.abs();
+        2.0 * f64::EPSILON
+            * (largest * largest * spacings + largest * speeds * (c.0.abs() + c.1.abs()) + c.1.abs() * spacings)
+            + (f64::EPSILON * spacings) * (f64::EPSILON * spacings)
     }
 
     /// The limit of long waves, `k -> 0`.

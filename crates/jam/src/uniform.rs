@@ -91,13 +91,12 @@ pub fn of_formula(formula: &Formula, headway: f64, wanted: Option<f64>) -> Resul
     let step = ahead[1];
     let ahead: Vec<f64> = std::iter::once(-step * 1e-9).chain(ahead).collect();
     let forwards = falls(&ahead);
-    let backwards = falls(&behind);
     if let Some(wanted) = wanted {
-        let all = forwards.iter().chain(&backwards).copied();
+        let all = forwards.into_iter().chain(falls(&behind));
         return all.min_by(|a, b| (a - wanted).abs().total_cmp(&(b - wanted).abs())).ok_or_else(|| none(headway));
     }
     match forwards[..] {
-        [] => backwards.last().copied().ok_or_else(|| none(headway)),
+        [] => falls(&behind).last().copied().ok_or_else(|| none(headway)),
         [speed] => Ok(speed),
         _ => Err(NoUniformFlow { headway, speeds: forwards }),
     }

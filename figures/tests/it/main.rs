@@ -1,6 +1,7 @@
 //! The binaries as a user meets them: sums, redrawing, exit codes, what is left behind.
 
 mod failures;
+mod formulas;
 mod pictures;
 mod resume;
 mod sums;
@@ -13,11 +14,14 @@ pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
+/// A binary of this package.
+pub fn binary(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_BIN_EXE_simulate")).with_file_name(format!("{name}{}", std::env::consts::EXE_SUFFIX))
+}
+
 /// Runs a binary of this package from the root.
 pub fn run(binary: &str, arguments: &[&str]) -> Output {
-    let simulate = Path::new(env!("CARGO_BIN_EXE_simulate"));
-    let program = simulate.with_file_name(format!("{binary}{}", std::env::consts::EXE_SUFFIX));
-    Command::new(program).args(arguments).current_dir(root()).output().expect("the binary starts")
+    Command::new(self::binary(binary)).args(arguments).current_dir(root()).output().expect("the binary starts")
 }
 
 /// Runs a binary that must succeed.

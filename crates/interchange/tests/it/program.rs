@@ -69,6 +69,40 @@ fn bad_input_is_told_and_leaves_nothing() {
     }
 }
 
+/// The scene with a law as formulas, and these lines among them.
+fn formula(lines: &str) -> String {
+    let built_in = "kind = 'logarithmic'\nv0 = 3.0\nepsilon = 0.01";
+    assert!(scene().contains(built_in));
+    scene().replace(built_in, &format!("kind = 'formula'\nacceleration = 'V - v'\nbody = 1.0\n{lines}"))
+}
+
+#[test]
+fn the_metre_of_a_formula_follows_from_v0_or_scale() {
+    for (lines, more, words) in [
+        ("V = 'v0*s'\nv0 = 3.0\nscale = 1.0", &[][..], "a_0: 0.2 m; a_0_from: desired speed of 1.2 m/s"),
+        ("V = 's'\nscale = 3.0", &[], "a_0: 0.2 m; a_0_from: desired speed of 1.2 m/s"),
+        ("V = 'v0*s'\nv0 = '3'\nscale = 3.0", &[], "desired_speed: 1.200000 m/s"),
+        ("V = 's'", &["--a0", "0.3"], "a_0: 0.3 m; a_0_from: given; tau: 0.5 s; ring_length: 3.0 m\n"),
+    ] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let output = export(folder.path(), &formula(lines), TABLE, more);
+        let told = String::from_utf8_lossy(&output.stdout);
+        assert!(output.status.success() && told.contains(words), "{lines}: {output:?}");
+        assert_eq!(left(folder.path()).len(), 2);
+    }
+    for (lines, words) in [
+        ("V = 's'", ["neither", "v0", "scale", "--a0"]),
+        ("V = 's'\nscale = 0.0", ["law.scale = 0", "must be", "> 0", "scene.toml:"]),
+    ] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let output = export(folder.path(), &formula(lines), TABLE, &[]);
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{told}");
+        assert!(words.iter().all(|word| told.contains(word)), "{told}");
+        assert!(left(folder.path()).is_empty());
+    }
+}
+
 #[test]
 fn a_folder_that_cannot_be_made_is_a_failure() {
     let folder = tempfile::tempdir().expect("a folder");

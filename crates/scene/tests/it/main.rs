@@ -9,6 +9,7 @@ mod errors;
 mod estimates;
 mod figures;
 mod formulas;
+mod gallery;
 mod hard;
 mod maps;
 mod overrides;
