@@ -35,7 +35,13 @@ pub fn make(
             program.arg(&recipe.file).args(["--panel", &panel.name]);
         }
     }
-    program.arg("--tables-only").arg("--no-check").arg("--out").arg(folder).arg("--sample").arg(format!("{:?}", header.interval()));
+    program
+        .arg("--tables-only")
+        .arg("--no-check")
+        .arg("--out")
+        .arg(folder)
+        .arg("--sample")
+        .arg(format!("{:?}", header.interval()));
     program.args(t_end.iter().flat_map(|end| ["--t-end".to_owned(), format!("{end:?}")]));
     let output = program.output().map_err(|error| Problem::Work(format!("{}: {error}", simulate.display())))?;
     let words = String::from_utf8_lossy(&output.stderr);

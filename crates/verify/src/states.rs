@@ -193,7 +193,11 @@ fn again(made: &Paths, survey: &Made<'_>, panel: &str) -> Result<String, Failure
     let file = folder.join("scene.toml");
     disk::write(&file, scene.lines().map(keep).collect::<String>().as_bytes())?;
     let mut command = Command::new(made.binary("simulate"));
-    command.arg(&file).args(["--panel", panel, "--tables-only", "--no-check", "--out"]).arg(&folder).current_dir(&made.root);
+    command
+        .arg(&file)
+        .args(["--panel", panel, "--tables-only", "--no-check", "--out"])
+        .arg(&folder)
+        .current_dir(&made.root);
     let failed = || Failure::Failed(format!("{name}, panel {panel}: cannot be run with its trajectories"));
     process::output(&mut command).ok_or_else(failed)?;
     let text = disk::read_text(&folder.join(trajectories))?.ok_or_else(failed);
