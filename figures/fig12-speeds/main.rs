@@ -20,11 +20,24 @@ const ENLARGED: f64 = 38.0;
 fn tables(job: &mut Job) -> Result<(), Failure> {
     let run = job.run_table("main", "trajectories")?;
     for (name, time) in TIMES {
-        let mut table = Table::new(&["n", "x", "v"]);
-        run.rows().filter(|row| row[0] == time).for_each(|row| table.push(&row[1..]));
-        job.write(name, &table)?;
+        job.write(name, &at(&run, time)?)?;
     }
     Ok(())
+}
+
+/// The rows `n, x, v` of one time. A sample is the multiple of an interval that need not be exact in binary, so it is
+/// found to within a billionth.
+fn at(trajectories: &Table, time: f64) -> Result<Table, Failure> {
+    let mut table = Table::new(&["n", "x", "v"]);
+    trajectories.rows().filter(|row| (row[0] - time).abs() <= 1e-9 * time).for_each(|row| table.push(&row[1..]));
+    if table.is_empty() {
+        let last =
+            trajectories.rows().last().map_or("it has no rows".to_owned(), |row| format!("its last is {:?}", row[0]));
+        return Err(Failure::input(format!(
+            "trajectories: no sample at t = {time:?} ({last}); run.sample must divide it, run.t_end reach it"
+        )));
+    }
+    Ok(table)
 }
 
 fn picture(job: &Job) -> Result<Picture, Failure> {

@@ -9,7 +9,7 @@ use plot::style::FULL_WIDTH;
 use plot::{Axis, Corner, Lines, Marker, Picture, Series};
 use std::process::ExitCode;
 use studies::hard::rows::Rows;
-use studies::overlay::{Published, SCHEMES, Sampled, distance, scheme};
+use studies::overlay::{Published, SCHEMES, Sampled, distance, sampled, scheme};
 
 fn main() -> ExitCode {
     figure(env!("CARGO_BIN_NAME"), tables, picture)
@@ -30,33 +30,34 @@ fn tables(job: &mut Job) -> Result<(), Failure> {
     let run = |panel| Sampled::from_tables(&job.run_table(panel, "std")?, &job.run_table(panel, "trajectories")?);
     let (accurate, small_shift) = (run("main")?, run("small_shift")?);
     let mut schemes = Rows::new(&SCHEMES);
-    schemes.push(scheme("accurate", None, &accurate, &published));
+    schemes.push(scheme("accurate", None, &accurate, &published)?);
     let mut euler = Sampled::default();
     for step in STEPS {
         let made = Sampled::by_steps(Method::Euler, step)?;
-        schemes.push(scheme("euler", Some(step), &made, &published));
+        schemes.push(scheme("euler", Some(step), &made, &published)?);
         euler = if (step - STEP).abs() < 1e-12 { made } else { euler };
     }
     for method in [Method::Ballistic, Method::Heun] {
-        schemes.push(scheme(method.name(), Some(STEP), &Sampled::by_steps(method, STEP)?, &published));
+        schemes.push(scheme(method.name(), Some(STEP), &Sampled::by_steps(method, STEP)?, &published)?);
     }
     job.write_rows("schemes", &schemes)?;
     let runs = [("accurate", &accurate), ("small_shift", &small_shift), ("euler", &euler)];
-    job.write_rows("distance", &distance(&runs, &published))?;
+    job.write_rows("distance", &distance(&runs, &published)?)?;
     job.write("profile", &curves("n", 1, &accurate.speeds, &euler.speeds))?;
     job.write("curve", &curves("t", 10, &accurate.spread, &euler.spread))?;
-    job.write("speeds", &beside("n", &published.speeds, &accurate.speeds, &euler.speeds))?;
-    job.write("deviations", &beside("t", &published.spread, &accurate.spread, &euler.spread))
+    job.write("speeds", &beside("n", &published.speeds, &accurate.speeds, &euler.speeds)?)?;
+    job.write("deviations", &beside("t", &published.spread, &accurate.spread, &euler.spread)?)
 }
 
 /// Published and regenerated numbers side by side.
-fn beside(place: &str, published: &[(f64, f64)], accurate: &[f64], euler: &[f64]) -> Table {
-    let mut table = Table::new(&[place, "published", "accurate", "euler", "from_accurate", "from_euler"]);
-    for &(x, value) in published {
-        let i = x.round() as usize;
-        table.push(&[x.round(), value, accurate[i], euler[i], value - accurate[i], value - euler[i]]);
+fn beside(axis: &str, published: &[(f64, f64)], accurate: &[f64], euler: &[f64]) -> Result<Table, Failure> {
+    let mut table = Table::new(&[axis, "published", "accurate", "euler", "from_accurate", "from_euler"]);
+    let (of_accurate, of_euler) = (sampled("accurate", axis, accurate), sampled("euler", axis, euler));
+    for &(place, value) in published {
+        let (accurate, euler) = (of_accurate(place)?, of_euler(place)?);
+        table.push(&[place.round(), value, accurate, euler, value - accurate, value - euler]);
     }
-    table
+    Ok(table)
 }
 
 /// Every so many of the regenerated numbers.

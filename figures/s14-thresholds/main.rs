@@ -88,7 +88,7 @@ fn widening(job: &Job) -> Result<Lines, Failure> {
 fn contact(job: &Job) -> Result<Lines, Failure> {
     let begin = pairs(job, "collision", &[], "none_at", "t_end")?
         .into_iter()
-        .fold(f64::INFINITY, |least, p| f64::min(least, p.0));
+        .fold(f64::INFINITY, |least, p| math::smaller(least, p.0));
     let axes = (Axis::linear("$v_0'$", 0.0, 10.0).steps(5), Axis::log10("time", 1.0, 1e4));
     Ok(Lines::new(axes.0, axes.1)
         .legend(Corner::TopRight)

@@ -1,6 +1,7 @@
 //! Random scenes over decades of every parameter, as the text of scene files.
 
 use crate::random::Random;
+use math::{larger, smaller};
 use ode::Method;
 use std::fmt::Write as _;
 
@@ -33,7 +34,7 @@ impl Law {
     /// How fast, about, the fastest motion is.
     fn rate(&self, room: f64) -> f64 {
         let Steepness { by_room, balanced, widening, by_speed } = &self.steepness;
-        let phi = by_room(room).max(*balanced);
+        let phi = larger(by_room(room), *balanced);
         1.0 + phi.sqrt() + widening * phi + by_speed
     }
 }
@@ -108,7 +109,7 @@ fn algebraic(random: &mut Random, v0: f64, epsilon: f64, a_v: f64) -> Law {
             push(&mut text, "mu", mu);
         }
         let is_open = matches!(name, "GCFM" | "SEY");
-        widening = if is_open { a_v.max(0.01) } else { 0.0 };
+        widening = if is_open { larger(a_v, 0.01) } else { 0.0 };
         if is_open {
             push(&mut text, "a_v", widening);
         }
@@ -171,8 +172,8 @@ fn run(random: &mut Random, law: &Law, pedestrians: usize, rate: f64) -> String 
     let method = random.pick(&Method::ALL);
     let method = if method.needs_series() && !law.has_series && random.chance(0.9) { Method::Dop853 } else { method };
     // what both integrations can afford
-    let longest = (1e4 / pedestrians as f64).min(500.0) / rate;
-    let t_end = short(random.decades(-1.5, 2.7).min(longest));
+    let longest = smaller(1e4 / pedestrians as f64, 500.0) / rate;
+    let t_end = short(smaller(random.decades(-1.5, 2.7), longest));
     let sample = t_end / random.pick(&[0.3, 1.0, 2.0, 3.7, 10.0, 20.0]);
     let mut text = format!("method = \"{}\"\n", method.name());
     push(&mut text, "t_end", t_end);
@@ -182,7 +183,7 @@ fn run(random: &mut Random, law: &Law, pedestrians: usize, rate: f64) -> String 
         text.push_str("most_steps = 300000\n");
     } else {
         let step = random.decades(-4.0, 0.0) / rate;
-        push(&mut text, "dt", short(step.max(t_end / 3e4).max(t_end * pedestrians as f64 / 3e6)));
+        push(&mut text, "dt", short(larger(step, larger(t_end / 3e4, t_end * pedestrians as f64 / 3e6))));
     }
     if !method.needs_series() && random.chance(0.4) {
         let _ = writeln!(text, "state = \"{}\"", random.pick(&["gaps", "positions", "deviations"]));

@@ -7,6 +7,7 @@ use crate::stated;
 use files::recipe;
 use jam::events::{Event, Happening};
 use jam::states::FormKind;
+use math::larger;
 use reference::solution::{End, Kind, Question};
 use scene::run::Scene;
 use scene::simulation::{Broken, Outcome};
@@ -294,7 +295,7 @@ fn compare(verdict: &mut Verdict, scene: &Scene, outcome: &Outcome, answer: &Ans
     let pedestrians = scene.ring.pedestrians;
     let stds: Vec<&[f64]> = outcome.std.rows().collect();
     let trajectories: Vec<&[f64]> = outcome.trajectories.rows().collect();
-    let range = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0_f64, |most, value| most.max(value.abs()));
+    let range = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0_f64, |most, value| larger(most, value.abs()));
     let std_range = range(&mut stds.iter().map(|row| row[1]));
     let solution = &answer.solution;
     for (row, std) in stds.iter().enumerate().skip(1) {
@@ -353,7 +354,7 @@ fn state(
         ("speed", v, &right.speeds, &twin.speeds, allowed[1] + right.acceleration * ULP * time),
     ];
     for (what, found, right, twin, allowed) in numbers {
-        let range = right.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let range = right.iter().fold(0.0_f64, |most, value| larger(most, value.abs()));
         let error = largest(found, right);
         Compared { what, time, found: error, right: 0.0, uncertainty: largest(right, twin), allowed, range }
             .note(verdict);
@@ -440,7 +441,7 @@ fn crossing(verdict: &mut Verdict, happening: &Happening, kind: Kind, scene: &Sc
 fn blow_up(verdict: &mut Verdict, happening: &Happening, answer: &Answer, length: f64, bound: &Bound) {
     let solution = &answer.solution;
     let found = happening.time;
-    let allowed = length / solution.fastest.max(1.0) + 1e-6 * solution.time + bound.value(Kind::Overlap);
+    let allowed = length / larger(solution.fastest, 1.0) + 1e-6 * solution.time + bound.value(Kind::Overlap);
     let is_end = matches!(solution.end, End::BlownUp | End::Singular);
     if !is_end || (found - solution.time).abs() > allowed {
         let text = format!(

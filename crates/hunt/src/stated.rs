@@ -63,7 +63,9 @@ pub fn ratios(scene: &Scene, outcome: &Outcome, answer: &Answer, stated: &Stated
         }
     }
     // what the second integration does not know well enough says nothing
-    ratios.retain(|ratio| ratio.allowed.is_infinite() || ratio.uncertainty <= 0.1 * ratio.error.max(ratio.allowed));
+    ratios.retain(|ratio| {
+        ratio.allowed.is_infinite() || ratio.uncertainty <= 0.1 * math::larger(ratio.error, ratio.allowed)
+    });
     ratios
 }
 

@@ -48,6 +48,7 @@ mod tests {
     use super::{larger, smaller};
 
     #[test]
+    #[expect(clippy::disallowed_methods, reason = "what they are compared with")]
     fn neither_of_two_numbers_hides_that_the_other_is_none() {
         for (a, b) in [(f64::NAN, 1.0), (1.0, f64::NAN), (f64::NAN, f64::NAN)] {
             assert!(larger(a, b).is_nan() && smaller(a, b).is_nan());

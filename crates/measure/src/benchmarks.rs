@@ -163,7 +163,8 @@ impl Tree {
             let (seconds, right_hand_sides) = self.sample(name, count)?;
             // a quarter of a sample tells the rest; the bound ends the search where a clock stands still
             if seconds > 0.25 * SAMPLE || count > MOST {
-                let often = count as f64 * SAMPLE / seconds.max(0.25 * SAMPLE);
+                let spent = if seconds > 0.25 * SAMPLE { seconds } else { 0.25 * SAMPLE };
+                let often = count as f64 * SAMPLE / spent;
                 return Ok((often.ceil() as u64, right_hand_sides));
             }
             count *= 4;

@@ -127,7 +127,7 @@ mod tests {
         assert_eq!(lines.len(), 1);
         assert!(lines[0].iter().all(|point| (point.0 - 7.3).abs() < 1e-12));
         let ys: Vec<f64> = lines[0].iter().map(|point| point.1).collect();
-        assert_eq!((ys[0].min(ys[ys.len() - 1]), ys[0].max(ys[ys.len() - 1])), (0.0, 10.0));
+        assert_eq!((math::smaller(ys[0], ys[ys.len() - 1]), math::larger(ys[0], ys[ys.len() - 1])), (0.0, 10.0));
     }
 
     #[test]

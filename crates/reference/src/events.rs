@@ -2,6 +2,7 @@
 
 use crate::ring::Ring;
 use crate::run::{Run, Stuck};
+use math::larger;
 use math::twofold::Twofold;
 
 /// What a run is watched for.
@@ -67,7 +68,7 @@ pub fn next(run: &mut Run, event: Event) -> Result<Happening, Stuck> {
         let mut before = run.clone();
         let h = run.advance(NEVER)?;
         let (ring, count) = (run.ring, run.ring.pedestrians);
-        let fastest = run.state[count..2 * count].iter().fold(0.0_f64, |fastest, v| fastest.max(v.hi.abs()));
+        let fastest = run.state[count..2 * count].iter().fold(0.0_f64, |fastest, v| larger(fastest, v.hi.abs()));
         let mut first: Option<Happening> = None;
         for n in 0..count {
             let start = event.value(&ring, &before.state, &before.rates, n);

@@ -2,6 +2,7 @@
 
 use crate::formula::{Formula, smooth_ramp};
 use crate::number::{Difference, Number, Parted, Real};
+use math::{larger, smaller};
 
 /// What the numbers of a state are differences from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -135,7 +136,7 @@ impl<T: Real> Flow<T> {
     /// The standard deviation of the speeds, divided by `N`. Scaled: speeds of 1e-200 have squares.
     pub fn std(&self, state: &[T]) -> T {
         let changes = &state[self.pedestrians..2 * self.pedestrians];
-        let largest = changes.iter().fold(0.0_f64, |largest, w| largest.max(w.value().abs()));
+        let largest = changes.iter().fold(0.0_f64, |largest, w| larger(largest, w.value().abs()));
         if largest == 0.0 || !largest.is_finite() {
             return T::from(largest);
         }
@@ -153,13 +154,13 @@ impl<T: Real> Flow<T> {
         let first = state[n];
         let spacings = state[..n].iter().map(|u| *u - shift);
         let speeds = state[n..2 * n].iter().map(|w| if self.form == Form::Differences { *w } else { *w - first });
-        spacings.chain(speeds).fold(0.0, |largest, part| largest.max(part.value().abs()))
+        spacings.chain(speeds).fold(0.0, |largest, part| larger(largest, part.value().abs()))
     }
 
     /// The largest spacing or speed in the form of the state.
     pub fn size(&self, state: &[T]) -> f64 {
         let parts = &state[..2 * self.pedestrians];
-        parts.iter().fold(0.0_f64, |largest, part| largest.max(part.value().abs()))
+        parts.iter().fold(0.0_f64, |largest, part| larger(largest, part.value().abs()))
     }
 
     /// The largest acceleration, in size.
@@ -168,12 +169,12 @@ impl<T: Real> Flow<T> {
         let mut rates = vec![T::from(0.0); self.dimension()];
         self.rates(state, &mut rates, &mut Vec::new());
         let of_flow = rates[2 * n + 2];
-        rates[n..2 * n].iter().fold(0.0, |largest, rate| largest.max((of_flow + *rate).value().abs()))
+        rates[n..2 * n].iter().fold(0.0, |largest, rate| larger(largest, (of_flow + *rate).value().abs()))
     }
 
     /// The least room.
     pub fn least_room(&self, state: &[T]) -> f64 {
-        (0..self.pedestrians).fold(f64::INFINITY, |least, n| least.min(self.room(state, n).value()))
+        (0..self.pedestrians).fold(f64::INFINITY, |least, n| smaller(least, self.room(state, n).value()))
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::run::{Precision, Run, Stuck};
 use crate::scenes::{LENGTH, Scene};
 use crate::table::distances;
+use math::larger;
 
 /// Which perturbation: its largest component is 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,7 +32,7 @@ pub fn growth(
         .iter()
         .map(|&direction| {
             let changes = direction.components(ring.pedestrians);
-            let largest = changes.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+            let largest = changes.iter().fold(0.0_f64, |largest, value| larger(largest, value.abs()));
             let moved = start.iter().zip(&changes).map(|(state, change)| *state + change / largest * SIZE).collect();
             (direction, Run::from_state(ring, moved, precision))
         })
@@ -43,7 +44,7 @@ pub fn growth(
         for (direction, run) in &mut perturbed {
             run.advance_to(f64::from(time))?;
             let (gaps, speeds) = distances(&ring, &plain.state, &run.state);
-            rows.push((time, *direction, gaps.max(speeds) / SIZE));
+            rows.push((time, *direction, larger(gaps, speeds) / SIZE));
         }
     }
     Ok(rows)

@@ -119,7 +119,7 @@ fn print_events(scene: &Scene, first: &mut Run, second: &mut Run) -> Result<(), 
     }
     if scene.ring.law.is_singular() {
         let (found, confirmed) = (cascade::follow(first)?, cascade::follow(second)?);
-        let uncertainty = (found.time - confirmed.time).hi.abs().max(found.change);
+        let uncertainty = math::larger((found.time - confirmed.time).hi.abs(), found.change);
         // while one is thrown back, the fastest is the one ahead of it
         let later = found.throws.iter().find(|throw| throw.fastest > BLOW_UP);
         let passes = later.map_or(0, |throw| (throw.pedestrian + 1) % scene.ring.pedestrians);

@@ -3,6 +3,7 @@
 use crate::extrapolation::Extrapolation;
 use crate::ring::Ring;
 use crate::scenes::{LENGTH, Scene};
+use math::larger;
 use math::twofold::Twofold;
 
 /// How a run is made: two runs that differ in both share little.
@@ -113,9 +114,9 @@ impl Run {
                     self.time = Twofold::from(limit);
                 }
                 // no memory of earlier errors: near the noise of rounding a trend means nothing
-                let factor = 0.9 * math::pow(error.max(1e-20), -power);
+                let factor = 0.9 * math::pow(larger(error, 1e-20), -power);
                 // a step that a limit has cut says little about longer ones
-                self.h = (h.hi * factor.clamp(0.2, 4.0)).max(if is_near { self.h } else { 0.0 });
+                self.h = larger(h.hi * factor.clamp(0.2, 4.0), if is_near { self.h } else { 0.0 });
                 return Ok(h);
             }
             let factor = if error.is_finite() { 0.9 * math::pow(error, -power) } else { 0.2 };
@@ -153,11 +154,11 @@ impl Run {
         let mut largest = 0.0_f64;
         for (i, (state, difference)) in self.state.iter().zip(&self.method.difference).enumerate() {
             let floor = if is_singular && i < n { 0.0 } else { 1.0 };
-            let error = difference.hi.abs() / (state.hi.abs().max(floor) * self.tolerance);
+            let error = difference.hi.abs() / (larger(state.hi.abs(), floor) * self.tolerance);
             if !error.is_finite() {
                 return f64::INFINITY;
             }
-            largest = largest.max(error);
+            largest = larger(largest, error);
         }
         largest
     }

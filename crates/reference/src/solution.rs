@@ -5,6 +5,7 @@ use crate::formula::Formula;
 use crate::number::Real;
 use crate::solver::{Care, Solver, Stuck};
 use math::twofold::Twofold;
+use math::{larger, smaller};
 
 /// A ring, its start, and what is wanted of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -133,7 +134,7 @@ const LEAST_ROOM: f64 = 1e-280;
 pub fn solve<T: Real>(question: &Question, form: Form, care: Care, fastest: f64) -> Solution {
     let flow: Flow<T> = Flow::new(question.formula, question.pedestrians, question.length, form);
     let mut solver = Solver::new(flow, flow.start(question.shift), care);
-    let bound = fastest * question.formula.desired_speed().max(1.0);
+    let bound = fastest * larger(question.formula.desired_speed(), 1.0);
     let mut solution = Solution {
         samples: Vec::new(),
         events: Kind::ALL.map(|kind| First { kind, crossings: Vec::new() }).to_vec(),
@@ -156,7 +157,7 @@ pub fn solve<T: Real>(question: &Question, form: Form, care: Care, fastest: f64)
             let theta = if time == last { 1.0 } else { since / solver.length };
             solution.samples.push(sample(&solver.flow, time, &solver.at(theta)));
         }
-        solution.fastest = speeds(&solver.flow, &solver.state).into_iter().fold(0.0, |most, v| v.abs().max(most));
+        solution.fastest = speeds(&solver.flow, &solver.state).into_iter().fold(0.0, |most, v| larger(v.abs(), most));
         if solution.fastest > bound {
             solution.end = End::BlownUp;
         } else if question.formula.is_singular() {
@@ -228,7 +229,7 @@ fn crossing<T: Real>(solver: &Solver<T>, kind: Kind, n: usize, places: &[f64], v
         // a dip between places, were it a parabola; then looked at closely
         let (left, right) = (values[i - 1], *values.get(i + 1)?);
         let is_low = values[i] <= left && values[i] <= right;
-        let is_near = values[i] < 0.5 * (left.max(right) - values[i]);
+        let is_near = values[i] < 0.5 * (larger(left, right) - values[i]);
         let dip = if is_low && is_near { lowest(&mut at, places[i - 1], places[i + 1]) } else { None };
         dip.map(|dip| (places[i - 1], dip))
     })?;
@@ -241,7 +242,7 @@ fn crossing<T: Real>(solver: &Solver<T>, kind: Kind, n: usize, places: &[f64], v
         if at(middle) < 0.0 { past = middle } else { before = middle }
     }
     let close = 1e-4;
-    let (from, to) = ((past - close).max(0.0), (past + close).min(1.0));
+    let (from, to) = (larger(past - close, 0.0), smaller(past + close, 1.0));
     let rate = (at(from) - at(to)) / ((to - from) * solver.length);
     Some(Crossing { time: f64::from(solver.start + past * solver.length), pedestrian: n, rate })
 }

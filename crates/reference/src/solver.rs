@@ -4,6 +4,7 @@ use crate::collocation::{Collocation, combine, rates_at, weights_at};
 use crate::flow::Flow;
 use crate::number::Real;
 use math::twofold::Twofold;
+use math::{larger, smaller};
 
 /// How carefully a solution is made.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -152,7 +153,7 @@ impl<T: Real> Solver<T> {
             if is_last {
                 self.time = Twofold::from(limit);
                 // a step that a limit has cut says little about longer ones
-                self.next = self.next.max(h * verdict);
+                self.next = larger(self.next, h * verdict);
             } else {
                 self.next = h * verdict;
             }
@@ -174,7 +175,7 @@ impl<T: Real> Solver<T> {
             return 0.2;
         }
         let power = 1.0 / (self.care.nodes as f64 + 1.0);
-        let factor = 0.8 * math::pow((error / self.care.tolerance).max(1e-20), -power);
+        let factor = 0.8 * math::pow(larger(error / self.care.tolerance, 1e-20), -power);
         if error <= self.care.tolerance { factor.clamp(1.0, 3.0) } else { factor.clamp(0.1, 0.9) }
     }
 
@@ -182,13 +183,16 @@ impl<T: Real> Solver<T> {
     /// singular force with their own room, the uniform flow with the desired speed.
     fn scales(&self) -> Vec<f64> {
         let (n, flow, state) = (self.flow.pedestrians, &self.flow, &self.state);
-        let size = flow.size(state).max(f64::MIN_POSITIVE);
-        let uniform = flow.formula.desired_speed().max(state[2 * n + 2].value().abs());
+        let size = larger(flow.size(state), f64::MIN_POSITIVE);
+        let uniform = larger(flow.formula.desired_speed(), state[2 * n + 2].value().abs());
         let mut scales = vec![size; 2 * n];
         if flow.formula.is_singular() {
-            scales[..n].iter_mut().enumerate().for_each(|(i, scale)| *scale = size.min(flow.room(state, i).value()));
+            scales[..n]
+                .iter_mut()
+                .enumerate()
+                .for_each(|(i, scale)| *scale = smaller(size, flow.room(state, i).value()));
         }
-        scales.extend([size.max(state[2 * n].value().abs()), uniform, uniform]);
+        scales.extend([larger(size, state[2 * n].value().abs()), uniform, uniform]);
         scales
     }
 
@@ -208,7 +212,7 @@ impl<T: Real> Solver<T> {
     /// Finds the rates at the nodes; false if they do not settle.
     fn iterate(&mut self, h: f64, scales: &[f64]) -> bool {
         self.guess(h);
-        let settled = (4.0 * T::ROUNDING).max(1e-3 * self.care.tolerance);
+        let settled = larger(4.0 * T::ROUNDING, 1e-3 * self.care.tolerance);
         let mut new = vec![T::from(0.0); self.flow.dimension()];
         let mut last = f64::INFINITY;
         for _ in 0..ITERATIONS {
@@ -219,7 +223,7 @@ impl<T: Real> Solver<T> {
                 stage.move_from(&self.state);
                 self.flow.rates(&stage.state, &mut new, &mut stage.kinks);
                 let differences = new.iter().zip(&self.stage_rates[i]).map(|(new, old)| *new - *old);
-                moved = moved.max(h * self.norm(differences, scales));
+                moved = larger(moved, h * self.norm(differences, scales));
                 std::mem::swap(&mut new, &mut self.stage_rates[i]);
             }
             self.work += (self.care.nodes * self.flow.pedestrians) as u64;
@@ -288,15 +292,15 @@ impl<T: Real> Solver<T> {
                     _ => (self.method.node(i), &self.stages[i]),
                 };
                 let next = stage.kinks[k];
-                let is_felt = value.min(next) < FELT && value.max(next) > -FELT;
+                let is_felt = smaller(value, next) < FELT && larger(value, next) > -FELT;
                 let jump = (next - value).abs();
                 if is_felt && jump > STRIDE {
                     // up to where it is felt; from there on in strides
-                    let outside = (value.abs() - FELT).max(0.0) / jump;
+                    let outside = larger(value.abs() - FELT, 0.0) / jump;
                     let near = place + (next_place - place) * outside;
                     let shorter = if near > 0.05 { near } else { 0.9 * STRIDE / jump };
                     let shorter = shorter.clamp(1e-3, 0.9);
-                    factor = Some(factor.map_or(shorter, |known: f64| known.min(shorter)));
+                    factor = Some(factor.map_or(shorter, |known: f64| smaller(known, shorter)));
                     break;
                 }
                 (place, value) = (next_place, next);

@@ -1,6 +1,7 @@
 //! What a run is asked for, as text: states, standard deviations, and how far two runs agree.
 
 use crate::ring::Ring;
+use math::larger;
 use math::twofold::{Twofold, decimal};
 use std::fmt::Write as _;
 
@@ -48,7 +49,7 @@ pub fn push_state(table: &mut String, ring: &Ring, time: u32, state: &[Twofold],
 /// The largest differences of gaps and of speeds.
 pub fn distances(ring: &Ring, state: &[Twofold], second: &[Twofold]) -> (f64, f64) {
     let differences: Vec<f64> = state.iter().zip(second).map(|(a, b)| (*a - *b).hi.abs()).collect();
-    let largest = |values: &[f64]| values.iter().fold(0.0_f64, |largest, value| largest.max(*value));
+    let largest = |values: &[f64]| values.iter().fold(0.0_f64, |largest, value| larger(largest, *value));
     let n = ring.pedestrians;
     (largest(&differences[..n]), largest(&differences[n..2 * n]))
 }

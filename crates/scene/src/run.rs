@@ -104,7 +104,7 @@ pub fn read(file: &str, tables: &Section) -> Result<Scene, RecipeError> {
     }
     if !method.suits(&*form.build(&model, ring)) {
         let problem = format!(
-            "{} needs a force that depends on the gap alone (a_v, delta and c are not named), and gaps or deviations as state",
+            "{} needs a force that depends on the gap alone (neither a_v nor delta is named) and the state \"deviations\", or the state \"gaps\"",
             method.name()
         );
         return Err(run.complaint("method", &problem));

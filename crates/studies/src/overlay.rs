@@ -46,23 +46,37 @@ impl Sampled {
     }
 
     /// Published minus regenerated standard deviations, at the times of the published ones.
-    pub fn spread_differences(&self, published: &[(f64, f64)]) -> Vec<f64> {
-        differences(published, &self.spread)
+    ///
+    /// # Errors
+    /// The run has no sample at one of them.
+    pub fn spread_differences(&self, published: &[(f64, f64)]) -> Result<Vec<f64>, Failure> {
+        let run = sampled("std", "t", &self.spread);
+        published.iter().map(|&(place, value)| Ok(value - run(place)?)).collect()
     }
 
     /// Published minus regenerated speeds.
-    pub fn speed_differences(&self, published: &[(f64, f64)]) -> Vec<f64> {
-        differences(published, &self.speeds)
+    ///
+    /// # Errors
+    /// The run has no pedestrian of one of the numbers.
+    pub fn speed_differences(&self, published: &[(f64, f64)]) -> Result<Vec<f64>, Failure> {
+        let run = sampled("speed", "n", &self.speeds);
+        published.iter().map(|&(place, value)| Ok(value - run(place)?)).collect()
     }
 }
 
-/// Published values minus those at their places, which were read off an axis: whole up to their reading error.
-///
-/// # Panics
-/// If there is no value at a place: the run was to be as long as the published curve.
-fn differences(published: &[(f64, f64)], values: &[f64]) -> Vec<f64> {
-    let at = |place: f64| values[place.round() as usize];
-    published.iter().map(|&(place, value)| value - at(place)).collect()
+/// The number of a run at a place that was read off an axis: whole up to its reading error. An error names a place at
+/// which the run has none.
+pub fn sampled(what: &str, axis: &str, values: &[f64]) -> impl Fn(f64) -> Result<f64, Failure> {
+    move |place| {
+        let index = place.round();
+        let value = if index >= 0.0 { values.get(index as usize) } else { None };
+        value.copied().ok_or_else(|| {
+            let count = values.len();
+            Failure::input(format!(
+                "{what}: published at {axis} = {place:?}, but the run has {count} samples, from {axis} = 0"
+            ))
+        })
+    }
 }
 
 /// The largest, the root of the mean square, and the median of the sizes of differences.
@@ -85,10 +99,13 @@ pub struct Published {
 }
 
 /// One row of the table of schemes; `step` is `None` for a run whose error does not count.
-pub fn scheme(name: &str, step: Option<f64>, run: &Sampled, published: &Published) -> Vec<Cell> {
-    let [std_largest, std_rms, std_median] = sizes(&run.spread_differences(&published.spread));
-    let [speed_largest, speed_rms, speed_median] = sizes(&run.speed_differences(&published.speeds));
-    row![name, step, std_largest, std_rms, std_median, speed_largest, speed_rms, speed_median]
+///
+/// # Errors
+/// The run lacks a sample.
+pub fn scheme(name: &str, step: Option<f64>, run: &Sampled, published: &Published) -> Result<Vec<Cell>, Failure> {
+    let [std_largest, std_rms, std_median] = sizes(&run.spread_differences(&published.spread)?);
+    let [speed_largest, speed_rms, speed_median] = sizes(&run.speed_differences(&published.speeds)?);
+    Ok(row![name, step, std_largest, std_rms, std_median, speed_largest, speed_rms, speed_median])
 }
 
 /// The columns of the table of schemes.
@@ -96,7 +113,10 @@ pub const SCHEMES: [&str; 8] =
     ["method", "dt", "std_largest", "std_rms", "std_median", "speed_largest", "speed_rms", "speed_median"];
 
 /// Distances of two runs from the published curves beside the stated errors of reading: typical and largest.
-pub fn distance(runs: &[(&str, &Sampled)], published: &Published) -> Rows {
+///
+/// # Errors
+/// A run lacks a sample.
+pub fn distance(runs: &[(&str, &Sampled)], published: &Published) -> Result<Rows, Failure> {
     let mut rows = Rows::new(&[
         "figure",
         "curve",
@@ -111,8 +131,8 @@ pub fn distance(runs: &[(&str, &Sampled)], published: &Published) -> Rows {
     // data/reference/README.md
     let (of_speeds, of_spread) = ((3e-5, 3e-5), (4e-4, 2e-3));
     for (name, run) in runs {
-        let speeds = run.speed_differences(&published.speeds);
-        let spread = run.spread_differences(&published.spread);
+        let speeds = run.speed_differences(&published.speeds)?;
+        let spread = run.spread_differences(&published.spread)?;
         for (figure, curve, differences, reading) in
             [("fig12", "t300", speeds, of_speeds), ("fig13", "std", spread, of_spread)]
         {
@@ -120,5 +140,5 @@ pub fn distance(runs: &[(&str, &Sampled)], published: &Published) -> Rows {
             rows.push(row![figure, curve, *name, differences.len(), largest, rms, median, reading.0, reading.1]);
         }
     }
-    rows
+    Ok(rows)
 }

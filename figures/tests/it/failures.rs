@@ -1,7 +1,9 @@
 //! Bad input and failing disks: one message, the right exit code, nothing half-written.
 
 use crate::{root, run};
+use files::table::Table;
 use std::path::Path;
+use std::process::Output;
 
 /// Runs `simulate` on the example scene with one text replaced; returns exit code, message, and whether anything was
 /// written.
@@ -128,5 +130,111 @@ fn a_pipe_is_no_place_for_a_state() {
         assert_eq!(output.status.code(), Some(2), "{told}");
         assert!(told.contains(words), "{told}");
         assert!(std::fs::read_dir(out).map_or(true, |mut files| files.next().is_none()), "something was written");
+    }
+}
+
+/// Runs a binary on a scene of its own that is made of these lines; the folder of its tables is `out`.
+fn on_scene(binary: &str, text: &str, out: &Path, arguments: &[&str]) -> Output {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let scene = folder.path().join("my scene.toml");
+    std::fs::write(&scene, text).expect("a scene is written");
+    let [scene, out] = [&scene, out].map(|path| path.to_str().expect("UTF-8"));
+    run(binary, &[&[scene, "--out", out], arguments].concat())
+}
+
+/// A scene of thirty pedestrians.
+fn thirty(law: &str, run: &str) -> String {
+    format!("[law]\n{law}\n[ring]\npedestrians = 30\nlength = 60.0\n[start]\nshift = 0.1\n[run]\nsample = 1.0\n{run}\n")
+}
+
+const LOGARITHMIC: &str = "kind = \"logarithmic\"\nv0 = 1.0\nepsilon = 0.01";
+
+fn summary(folder: &Path) -> serde_json::Value {
+    let bytes = std::fs::read(folder.join("summary.json")).expect("a summary");
+    serde_json::from_slice(&bytes).expect("JSON")
+}
+
+#[test]
+fn a_run_that_cannot_go_on_keeps_its_tables_and_says_why() {
+    let out = tempfile::tempdir().expect("a scratch folder");
+    let text = thirty(LOGARITHMIC, "t_end = 1000.0\ntolerance = 1e-12\nmethod = \"dop853\"\nmost_steps = 60");
+    let output = on_scene("simulate", &text, out.path(), &["--tables-only"]);
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(4), "{told}");
+    assert_eq!(told.lines().count(), 1, "{told}");
+    assert!(told.contains("60") && told.contains("most_steps"), "{told}");
+    let summary = summary(out.path());
+    assert_eq!((&summary["stop"], &summary["steps"]), (&"too_many_steps".into(), &60.into()), "{summary}");
+    assert!(told.contains(summary["reason"].as_str().expect("a reason")), "{told}");
+    let reached = summary["t"].as_f64().expect("a time");
+    let table = |name: &str| Table::read(&out.path().join(name)).expect("a table");
+    let times = table("std.csv").column("t").expect("times");
+    let samples = reached.floor() as usize;
+    // until then a row for every sample, and no row behind
+    assert!(samples > 1 && reached < 1000.0, "{reached}");
+    assert_eq!(times.last(), Some(&(samples as f64)), "{reached}");
+    assert_eq!(table("trajectories.csv").len(), 30 * times.len());
+    assert!(out.path().join("events.csv").exists());
+}
+
+#[test]
+fn the_check_of_a_run_can_be_left_out() {
+    let text = thirty(LOGARITHMIC, "t_end = 20.0\ntolerance = 1e-10\nmethod = \"dop853\"");
+    let [checked, plain] = [&[][..], &["--no-check"]].map(|more| {
+        let out = tempfile::tempdir().expect("a scratch folder");
+        let output = on_scene("simulate", &text, out.path(), &[&["--tables-only"], more].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        let read = |name: &str| std::fs::read_to_string(out.path().join(name)).expect("a table");
+        let words = String::from_utf8_lossy(&output.stdout).into_owned();
+        (read("std.csv"), read("trajectories.csv"), read("events.csv"), summary(out.path()), words)
+    });
+    assert!(checked.0 == plain.0 && checked.1 == plain.1, "the tables are those of the run");
+    for key in ["steps", "rejected", "right_hand_sides", "t", "stop"] {
+        assert_eq!(checked.3[key], plain.3[key], "{key}");
+    }
+    let estimate = checked.3["error"]["std"].as_f64().expect("an estimate");
+    assert!(estimate > 0.0 && estimate < 1e-8, "{estimate}");
+    assert!(plain.3["error"].is_null(), "{}", plain.3);
+    assert_eq!([&checked, &plain].map(|run| run.2.lines().next() == Some("event,t,n,error")), [true, false]);
+    assert_eq!([&checked, &plain].map(|run| run.4.contains("estimated errors")), [true, false]);
+}
+
+#[test]
+fn a_formula_that_loses_its_value_is_an_event() {
+    let out = tempfile::tempdir().expect("a scratch folder");
+    // speeds grow until 3 - v, of which the logarithm is taken, is not positive
+    let law = "kind = \"formula\"\nacceleration = \"1 + 0.001*ln(3 - v)\"\nbody = 0.0";
+    let text = thirty(law, "t_end = 40.0\ntolerance = 1e-11\nmethod = \"dop853\"");
+    let output = on_scene("simulate", &text, out.path(), &["--tables-only"]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let summary = summary(out.path());
+    assert_eq!(summary["stop"], "undefined", "{summary}");
+    let events = std::fs::read_to_string(out.path().join("events.csv")).expect("a table");
+    let event = events.lines().find(|line| line.starts_with("undefined,")).expect("the event");
+    let fields: Vec<&str> = event.split(',').collect();
+    let time: f64 = fields[1].parse().expect("a time");
+    assert!((time - 3.0).abs() < 0.1 && fields[2].parse::<usize>().is_ok_and(|n| n < 30), "{event}");
+    let times = Table::read(&out.path().join("std.csv")).expect("a table").column("t").expect("times");
+    assert!(times.last().is_some_and(|&last| last <= time && last >= time.floor() - 1e-9), "{times:?}");
+}
+
+#[test]
+fn the_map_of_a_run_is_the_stability_of_its_uniform_flow() {
+    let out = tempfile::tempdir().expect("a scratch folder");
+    let out = out.path().join("out");
+    // the response of the flow is v0 times a number of the headway, and the flow is stable below a half
+    for (v0, is_stable) in [(0.1, true), (1.2, false)] {
+        let text = thirty(LOGARITHMIC, "t_end = 1e5\ntolerance = 1e-10\nmethod = \"dop853\"")
+            .replace("v0 = 1.0", &format!("v0 = {v0:?}"))
+            .replace("length = 60.0", "length = 45.0");
+        let output = on_scene("map", &text, &out, &["--json"]);
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        let printed: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        let flow = &printed["points"][0]["uniform_flow"];
+        assert_eq!(flow["stable"], is_stable, "{printed}");
+        assert_eq!(flow["margin"].as_f64().expect("a margin") <= 0.0, is_stable, "{printed}");
+        let words = String::from_utf8_lossy(&on_scene("map", &text, &out, &[]).stdout).into_owned();
+        assert!(words.contains(if is_stable { ": stable" } else { ": unstable" }), "{words}");
+        assert!(!out.exists(), "a map of one point writes nothing");
     }
 }

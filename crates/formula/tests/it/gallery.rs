@@ -134,7 +134,7 @@ fn threshold(mut yes: f64, mut no: f64, holds: impl Fn(f64) -> bool) -> f64 {
 
 #[track_caller]
 fn assert_near(value: f64, expected: f64, tolerance: f64) {
-    assert!((value - expected).abs() <= tolerance * expected.abs().max(1.0), "{value} instead of {expected}");
+    assert!((value - expected).abs() <= tolerance * math::larger(expected.abs(), 1.0), "{value} instead of {expected}");
 }
 
 /// The values of the file but for one.

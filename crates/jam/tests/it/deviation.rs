@@ -75,7 +75,7 @@ fn deviations_are_differences_of_the_printed_law() {
             let allowed = rounding(&model, there) + rounding(&model, [gap, speed, speed]);
             let ratio = (deviation(&model, gap, speed, from) - printed).abs() / allowed;
             assert!(ratio < 1.0, "{model:?} at {gap}, {speed} from {from:?}: {ratio} times the rounding");
-            worst = worst.max(ratio);
+            worst = math::larger(worst, ratio);
         }
     }
     println!("largest difference {worst:.3} times the bound");
@@ -109,7 +109,7 @@ fn small_deviations_keep_their_digits() {
                 // the same force through other formulas: 40 units, and exp(-d / eps) knows d / eps to its own rounding
                 let allowed = 10.0 * bend * size + f64::EPSILON * (40.0 + 4.0 * bend * (gap.abs() + 2.0));
                 assert!(error < allowed, "{model:?} at {gap}, {speed} from {from:?}: {error:e}, allowed {allowed:e}");
-                worst = worst.max(error);
+                worst = math::larger(worst, error);
             }
         }
         println!("deviations of {size:e}: largest relative error {worst:e}");
@@ -137,7 +137,7 @@ fn whole_powers_agree_with_twofold_numbers() {
             let exact = Twofold::from(-w) - force;
             let computed = deviation(&Model::Algebraic(law), gap, 0.7, [u, w, 0.0]);
             let error = (exact - computed).abs().hi / (w.abs() + force.hi.abs());
-            worst = worst.max(error);
+            worst = math::larger(worst, error);
             assert!(error < 12.0 * f64::EPSILON, "q = {q}, d = {d}, u = {u:e}: {error:e}");
         }
     }
@@ -176,7 +176,7 @@ fn a_ring_is_open_while_everybody_has_room() {
         let gaps: Vec<f64> = (0..5).map(|_| model.contact() + random.uniform(-0.1, 0.9)).collect();
         let speeds: Vec<f64> = (0..5).map(|_| random.uniform(0.0, 0.6)).collect();
         let rooms = (0..5).map(|n| model.room(gaps[n], speeds[n], speeds[(n + 1) % 5]));
-        let least = rooms.fold(f64::INFINITY, f64::min);
+        let least = rooms.fold(f64::INFINITY, math::smaller);
         let expected = !model.is_singular() || least > 0.0;
         let positions: Vec<f64> = (0..5).map(|n| gaps[..n].iter().sum()).collect();
         // of a ring that is as long as these gaps

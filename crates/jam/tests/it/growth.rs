@@ -89,7 +89,7 @@ fn waves_grow_and_travel_as_the_linear_theory_says() {
             println!("{} l = {l}: rate {rate:.4e}, errors {growth:.1e}, {frequency:.1e}", model.name());
             // a tolerance of 1e-14 at each of some hundred steps
             assert!(growth.abs() < 1e-11 && frequency.abs() < 1e-11, "{model:?} l = {l}: {growth:e}, {frequency:e}");
-            worst = (worst.0.max(growth.abs()), worst.1.max(frequency.abs()));
+            worst = (math::larger(worst.0, growth.abs()), math::larger(worst.1, frequency.abs()));
             growing += u32::from(rate > 0.0);
             decaying += u32::from(rate < 0.0);
         }

@@ -42,7 +42,7 @@ fn linearisation_is_the_slope_of_the_printed_law() {
 fn largest_growth(linear: &Linear) -> f64 {
     let long = (0..6).map(|i| 1e-3 * f64::from(1 << (2 * i)));
     let even = (1..=30).map(|i| PI * f64::from(i) / 30.0);
-    long.chain(even).map(|k| linear.growth_rate(k)).fold(f64::NEG_INFINITY, f64::max)
+    long.chain(even).map(|k| linear.growth_rate(k)).fold(f64::NEG_INFINITY, math::larger)
 }
 
 /// A linearised law with and without each term; `phi` is `10^x` with `x` between the two.
@@ -167,7 +167,7 @@ fn fastest_is_the_largest_over_the_ring() {
             let rates: Vec<f64> =
                 (1..=count / 2).map(|l| linear.growth_rate(2.0 * PI * l as f64 / count as f64)).collect();
             let (rate, l) = linear.fastest(count);
-            assert_eq!(rate, rates.iter().copied().fold(f64::NEG_INFINITY, f64::max));
+            assert_eq!(rate, rates.iter().copied().fold(f64::NEG_INFINITY, math::larger));
             assert_eq!(rate, rates[l - 1]);
         }
     }

@@ -66,7 +66,7 @@ fn gaps_sum_to_the_length() {
             ] {
                 let end = integrated(&*form, &start, 20.0, method, control);
                 let (gaps, _) = read(&*form, &end.state, COUNT);
-                let largest = gaps.iter().copied().fold(0.0, f64::max);
+                let largest = gaps.iter().copied().fold(0.0, math::larger);
                 let error = (gaps.iter().sum::<f64>() - ring.length).abs();
                 let bound = end.steps as f64 * COUNT as f64 * f64::EPSILON * largest;
                 println!("{} {kind:?} {}: off by {error:e}, bound {bound:e}", model.name(), method.name());
@@ -95,7 +95,7 @@ fn the_three_forms_start_alike_and_stay_together() {
             })
             .into();
         for other in &ends[1..] {
-            let difference = ends[0].iter().zip(other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            let difference = ends[0].iter().zip(other).map(|(a, b)| (a - b).abs()).fold(0.0, math::larger);
             println!("{}: forms differ by {difference:e}", model.name());
             // positions to 150 have errors of 1e-13 of that; over 20 time units an error grows less than tenfold
             assert!(difference < 150.0 * 1e-13 * 10.0, "{}: {difference:e}", model.name());

@@ -146,7 +146,7 @@ fn uniform_flow_in_positions_is_stationary_to_their_rounding() {
         for method in Method::ALL {
             let mut worst: f64 = 0.0;
             run(&model, ring, FormKind::Positions, method, Control::Fixed { step: 0.05 }, &mut |gaps, _| {
-                worst = gaps.iter().map(|gap| (gap - headway).abs()).fold(worst, f64::max);
+                worst = gaps.iter().map(|gap| (gap - headway).abs()).fold(worst, math::larger);
             });
             assert!(worst < allowed, "{} {}: {worst:e}, allowed {allowed:e}", model.name(), method.name());
         }

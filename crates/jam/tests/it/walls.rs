@@ -71,7 +71,7 @@ fn run(model: Model, ring: Ring, kind: FormKind, method: Method, step: f64, rand
         let new = watch.look(taken);
         form.read(taken.after(), &mut gaps, &mut speeds);
         let rooms = (0..count).map(|n| model.room(gaps[n], speeds[n], speeds[(n + 1) % count]));
-        let narrowest = rooms.fold(f64::INFINITY, f64::min);
+        let narrowest = rooms.fold(f64::INFINITY, math::smaller);
         let overlap = new.iter().find(|happening| happening.event == Event::Overlap);
         if narrowest < 0.0 {
             let found = overlap.unwrap_or_else(|| panic!("{model:?} {kind:?} {}: {narrowest:e}", method.name()));
@@ -86,7 +86,7 @@ fn run(model: Model, ring: Ring, kind: FormKind, method: Method, step: f64, rand
             // where no value within the step is negative, the event is at its end, of who had the least room
             if found.time == taken.end {
                 counts.back += 1;
-                let least = (0..count).map(room).fold(f64::INFINITY, f64::min);
+                let least = (0..count).map(room).fold(f64::INFINITY, math::smaller);
                 assert_eq!((room(found.pedestrian), gaps[found.pedestrian]), (least, found.gap), "{found:?}");
             }
         }

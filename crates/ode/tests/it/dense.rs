@@ -10,10 +10,10 @@ fn errors(method: Method, steps: u32) -> (f64, f64) {
     let (mut ends, mut inside): (f64, f64) = (0.0, 0.0);
     let mut state = [0.0; 2];
     watched(&oscillator(), &[1.0, 0.0], 10.0, method, control, &mut |step| {
-        ends = ends.max(distance(step.after(), &oscillation(step.end)));
+        ends = math::larger(ends, distance(step.after(), &oscillation(step.end)));
         for theta in [0.1, 0.3, 0.5, 0.7, 0.9] {
             step.at_fraction(theta, &mut state);
-            inside = inside.max(distance(&state, &oscillation(step.start + theta * step.length())));
+            inside = math::larger(inside, distance(&state, &oscillation(step.start + theta * step.length())));
         }
     })
     .expect("nothing stands in the way");
@@ -55,18 +55,18 @@ fn inside_a_step_the_error_is_of_the_size_at_its_ends() {
             let mut state = [0.0; 2];
             let control = Control::Adaptive { tolerance };
             watched(&oscillator(), &[1.0, 0.0], 10.0, method, control, &mut |step| {
-                ends = ends.max(distance(step.after(), &oscillation(step.end)));
+                ends = math::larger(ends, distance(step.after(), &oscillation(step.end)));
                 for part in 1..8 {
                     let t = step.start + step.length() * f64::from(part) / 8.0;
                     step.at(t, &mut state);
-                    inside = inside.max(distance(&state, &oscillation(t)));
+                    inside = math::larger(inside, distance(&state, &oscillation(t)));
                 }
             })
             .expect("nothing stands in the way");
             println!("{} at {tolerance:e}: ends {ends:e}, inside {inside:e}", method.name());
             // what the tolerance allows in a step, or what was gathered until its end
             assert!(
-                inside < 3.0 * ends.max(tolerance) + 4.0 * f64::EPSILON,
+                inside < 3.0 * math::larger(ends, tolerance) + 4.0 * f64::EPSILON,
                 "{}: {ends:e}, inside {inside:e}",
                 method.name()
             );

@@ -32,7 +32,7 @@ fn a_crossing_is_found_to_the_last_bit() {
 #[test]
 fn the_first_of_several_crossings_counts() {
     let within = |y: f64, from: f64, to: f64| -> f64 { if y > from && y < to { -1.0 } else { 1.0 } };
-    let dips = |y: f64| within(y, 0.3, 0.4).min(within(y, 0.7, 0.8));
+    let dips = |y: f64| math::smaller(within(y, 0.3, 0.4), within(y, 0.7, 0.8));
     assert_eq!(crossing(16, dips), Some(0.3_f64.next_up()));
     assert_eq!(crossing(16, |_| 1.0), None);
 }

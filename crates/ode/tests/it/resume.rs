@@ -82,7 +82,8 @@ fn adaptive_steps_resumed_from_any_mark_have_the_same_bits_and_counts() {
         let mut keeper = PaceKeeper::default();
         let whole = integrate(&problem, &mut keeper).expect("nothing stands in the way");
         assert!(!keeper.0.is_empty(), "{}", method.name());
-        for kept in &keeper.0 {
+        // a few of the many marks: each run from one of them goes on to the end
+        for kept in keeper.0.iter().step_by(keeper.0.len().div_ceil(8)).chain(keeper.0.last()) {
             let (time, step, error, unit) = kept.numbers;
             let pace = Pace { rates: &kept.rates, carry: &kept.carry, time, step, error, unit };
             let mark = Mark { place: kept.place, statistics: &kept.statistics, state: &kept.state, pace: Some(pace) };

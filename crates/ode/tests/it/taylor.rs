@@ -71,7 +71,7 @@ fn largest_error(dimension: usize, control: Control) -> (f64, u64) {
             step.at_fraction(theta, &mut state);
             let exact = truth(step.start + theta * step.length());
             for value in &state {
-                worst = f64::max(worst, (value - exact).abs());
+                worst = math::larger(worst, (value - exact).abs());
             }
         }
     });

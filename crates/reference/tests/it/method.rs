@@ -22,7 +22,7 @@ fn one_step_has_an_error_of_order_2k_plus_1() {
             method.step(&ring, &start, &rates, Twofold::from(h));
             best.step(&ring, &start, &rates, Twofold::from(h));
             let pairs = method.result.iter().zip(&best.result);
-            pairs.fold(0.0_f64, |largest, (a, b)| largest.max((*a - *b).hi.abs()))
+            pairs.fold(0.0_f64, |largest, (a, b)| math::larger(largest, (*a - *b).hi.abs()))
         };
         let (long, short) = (error(1.0 / 16.0), error(1.0 / 32.0));
         let slope = math::ln(long / short) / math::ln(2.0);
@@ -41,7 +41,7 @@ fn a_tighter_tolerance_and_other_rows_give_the_same_solution() {
         second.advance_to(2.5 * f64::from(time)).expect("no wall");
     }
     assert_eq!(first.time, second.time);
-    let largest = first.state.iter().zip(&second.state).fold(0.0_f64, |l, (a, b)| l.max((*a - *b).hi.abs()));
+    let largest = first.state.iter().zip(&second.state).fold(0.0_f64, |l, (a, b)| math::larger(l, (*a - *b).hi.abs()));
     // a few dozen steps, each with an error below the looser tolerance, which does not grow tenfold before t = 20
     assert!(largest < 1e-20, "{largest:e}");
     assert!(largest > 0.0, "the runs share too much");

@@ -44,7 +44,7 @@ fn worst<T: Real>(name: &str, question: &Question, form: Form) -> f64 {
         let expected = committed(name, sample.time);
         ((sample.std - expected) / expected).abs()
     });
-    errors.fold(0.0, f64::max)
+    errors.fold(0.0, math::larger)
 }
 
 #[test]

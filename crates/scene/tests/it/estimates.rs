@@ -64,7 +64,7 @@ fn true_error(scene: &Scene, outcome: &Outcome) -> Option<f64> {
     let control = Control::Adaptive { tolerance: 1e-14 };
     let exact = run(&Scene { method, control, most_steps: 2_000_000, ..scene.clone() }).ok()?;
     let rows = outcome.std.rows().zip(exact.std.rows());
-    Some(rows.fold(0.0, |most: f64, (one, other)| most.max((one[1] - other[1]).abs())))
+    Some(rows.fold(0.0, |most: f64, (one, other)| math::larger(most, (one[1] - other[1]).abs())))
 }
 
 #[test]
@@ -79,7 +79,7 @@ fn estimates_are_honest_and_not_too_shy() {
             continue;
         };
         let Some(true_error) = true_error(&scene, &outcome) else { continue };
-        let size = outcome.std.rows().fold(0.0, |most: f64, row| most.max(row[1]));
+        let size = outcome.std.rows().fold(0.0, |most: f64, row| math::larger(most, row[1]));
         // what is as small as the reference's own error says nothing
         if true_error > 1e-13 * size {
             if true_error > 3.0 * stated {

@@ -26,21 +26,21 @@ fn solution(name: &str) -> Table {
 fn error_of_curve(outcome: &Outcome, reference: &Table) -> f64 {
     let rows: Vec<(&[f64], &[f64])> = outcome.std.rows().zip(reference.rows()).collect();
     assert!(rows.len() > 400 && rows.iter().all(|(a, b)| a[0] == b[0]), "the same times");
-    let range = rows.iter().map(|(a, _)| a[1]).fold(0.0, f64::max);
-    rows.iter().map(|(a, b)| (a[1] - b[1]).abs()).fold(0.0, f64::max) / range
+    let range = rows.iter().map(|(a, _)| a[1]).fold(0.0, math::larger);
+    rows.iter().map(|(a, b)| (a[1] - b[1]).abs()).fold(0.0, math::larger) / range
 }
 
 /// The largest difference of gaps and speeds at the times of the reference. Gaps are differences of positions, which
 /// adds their rounding, at most 1e-12.
 fn error_of_states(outcome: &Outcome, reference: &Table, length: f64) -> f64 {
-    let count = reference.column("n").expect("n").iter().copied().fold(0.0, f64::max) as usize + 1;
+    let count = reference.column("n").expect("n").iter().copied().fold(0.0, math::larger) as usize + 1;
     let table: Vec<&[f64]> = outcome.trajectories.rows().collect();
     let mut worst = 0.0;
     for row in reference.rows() {
         let (sample, n) = (row[0] as usize, row[1] as usize);
         let Some(own) = table.get(sample * count + n) else { continue };
         let ahead = table[sample * count + (n + 1) % count][2] + if n + 1 == count { length } else { 0.0 };
-        worst = f64::max(worst, f64::max((ahead - own[2] - row[2]).abs() - 1e-12, (own[3] - row[3]).abs()));
+        worst = math::larger(worst, math::larger((ahead - own[2] - row[2]).abs() - 1e-12, (own[3] - row[3]).abs()));
     }
     worst
 }

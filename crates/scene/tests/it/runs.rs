@@ -12,9 +12,9 @@ use scene::simulation::{Onlooker, Outcome, Place, run, run_from};
 fn difference(runs: &[Outcome; 2], table: fn(&Outcome) -> &Table, column: &str) -> f64 {
     let [one, other] = runs.each_ref().map(|run| table(run).column(column).expect("the column"));
     assert_eq!(one.len(), other.len());
-    let high = one.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let low = one.iter().copied().fold(f64::INFINITY, f64::min);
-    let largest = one.iter().zip(&other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let high = one.iter().copied().fold(f64::NEG_INFINITY, math::larger);
+    let low = one.iter().copied().fold(f64::INFINITY, math::smaller);
+    let largest = one.iter().zip(&other).map(|(a, b)| (a - b).abs()).fold(0.0, math::larger);
     largest / (high - low)
 }
 
@@ -47,7 +47,7 @@ fn the_unstable_algebraic_run_blows_up_at_one_time() {
         assert_eq!(run.stop().map(|stop| stop.event), Some(Event::BlowUp));
         // every gap is still open
         let gaps = run.positions.windows(2).map(|pair| pair[1] - pair[0]);
-        assert!(gaps.fold(f64::INFINITY, f64::min) > 0.0);
+        assert!(gaps.fold(f64::INFINITY, math::smaller) > 0.0);
         // samples up to the stop
         let last = run.std.column("t").expect("t").pop().expect("a last sample");
         assert!(last <= run.events[1].time && last > run.events[1].time - 1.0);
@@ -84,7 +84,7 @@ fn a_run_that_changes_its_state_at_the_walls_counts_both_parts() {
     let (mut gaps, mut speeds) = (vec![0.0; 67], vec![0.0; 67]);
     let mut least = |state: &[f64]| {
         form.read(state, &mut gaps, &mut speeds);
-        gaps.iter().fold(f64::INFINITY, |least: f64, gap| least.min(gap - 2.0)) / (200.0 / 67.0 - 2.0)
+        gaps.iter().fold(f64::INFINITY, |least: f64, gap| math::smaller(least, gap - 2.0)) / (200.0 / 67.0 - 2.0)
     };
     let (last, before) = (least(first[first.len() - 1]), least(first[first.len() - 2]));
     assert!(!second.is_empty() && before >= 1e-3 && last < 1e-3, "{before}, {last}, {}", second.len());
@@ -173,7 +173,7 @@ fn figure_11_ends_in_jams_that_travel_backwards() {
     // a wrong sign, or jams taken for their neighbours (some 30 away), would be far off
     assert!((-0.15..-0.12).contains(&speed) && time > 500.0, "{speed} over {time}");
     // nobody stands: a stopped pedestrian walks at some 0.3 of the desired speed
-    let slowest = run.speeds.iter().copied().fold(f64::INFINITY, f64::min);
+    let slowest = run.speeds.iter().copied().fold(f64::INFINITY, math::smaller);
     assert!(slowest > 0.2 && slowest < 0.4, "{slowest}");
 }
 
@@ -246,7 +246,7 @@ fn all_methods_and_states_give_the_same_run() {
                 ("\"dop853\"", &format!("\"{method}\"")),
             ]);
             let ends = exact.positions.iter().zip(&run.positions).chain(exact.speeds.iter().zip(&run.speeds));
-            let largest = ends.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            let largest = ends.map(|(a, b)| (a - b).abs()).fold(0.0, math::larger);
             assert!(largest < allowed, "{method} {state}: {largest:e}");
         }
     }

@@ -68,10 +68,10 @@ fn descend(method: Method, control: Control) -> Result<Descent, Failure> {
         throws.extend((0..count).filter_map(|n| thrown(&*form, step, n)));
         let (clearances, speeds) = step.after().split_at(count);
         for throw in &mut throws {
-            throw.backward = f64::max(throw.backward, -speeds[throw.pedestrian]);
+            throw.backward = math::larger(throw.backward, -speeds[throw.pedestrian]);
         }
-        steps.push((step.length(), clearances.iter().copied().fold(f64::INFINITY, f64::min)));
-        let fastest = speeds[..count].iter().copied().fold(0.0, |most, v| f64::max(most, v.abs()));
+        steps.push((step.length(), clearances.iter().copied().fold(f64::INFINITY, math::smaller)));
+        let fastest = speeds[..count].iter().copied().fold(0.0, |most, v| math::larger(most, v.abs()));
         if fastest > 3.0 * BLOW_UP { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     };
     let problem = Problem { system: &*form, start: &start, begin: 0.0, end: 2.0, method, control };
@@ -162,7 +162,7 @@ fn scaling(plain: &Descent) -> Rows {
     let mut rows = Rows::new(&["remaining", "room", "smallest_so_far"]);
     let (mut next, mut smallest) = (0.8, f64::INFINITY);
     for &(remaining, room) in plain.rooms.iter().rev().filter(|(remaining, _)| *remaining >= SHORTEST) {
-        smallest = f64::min(smallest, room);
+        smallest = math::smaller(smallest, room);
         if remaining <= next {
             rows.push(row![remaining, room, smallest]);
             next = remaining / 1.09;

@@ -47,7 +47,7 @@ pub fn tables(quick: bool) -> Result<Tables, Failure> {
                 .map(|power| END / f64::from(1u32 << power))
                 .map(|step| (step, difference(&run(method, Control::Fixed { step }).state, &one.state)))
                 .collect();
-            let floor = 20.0 * f64::max(uncertainty, f64::EPSILON);
+            let floor = 20.0 * math::larger(uncertainty, f64::EPSILON);
             let used: Vec<(f64, f64)> = errors.iter().copied().filter(|&(_, e)| e > floor && e < 1e-2).collect();
             let (coarse, fine) = (errors[0].1, errors[errors.len() - 1].1);
             let order = (used.len() > 1).then(|| slope(&used));

@@ -39,7 +39,7 @@ fn smallest_room(case: &Case, start: &[f64], method: Method, control: Control) -
         let mut state = vec![0.0; form.dimension()];
         for part in 1..=8 {
             step.at_fraction(f64::from(part) / 8.0, &mut state);
-            least = f64::min(least, state[0]);
+            least = math::smaller(least, state[0]);
         }
         ControlFlow::Continue(())
     };

@@ -54,7 +54,7 @@ fn worst_error(epsilon: f64, sign: f64, [from, to]: [f64; 2], points: usize) -> 
         let x = sign * epsilon * math::exp(math::ln(from) + share * (math::ln(to) - math::ln(from)));
         let exact = ramp(x, epsilon);
         let off = (Twofold::from(smooth_ramp(x, epsilon)) - exact).abs().hi;
-        let error = off / f64::max(exact.hi, epsilon * math::exp(-708.0));
+        let error = off / math::larger(exact.hi, epsilon * math::exp(-708.0));
         if error > worst.0 {
             worst = (error, x / epsilon);
         }

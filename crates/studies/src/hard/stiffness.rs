@@ -37,7 +37,7 @@ pub fn tables(quick: bool) -> Result<Tables, Failure> {
         let n = one.stop.as_ref().map(|stop| stop.pedestrian);
         collisions.push(row![v0, linear.phi, growth, a, n, b, off]);
         // before the overlap, so that every method has the same way to go
-        let until = a.map_or(10.0, |time| f64::min(10.0, 0.9 * time));
+        let until = a.map_or(10.0, |time| math::smaller(10.0, 0.9 * time));
         for method in Method::ALL.into_iter().filter(|method| !method.needs_series()) {
             steps.push(effort(&case, v0, method, until)?);
         }

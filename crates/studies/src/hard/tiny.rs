@@ -42,7 +42,7 @@ pub fn tables(quick: bool) -> Result<Tables, Failure> {
                 for &shift in shifts {
                     let leg = Leg { method, control, begin: 0.0, end: END };
                     let run = case.run(shift, leg).whole()?;
-                    let largest = run.state[..2 * COUNT].iter().fold(0.0, |most, u| f64::max(most, u.abs()));
+                    let largest = run.state[..2 * COUNT].iter().fold(0.0, |most, u| math::larger(most, u.abs()));
                     let scaled = (kind == FormKind::Deviations && shift > 0.0).then(|| largest / shift);
                     let (state, gaps, speeds) = (name(kind), range(&run.gaps), range(&run.speeds));
                     rows.push(row![model.name(), state, method.name(), shift, gaps, speeds, scaled]);
@@ -54,6 +54,6 @@ pub fn tables(quick: bool) -> Result<Tables, Failure> {
 }
 
 fn range(values: &[f64]) -> f64 {
-    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    high - values.iter().copied().fold(f64::INFINITY, f64::min)
+    let high = values.iter().copied().fold(f64::NEG_INFINITY, math::larger);
+    high - values.iter().copied().fold(f64::INFINITY, math::smaller)
 }

@@ -96,7 +96,7 @@ fn backwards() -> Result<Rows, Failure> {
             let run = |(method, control)| case.run_from(&start, Leg { method, control, begin: 0.0, end: 10.0 });
             let [one, two] = two_methods(1e-12).map(run);
             let is_whole = one.stop.is_none() && two.stop.is_none();
-            let least = one.speeds.iter().copied().fold(f64::INFINITY, f64::min);
+            let least = one.speeds.iter().copied().fold(f64::INFINITY, math::smaller);
             let off = is_whole.then(|| difference(&one.state, &two.state));
             let stop = one.stop.as_ref();
             rows.push(row![

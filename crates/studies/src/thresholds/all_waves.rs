@@ -108,7 +108,7 @@ pub fn roots() -> Result<Rows, Failure> {
         for _ in 0..CASES / 10 {
             let Some(Case { linear, .. }) = make(&mut draw) else { continue };
             zeros += usize::from(linear.root(0.0) == (0.0, 0.0));
-            other = f64::max(other, -linear.polynomial(0.0).0.0);
+            other = math::larger(other, -linear.polynomial(0.0).0.0);
             for k in (1..=64).map(|i| PI * f64::from(i) / 64.0) {
                 let (plus, b) = (linear.root(k), linear.polynomial(k).0);
                 let minus = -b.0 - plus.0;
@@ -118,7 +118,7 @@ pub fn roots() -> Result<Rows, Failure> {
                 // conjugate roots have equal real parts, up to rounding
                 below += usize::from(plus.0 < minus - 1e-12);
                 grows += usize::from(minus >= 0.0);
-                sign = f64::max(sign, (plus.0 - linear.growth_rate(-k)).abs());
+                sign = math::larger(sign, (plus.0 - linear.growth_rate(-k)).abs());
             }
         }
         rows.push(row![name, cases, complex, below, grows, zeros, other, sign]);

@@ -190,7 +190,7 @@ impl Looking<'_> {
         self.sampler.within(step, until, &mut |time, state| {
             form.read(state, &mut gaps, &mut speeds);
             if time >= STARTED {
-                *least = speeds.iter().copied().fold(*least, f64::min);
+                *least = speeds.iter().copied().fold(*least, math::smaller);
             }
         });
     }

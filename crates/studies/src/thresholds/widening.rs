@@ -153,7 +153,7 @@ impl Observer for Following<'_> {
         let (mut gaps, mut speeds) = (vec![0.0; count], vec![0.0; count]);
         self.sampler.within(step, until, &mut |_, state| {
             form.read(state, &mut gaps, &mut speeds);
-            *least = speeds.iter().copied().fold(*least, f64::min);
+            *least = speeds.iter().copied().fold(*least, math::smaller);
         });
         let negative = new.iter().find(|happening| happening.event == Event::NegativeSpeed && happening.time <= until);
         self.followed.negative = self.followed.negative.or(negative.map(|happening| happening.time));

@@ -141,6 +141,19 @@ fn distances_are_largest_root_mean_square_and_median() {
     assert_eq!(sizes(&[1.0, -2.0]), [2.0, 2.5_f64.sqrt(), 1.5]);
     let run = Sampled { spread: vec![0.0, 0.5], speeds: vec![1.0, 2.0] };
     let published = Published { spread: vec![(1.0, 0.75)], speeds: vec![(0.0, 1.0), (0.999, 2.5)] };
-    assert_eq!(run.spread_differences(&published.spread), [0.25]);
-    assert_eq!(run.speed_differences(&published.speeds), [0.0, 0.5]);
+    assert_eq!(run.spread_differences(&published.spread).expect("samples"), [0.25]);
+    assert_eq!(run.speed_differences(&published.speeds).expect("samples"), [0.0, 0.5]);
+}
+
+#[test]
+fn a_place_without_a_sample_is_named() {
+    let run = Sampled { spread: vec![0.0, 0.5], speeds: vec![1.0, 2.0] };
+    for place in [1.6, -1.0, 1e18, f64::NAN] {
+        let failure = run.spread_differences(&[(1.0, 0.75), (place, 0.5)]).expect_err("no sample there");
+        assert_eq!(failure.code, 2);
+        let words = [format!("t = {place:?}"), "2 samples".to_owned()];
+        assert!(words.iter().all(|word| failure.message.contains(word)), "{}", failure.message);
+    }
+    let failure = run.speed_differences(&[(7.0, 1.0)]).expect_err("no such pedestrian");
+    assert!(failure.message.contains("n = 7.0"), "{}", failure.message);
 }

@@ -46,7 +46,8 @@ fn in_the_blow_up_speeds_double_and_the_gap_closes_as_the_square_of_the_time() {
 #[test]
 fn two_methods_bracket_the_blow_up_to_1e_6() {
     let times: Vec<f64> = numbers("blow_up_time", &[], &["t_star"]).concat();
-    let (low, high) = (times.iter().copied().fold(f64::INFINITY, f64::min), times.iter().copied().fold(0.0, f64::max));
+    let (low, high) =
+        (times.iter().copied().fold(f64::INFINITY, math::smaller), times.iter().copied().fold(0.0, math::larger));
     println!("T* from {low} to {high}");
     assert!(times.len() > 1 && high - low < 1e-6 && low < 960.872_846_9 + 1e-6 && high > 960.872_846_9 - 1e-6);
 }
@@ -92,7 +93,7 @@ fn orders_fall_to_two_at_the_kink() {
         let order = |epsilon: f64| rows.iter().find(|row| row[0] == epsilon).expect("a row")[1];
         assert!((order(1e-1) - wide).abs() < 0.2, "{method}: {rows:?}");
         // a kink inside a step leaves an error of the square of the step, whatever the formal order
-        let sharp = f64::min(wide, 2.0);
+        let sharp = math::smaller(wide, 2.0);
         assert!((order(1e-6) - sharp).abs() < 0.5, "{method}: {rows:?}");
     }
 }

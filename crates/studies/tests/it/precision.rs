@@ -35,9 +35,10 @@ fn an_error_stays_the_share_of_the_perturbation_that_it_was_made_as() {
         let ring = known.scene(&figures, &[]).expect("a scene").ring;
         let headway = Twofold::from(ring.length) / Twofold::from(ring.pedestrians as f64);
         let solution = known.solution(&root().join("data/reference/solutions"), headway).expect("a solution");
-        let largest = |numbers: &[f64]| numbers.iter().fold(0.0, |most, number| f64::max(most, number.abs()));
-        let gaps = solution.iter().map(|instant| largest(&instant.gaps)).fold(0.0, f64::max);
-        let speed = solution.iter().flat_map(|instant| &instant.speeds).map(|speed| speed.hi.abs()).fold(0.0, f64::max);
+        let largest = |numbers: &[f64]| numbers.iter().fold(0.0, |most, number| math::larger(most, number.abs()));
+        let gaps = solution.iter().map(|instant| largest(&instant.gaps)).fold(0.0, math::larger);
+        let speed =
+            solution.iter().flat_map(|instant| &instant.speeds).map(|speed| speed.hi.abs()).fold(0.0, math::larger);
         let rows = Rows::read(&committed(known.name)).expect("a committed table");
         let columns = ["control", "steps", "error_gap", "error_speed"];
         let runs = rows.select(&[("method", "dop853")], &columns).expect("the columns");
