@@ -180,7 +180,7 @@ fn run(random: &mut Random, law: &Law, pedestrians: usize, rate: f64) -> String 
     push(&mut text, "sample", short(sample));
     if method.is_adaptive() && random.chance(0.85) {
         push(&mut text, "tolerance", decades(random, -14.0, -3.0));
-        text.push_str("most_steps = 300000\n");
+        text.push_str("most_steps = 100000\n");
     } else {
         let step = random.decades(-4.0, 0.0) / rate;
         push(&mut text, "dt", short(larger(step, larger(t_end / 3e4, t_end * pedestrians as f64 / 3e6))));

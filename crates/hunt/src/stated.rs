@@ -89,6 +89,8 @@ fn difference(scene: &Scene, outcome: &Outcome) -> Stated {
     let factor = match scene.control {
         Control::Adaptive { tolerance } => {
             let tighter = 0.1 * tolerance;
+            // rounding may keep a tighter tolerance from ever being met
+            other.most_steps = outcome.statistics.evaluations / 16 + 1000;
             other.method = if scene.method == Method::Extrapolation { Method::Dop853 } else { Method::Extrapolation };
             other.control = Control::Adaptive { tolerance: if tighter > 1e-15 { tighter } else { 1e-15 } };
             1.0
