@@ -44,6 +44,7 @@ pub struct Bound {
 
 /// A condition whose names are columns of a certain sheet.
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "one lives while a table is judged")]
 pub enum BoundCondition {
     /// Both sides are numbers.
     Numbers(Bound, Relation, Bound),

@@ -28,7 +28,8 @@ const SCRIPTS: [Script; 4] = [
 ];
 
 /// Tried by `ci --full` alone.
-const SLOW: [Script; 5] = [
+const SLOW: [Script; 6] = [
+    Script { what: "random scenes by SciPy", command: &["checks/hunt.sh"] },
     Script { what: "other machines", command: &["checks/other-machines.sh"] },
     Script { what: "instruction counts", command: &["checks/cost.sh"] },
     Script { what: "licences and sources of crates", command: &["checks/deny.sh"] },

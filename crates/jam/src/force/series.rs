@@ -135,13 +135,11 @@ impl<L: Law> Coefficients<'_, '_, L> {
 #[inline(always)]
 fn start(spacings: &[f64], speeds: &[f64], from: usize) -> (Lanes<W>, Lanes<W>, Lanes<W>) {
     let n = spacings.len();
-    let mut block = [[0.0; W]; 3];
-    for lane in 0..W {
-        let own = if from + lane < n { from + lane } else { n - 1 };
-        block[0][lane] = spacings[own];
-        block[1][lane] = speeds[own];
-        block[2][lane] = speeds[if own + 1 < n { own + 1 } else { 0 }];
-    }
-    let [spacing, speed, ahead] = block;
-    (Lanes(spacing), Lanes(speed), Lanes(ahead))
+    let place = |lane: usize| if from + lane < n { from + lane } else { n - 1 };
+    let next = |own: usize| if own + 1 < n { own + 1 } else { 0 };
+    (
+        Lanes(std::array::from_fn(|lane| spacings[place(lane)])),
+        Lanes(std::array::from_fn(|lane| speeds[place(lane)])),
+        Lanes(std::array::from_fn(|lane| speeds[next(place(lane))])),
+    )
 }

@@ -324,14 +324,14 @@ fn the_papers_laws_are_unstable_where_the_papers_criterion_says() {
             "logarithmic.toml" => {
                 let a = 2.0 + 2.0 * a_v * v;
                 let argument = (h / a - 1.0) / epsilon;
-                let ramp = epsilon * (1.0 + math::exp(-argument)).ln();
-                let speed = get("v0") * (1.0 - (1.0 + (E - 1.0) * ramp).ln());
+                let ramp = epsilon * math::ln(1.0 + math::exp(-argument));
+                let speed = get("v0") * (1.0 - math::ln(1.0 + (E - 1.0) * ramp));
                 let phi = (E - 1.0) * get("v0") / ((1.0 + math::exp(argument)) * a * (1.0 + (E - 1.0) * ramp));
                 (speed, phi, phi * a_v * h / a, 0.0)
             }
             _ => {
                 let (touching, contact) = match epsilon > 0.0 {
-                    true => (epsilon * (1.0 + math::exp(-d / epsilon)).ln(), 1.0 / (1.0 + math::exp(d / epsilon))),
+                    true => (epsilon * math::ln(1.0 + math::exp(-d / epsilon)), 1.0 / (1.0 + math::exp(d / epsilon))),
                     false => (0.0, 0.0),
                 };
                 let force = get("a") * math::exp(-d / get("b"));
@@ -368,7 +368,7 @@ fn optimal_velocity_parts_into_the_published_phases() {
     // the kink of the modified KdV equation: 2 -+ sqrt(2.5 (2/kappa - 1))
     let near = outcome(&scene("optimal-velocity.toml", "near-threshold", &[]));
     let (least, largest) = extremes(spacings(&near, 200.0).into_iter());
-    let kink = (2.5 * (2.0 / 1.8 - 1.0) as f64).sqrt();
+    let kink = f64::sqrt(2.5 * (2.0 / 1.8 - 1.0));
     assert_near(2.0 - least, kink, 5e-3);
     assert_near(largest - 2.0, kink, 5e-3);
 }

@@ -163,7 +163,7 @@ impl Force for Interpreted {
         let speeds: Vec<f64> = speeds.iter().map(|speed| flow.speed + speed).collect();
         let mut gaps = vec![0.0; net_gaps.len()];
         self.effective_gaps(&net_gaps, &speeds, &mut gaps);
-        net_gaps.iter().chain(&gaps).all(|gap| *gap > 0.0)
+        gaps.iter().all(|gap| *gap > 0.0)
     }
 
     fn uses_speeds(&self) -> bool {

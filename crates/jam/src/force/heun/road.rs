@@ -90,10 +90,9 @@ impl Road {
 #[inline(always)]
 fn accelerate<L: Law>(scheme: Scheme<'_, L>, x: &[f64], ahead: &[f64], speeds: &[f64], row: &mut [f64; LENGTH]) {
     if scheme.in_rows {
-        let n = x.len();
-        let (row, ahead) = (&mut row[..n], &ahead[..n]);
-        for i in 0..n {
-            row[i] = ahead[i] - x[i] - L::CONTACT;
+        let row = &mut row[..x.len()];
+        for ((net_gap, x), ahead) in row.iter_mut().zip(x).zip(ahead) {
+            *net_gap = ahead - x - L::CONTACT;
         }
         along(&Values(*scheme.law), speeds, row);
     }
