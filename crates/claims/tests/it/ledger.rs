@@ -20,7 +20,10 @@ struct Desk {
 
 impl Desk {
     fn new(name: &str, tables: &[(&str, &str)]) -> Desk {
-        let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("ledger-{name}"));
+        // tests run beside each other, and several have a desk of the same name
+        static DESKS: std::sync::atomic::AtomicUsize = std::sync::atomic::AtomicUsize::new(0);
+        let own = DESKS.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+        let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("ledger-{name}-{own}"));
         let _ = fs::remove_dir_all(&root);
         for (table, text) in tables {
             let path = root.join(format!("data/{table}.csv"));
