@@ -87,15 +87,7 @@ impl Response {
     /// `Re z^+` after one step of Newton's method from [`Response::root`]: its difference from [`Response::growth_rate`] is
     /// the error of the latter.
     pub fn refined_growth_rate(&self, k: f64) -> f64 {
-        let (re, im) = self.root(k);
-        let (b, c) = self.polynomial(k);
-        let product = |x: f64, y: f64| Twofold::product(x, y);
-        let residual_re = product(re, re) - product(im, im) + product(b.0, re) - product(b.1, im) + Twofold::from(c.0);
-        let residual_im =
-            product(re, im) * Twofold::from(2.0) + product(b.0, im) + product(b.1, re) + Twofold::from(c.1);
-        let (slope_re, slope_im) = (2.0 * re + b.0, 2.0 * im + b.1);
-        let size = slope_re * slope_re + slope_im * slope_im;
-        re - (residual_re.hi * slope_re + residual_im.hi * slope_im) / size
+        refined_rate(self.root(k), self.polynomial(k))
     }
 
     /// The margin by a finer grid of waves: its difference from that of [`Response::margin`] is the error of the latter.
@@ -157,17 +149,21 @@ impl Response {
 
     /// The largest margin over the waves, and the `k` where it lies (0: the limit of long waves).
     pub fn margin(&self, waves: Waves) -> (f64, f64) {
-        let better = |best: (f64, f64), k: f64| {
-            let margin = self.margin_of(k);
-            if margin > best.0 || best.0.is_nan() { (margin, k) } else { best }
-        };
         match waves {
             Waves::Ring(pedestrians) => {
-                let k = |l: usize| 2.0 * PI * l as f64 / pedestrians as f64;
-                (1..=pedestrians / 2).map(k).fold((f64::NAN, 0.0), better)
+                let waves = (1..=pedestrians / 2).map(|l| wave_number(l, pedestrians));
+                self.largest((f64::NAN, 0.0), waves)
             }
             Waves::All => self.over_all(4),
         }
+    }
+
+    /// The larger of a margin, with its `k`, and those of these waves.
+    fn largest(&self, known: (f64, f64), waves: impl Iterator<Item = f64>) -> (f64, f64) {
+        waves.fold(known, |best, k| {
+            let margin = self.margin_of(k);
+            if margin > best.0 || best.0.is_nan() { (margin, k) } else { best }
+        })
     }
 
     /// The largest margin over all waves: the best of a grid, `fineness` points for each wave length of the stencil's
@@ -175,11 +171,7 @@ impl Response {
     fn over_all(&self, fineness: usize) -> (f64, f64) {
         let count = self.grid(fineness);
         let step = PI / count as f64;
-        let better = |best: (f64, f64), k: f64| {
-            let margin = self.margin_of(k);
-            if margin > best.0 || best.0.is_nan() { (margin, k) } else { best }
-        };
-        let coarse = (1..=count).map(|i| step * i as f64).fold((self.long_wave_margin(), 0.0), better);
+        let coarse = self.largest((self.long_wave_margin(), 0.0), (1..=count).map(|i| step * i as f64));
         self.refined(coarse, step)
     }
 
@@ -214,8 +206,7 @@ impl Response {
 
     /// The largest growth rate among the waves of a ring, `k = 2 pi l / N` for `l = 1 .. N/2`, and its `l`.
     pub fn fastest(&self, pedestrians: usize) -> (f64, usize) {
-        let rate = |l: usize| (self.growth_rate(2.0 * PI * l as f64 / pedestrians as f64), l);
-        (2..=pedestrians / 2).map(rate).fold(rate(1), |best, next| if next.0 > best.0 { next } else { best })
+        fastest(pedestrians, |k| self.growth_rate(k))
     }
 
     /// How many waves of a grid are looked at: `fineness` times the stencil.
@@ -246,6 +237,27 @@ impl Response {
 
 /// A complex number, real and imaginary part.
 pub type Complex = (f64, f64);
+
+/// The real part of a root of `z^2 + b z + c` after one step of Newton's method, with the residual in twofold precision.
+fn refined_rate((re, im): Complex, (b, c): (Complex, Complex)) -> f64 {
+    let product = |x: f64, y: f64| Twofold::product(x, y);
+    let residual_re = product(re, re) - product(im, im) + product(b.0, re) - product(b.1, im) + Twofold::from(c.0);
+    let residual_im = product(re, im) * Twofold::from(2.0) + product(b.0, im) + product(b.1, re) + Twofold::from(c.1);
+    let (slope_re, slope_im) = (2.0 * re + b.0, 2.0 * im + b.1);
+    let size = slope_re * slope_re + slope_im * slope_im;
+    re - (residual_re.hi * slope_re + residual_im.hi * slope_im) / size
+}
+
+/// The wave number of the wave that goes `l` times into a ring.
+fn wave_number(l: usize, pedestrians: usize) -> f64 {
+    2.0 * PI * l as f64 / pedestrians as f64
+}
+
+/// The largest growth rate among the waves of a ring, `l = 1 .. N/2`, and its `l`.
+fn fastest(pedestrians: usize, growth_rate: impl Fn(f64) -> f64) -> (f64, usize) {
+    let rate = |l: usize| (growth_rate(wave_number(l, pedestrians)), l);
+    (2..=pedestrians / 2).map(rate).fold(rate(1), |best, next| if next.0 > best.0 { next } else { best })
+}
 
 impl Linear {
     /// Of a law without derivatives.
@@ -283,15 +295,7 @@ impl Linear {
     /// `Re z^+` after one step of Newton's method from [`Linear::root`], with the residual in twofold precision: its
     /// difference from [`Linear::growth_rate`] is the error of the latter.
     pub fn refined_growth_rate(&self, k: f64) -> f64 {
-        let (re, im) = self.root(k);
-        let (b, c) = self.polynomial(k);
-        let product = |x: f64, y: f64| Twofold::product(x, y);
-        let residual_re = product(re, re) - product(im, im) + product(b.0, re) - product(b.1, im) + Twofold::from(c.0);
-        let residual_im =
-            product(re, im) * Twofold::from(2.0) + product(b.0, im) + product(b.1, re) + Twofold::from(c.1);
-        let (slope_re, slope_im) = (2.0 * re + b.0, 2.0 * im + b.1);
-        let size = slope_re * slope_re + slope_im * slope_im;
-        re - (residual_re.hi * slope_re + residual_im.hi * slope_im) / size
+        refined_rate(self.root(k), self.polynomial(k))
     }
 
     /// `b` and `c` of `z^2 + b z + c = 0`.
@@ -330,14 +334,6 @@ impl Linear {
 
     /// The largest growth rate among the waves `k = 2 pi l / N`, `l = 1 .. N/2`, and its `l`.
     pub fn fastest(&self, pedestrians: usize) -> (f64, usize) {
-        let rate = |l: usize| self.growth_rate(2.0 * std::f64::consts::PI * l as f64 / pedestrians as f64);
-        let mut fastest = (rate(1), 1);
-        for l in 2..=pedestrians / 2 {
-            let candidate = rate(l);
-            if candidate > fastest.0 {
-                fastest = (candidate, l);
-            }
-        }
-        fastest
+        fastest(pedestrians, |k| self.growth_rate(k))
     }
 }
