@@ -6,13 +6,13 @@ mod rows;
 mod series;
 
 use super::{Cut, Flow, Force, Motion, Steps};
-use formula::{Bound, Id};
+use formula::{Bound, Id, Unary};
 use math::change::rules::Kept;
 use math::dual::Dual;
 use math::simd::dispatch;
 use ode::Burst;
 pub use program::Source;
-use program::{Action, Function, Instruction, Program};
+use program::{Action, Instruction, Program};
 use rows::{Machine, Neighbours, Reach, Rows};
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -209,14 +209,15 @@ fn kept_of(action: Action, x: f64, y: f64) -> Kept {
         Action::Mul(_) => Kept::of_product(x, y),
         Action::Div(_) => Kept::of_quotient(x, y),
         Action::Min(_) | Action::Max(_) => Kept::of_pair(x, y),
-        Action::Function(function) => match function {
-            Function::Exp | Function::ExpM1 => Kept::of_exp(x),
-            Function::Ln => Kept::of_ln(x),
-            Function::Ln1p => Kept::of_ln_1p(x),
-            Function::Sqrt => Kept::of_sqrt(x),
-            Function::Tanh => Kept::of_tanh(x),
-            Function::Softplus => Kept::of_softplus(x),
-            Function::Abs => Kept::of_abs(x),
+        Action::Unary(unary) => match unary {
+            Unary::Neg => Kept::default(),
+            Unary::Exp | Unary::ExpM1 => Kept::of_exp(x),
+            Unary::Ln => Kept::of_ln(x),
+            Unary::Ln1p => Kept::of_ln_1p(x),
+            Unary::Sqrt => Kept::of_sqrt(x),
+            Unary::Tanh => Kept::of_tanh(x),
+            Unary::Softplus => Kept::of_softplus(x),
+            Unary::Abs => Kept::of_abs(x),
         },
         _ => Kept::default(),
     }

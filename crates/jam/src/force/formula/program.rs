@@ -30,16 +30,14 @@ pub enum Action {
     MulConstant(f64),
     /// `x / c`
     DivConstant(f64),
-    /// `-x`
-    Neg,
     /// `1 / x`
     Recip,
     /// `x^n`
     Whole(i32),
     /// `x^q`
     Power(f64),
-    /// A function of one number.
-    Function(Function),
+    /// The sign, or a function of one number.
+    Unary(Unary),
     /// `x + y`
     Add(Source),
     /// `x - y`
@@ -52,27 +50,6 @@ pub enum Action {
     Min(Source),
     /// The larger one.
     Max(Source),
-}
-
-/// Functions of one number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Function {
-    /// e^x
-    Exp,
-    /// e^x - 1
-    ExpM1,
-    /// ln x
-    Ln,
-    /// ln(1 + x)
-    Ln1p,
-    /// The square root.
-    Sqrt,
-    /// tanh x
-    Tanh,
-    /// ln(1 + e^x)
-    Softplus,
-    /// |x|
-    Abs,
 }
 
 /// One instruction.
@@ -149,7 +126,7 @@ impl Program {
             };
             let x = get(*of);
             let is_kink = match *action {
-                Action::Function(Function::Abs) => x == 0.0,
+                Action::Unary(Unary::Abs) => x == 0.0,
                 Action::Min(y) | Action::Max(y) => x == get(y),
                 _ => false,
             };
@@ -232,11 +209,10 @@ impl Action {
             Action::AddConstant(c) => x + c,
             Action::MulConstant(c) => x * c,
             Action::DivConstant(c) => x / c,
-            Action::Neg => -x,
             Action::Recip => x.recip(),
             Action::Whole(n) => x.powi(n),
             Action::Power(q) => x.powf(q),
-            Action::Function(function) => function.of(x),
+            Action::Unary(unary) => apply(unary, x),
             Action::Add(y) => x + get(y),
             Action::Sub(y) => x - get(y),
             Action::Mul(y) => x * get(y),
@@ -250,7 +226,8 @@ impl Action {
     pub fn histories(&self) -> usize {
         match *self {
             Action::Whole(n) if n > 1 => n as usize - 1,
-            Action::Whole(_) | Action::Power(_) | Action::Recip | Action::Function(_) => 1,
+            Action::Unary(Unary::Neg) => 0,
+            Action::Whole(_) | Action::Power(_) | Action::Recip | Action::Unary(_) => 1,
             Action::Mul(_) | Action::Div(_) | Action::Min(_) | Action::Max(_) => 1,
             _ => 0,
         }
@@ -279,20 +256,19 @@ impl Action {
     }
 }
 
-impl Function {
-    /// Its value.
-    #[inline(always)]
-    fn of<X: Number>(self, x: X) -> X {
-        match self {
-            Function::Exp => x.exp(),
-            Function::ExpM1 => x.exp_m1(),
-            Function::Ln => x.ln(),
-            Function::Ln1p => x.ln_1p(),
-            Function::Sqrt => x.sqrt(),
-            Function::Tanh => x.tanh(),
-            Function::Softplus => x.softplus(),
-            Function::Abs => x.abs(),
-        }
+/// The sign or a function of a number.
+#[inline(always)]
+fn apply<X: Number>(unary: Unary, x: X) -> X {
+    match unary {
+        Unary::Neg => -x,
+        Unary::Exp => x.exp(),
+        Unary::ExpM1 => x.exp_m1(),
+        Unary::Ln => x.ln(),
+        Unary::Ln1p => x.ln_1p(),
+        Unary::Sqrt => x.sqrt(),
+        Unary::Tanh => x.tanh(),
+        Unary::Softplus => x.softplus(),
+        Unary::Abs => x.abs(),
     }
 }
 
@@ -331,7 +307,7 @@ impl Builder<'_> {
             Operation::Variable(Variable::Free(_)) => return,
             Operation::Unary(unary, a) => {
                 let of = self.source(a, node);
-                self.push(unary_action(unary), of, node)
+                self.push(Action::Unary(unary), of, node)
             }
             Operation::Power(a, n) => {
                 let of = self.source(a, node);
@@ -355,7 +331,7 @@ impl Builder<'_> {
             (Binary::Add, _, Some(c)) => self.with_constant(Action::AddConstant(c), a, node),
             (Binary::Sub, _, Some(c)) => self.with_constant(Action::AddConstant(-c), a, node),
             (Binary::Sub, Some(c), _) => {
-                let minus = self.with_constant(Action::Neg, b, node);
+                let minus = self.with_constant(Action::Unary(Unary::Neg), b, node);
                 self.push(Action::AddConstant(c), minus, node)
             }
             (Binary::Mul, Some(c), _) => self.with_constant(Action::MulConstant(c), b, node),
@@ -367,10 +343,10 @@ impl Builder<'_> {
                 let (of, exponent) = (self.source(a, node), self.source(b, node));
                 let logarithm = match self.constant(a) {
                     Some(c) => self.push(Action::Constant(math::lane::ln(c)), of, node),
-                    None => self.push(Action::Function(Function::Ln), of, node),
+                    None => self.push(Action::Unary(Unary::Ln), of, node),
                 };
                 let product = self.push(Action::Mul(logarithm), exponent, node);
-                self.push(Action::Function(Function::Exp), product, node)
+                self.push(Action::Unary(Unary::Exp), product, node)
             }
             (_, _, _) => {
                 let (first, second) = (self.source(a, node), self.source(b, node));
@@ -391,18 +367,4 @@ impl Builder<'_> {
         let of = self.source(of, node);
         self.push(action, of, node)
     }
-}
-
-fn unary_action(unary: Unary) -> Action {
-    Action::Function(match unary {
-        Unary::Neg => return Action::Neg,
-        Unary::Exp => Function::Exp,
-        Unary::ExpM1 => Function::ExpM1,
-        Unary::Ln => Function::Ln,
-        Unary::Ln1p => Function::Ln1p,
-        Unary::Sqrt => Function::Sqrt,
-        Unary::Tanh => Function::Tanh,
-        Unary::Softplus => Function::Softplus,
-        Unary::Abs => Function::Abs,
-    })
 }

@@ -1,6 +1,7 @@
 //! A program carried out for a row of pedestrians: instruction by instruction, each a short loop.
 
-use super::program::{Action, Function, Program, Source};
+use super::program::{Action, Program, Source};
+use formula::Unary;
 use math::change::rules::{self, Kept};
 use math::number::Number;
 use math::row::{self, LANES, LENGTH, Room};
@@ -174,7 +175,7 @@ fn values(action: Action, x: &[f64], y: &[f64], row: &mut [f64], room: &mut Room
         Action::AddConstant(c) => each!(row, x => x + c),
         Action::MulConstant(c) => each!(row, x => x * c),
         Action::DivConstant(c) => each!(row, x => x / c),
-        Action::Neg => each!(row, x => -x),
+        Action::Unary(Unary::Neg) => each!(row, x => -x),
         Action::Recip => each!(row, x => 1.0 / x),
         Action::Whole(2) => each!(row, x => x * x),
         Action::Whole(3) => each!(row, x => x * x * x),
@@ -188,16 +189,16 @@ fn values(action: Action, x: &[f64], y: &[f64], row: &mut [f64], room: &mut Room
         Action::Div(_) => each!(row, x, y => x / y),
         Action::Min(_) => each!(row, x, y => Number::min(x, y)),
         Action::Max(_) => each!(row, x, y => Number::max(x, y)),
-        Action::Function(Function::Sqrt) => each!(row, x => x.sqrt()),
-        Action::Function(Function::Abs) => each!(row, x => x.abs()),
-        Action::Function(Function::Ln) => each!(row, x => math::lane::ln(x)),
-        Action::Function(function) => {
+        Action::Unary(Unary::Sqrt) => each!(row, x => x.sqrt()),
+        Action::Unary(Unary::Abs) => each!(row, x => x.abs()),
+        Action::Unary(Unary::Ln) => each!(row, x => math::lane::ln(x)),
+        Action::Unary(unary) => {
             row.copy_from_slice(x);
-            match function {
-                Function::Exp => row::exp(row, room),
-                Function::ExpM1 => row::exp_m1(row, room),
-                Function::Ln1p => row::ln_1p(row, room),
-                Function::Tanh => row::tanh(row, room),
+            match unary {
+                Unary::Exp => row::exp(row, room),
+                Unary::ExpM1 => row::exp_m1(row, room),
+                Unary::Ln1p => row::ln_1p(row, room),
+                Unary::Tanh => row::tanh(row, room),
                 _ => row::softplus(row, room),
             }
         }
@@ -216,7 +217,7 @@ fn changes(action: Action, kept: &Kept, x: &[f64], y: &[f64], row: &mut [f64], r
             let inverse = 1.0 / c;
             each!(row, x => x * inverse);
         }
-        Action::Neg => each!(row, x => -x),
+        Action::Unary(Unary::Neg) => each!(row, x => -x),
         Action::Recip => each!(row, x => rules::recip(&kept, x)),
         Action::Whole(-3) => each!(row, x => rules::whole_power(&kept, x, -3)),
         Action::Whole(-2) => each!(row, x => rules::whole_power(&kept, x, -2)),
@@ -230,22 +231,22 @@ fn changes(action: Action, kept: &Kept, x: &[f64], y: &[f64], row: &mut [f64], r
         Action::Div(_) => each!(row, x, y => rules::quotient(&kept, x, y)),
         Action::Min(_) => each!(row, x, y => rules::min(&kept, x, y)),
         Action::Max(_) => each!(row, x, y => rules::max(&kept, x, y)),
-        Action::Function(Function::Sqrt) => each!(row, x => rules::sqrt(&kept, x)),
-        Action::Function(Function::Abs) => each!(row, x => rules::abs(&kept, x)),
-        Action::Function(Function::Tanh) => each!(row, x => rules::tanh(&kept, x)),
-        Action::Function(Function::Exp | Function::ExpM1) if rules::is_faint(&kept) => {
+        Action::Unary(Unary::Sqrt) => each!(row, x => rules::sqrt(&kept, x)),
+        Action::Unary(Unary::Abs) => each!(row, x => rules::abs(&kept, x)),
+        Action::Unary(Unary::Tanh) => each!(row, x => rules::tanh(&kept, x)),
+        Action::Unary(Unary::Exp | Unary::ExpM1) if rules::is_faint(&kept) => {
             each!(row, x => rules::faint_exp(&kept, x));
         }
-        Action::Function(Function::Exp | Function::ExpM1) => {
+        Action::Unary(Unary::Exp | Unary::ExpM1) => {
             row.copy_from_slice(x);
             row::exp_m1(row, room);
             row.iter_mut().for_each(|x| *x = rules::scale(&kept, *x));
         }
-        Action::Function(Function::Ln | Function::Ln1p) => {
+        Action::Unary(Unary::Ln | Unary::Ln1p) => {
             each!(row, x => rules::scale(&kept, x));
             row::ln_1p(row, room);
         }
-        Action::Function(Function::Softplus) => {
+        Action::Unary(Unary::Softplus) => {
             row.copy_from_slice(x);
             row::softplus_difference(rules::softplus_base(&kept), row, room);
         }

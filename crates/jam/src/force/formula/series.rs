@@ -1,9 +1,10 @@
 //! A program carried out for the coefficients of a series: order by order, instruction by instruction, each a loop over
 //! blocks of pedestrians.
 
-use super::program::{Action, Function, Program, Source};
+use super::program::{Action, Program, Source};
 use super::rows::{Neighbours, Reach};
 use crate::force::Motion;
+use formula::Unary;
 use math::lanes::Lanes;
 use math::series::ROWS;
 use math::series::recurrences::{self as next, History};
@@ -183,7 +184,6 @@ fn next_order<const START: bool>(action: Action, hs: Histories<'_>, x: &Blocks, 
         Action::AddConstant(_) => row.copy_from_slice(x),
         Action::MulConstant(c) => each!(row, x => x * c),
         Action::DivConstant(c) => each!(row, x => x / c),
-        Action::Neg => each!(row, x => -x),
         Action::Add(_) => {
             each!(row, x, y => x + y);
         }
@@ -207,15 +207,16 @@ fn next_order<const START: bool>(action: Action, hs: Histories<'_>, x: &Blocks, 
                 }
             }
         }
-        Action::Function(function) => match function {
-            Function::Exp => each!(row, hs, h, x => next::exp::<W, START>(h, x)),
-            Function::ExpM1 => each!(row, hs, h, x => next::exp_m1::<W, START>(h, x)),
-            Function::Ln => each!(row, hs, h, x => next::ln::<W, START>(h, x)),
-            Function::Ln1p => each!(row, hs, h, x => next::ln_1p::<W, START>(h, x)),
-            Function::Sqrt => each!(row, hs, h, x => next::sqrt::<W, START>(h, x)),
-            Function::Tanh => each!(row, hs, h, x => next::tanh::<W, START>(h, x)),
-            Function::Softplus => each!(row, hs, h, x => next::softplus::<W, START>(h, x)),
-            Function::Abs => each!(row, hs, h, x => next::abs::<W, START>(h, x)),
+        Action::Unary(unary) => match unary {
+            Unary::Neg => each!(row, x => -x),
+            Unary::Exp => each!(row, hs, h, x => next::exp::<W, START>(h, x)),
+            Unary::ExpM1 => each!(row, hs, h, x => next::exp_m1::<W, START>(h, x)),
+            Unary::Ln => each!(row, hs, h, x => next::ln::<W, START>(h, x)),
+            Unary::Ln1p => each!(row, hs, h, x => next::ln_1p::<W, START>(h, x)),
+            Unary::Sqrt => each!(row, hs, h, x => next::sqrt::<W, START>(h, x)),
+            Unary::Tanh => each!(row, hs, h, x => next::tanh::<W, START>(h, x)),
+            Unary::Softplus => each!(row, hs, h, x => next::softplus::<W, START>(h, x)),
+            Unary::Abs => each!(row, hs, h, x => next::abs::<W, START>(h, x)),
         },
     }
     action.histories()
