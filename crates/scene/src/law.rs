@@ -3,7 +3,7 @@
 use files::reader::{Entry, NOT_NEGATIVE, POSITIVE, Reader, RecipeError, Section, Value};
 use formula::{Definition, Given, Place};
 use jam::laws::presets::PRESETS;
-use jam::laws::{Algebraic, Exponential, Formula, Law, Logarithmic, Model, Range};
+use jam::laws::{Algebraic, Formula, Law, Model, Range};
 
 /// Reads `[law]`.
 ///
@@ -12,10 +12,10 @@ use jam::laws::{Algebraic, Exponential, Formula, Law, Logarithmic, Model, Range}
 pub fn read(file: &str, section: &Section) -> Result<Model, RecipeError> {
     let mut law = Reader::new(file, "law", section);
     let model = match law.one_of("kind", &KINDS)? {
-        Kind::Algebraic if law.has("preset") => preset(&mut law)?,
-        Kind::Algebraic => Model::Algebraic(parameters::<Algebraic>(&mut law)?),
-        Kind::Exponential => Model::Exponential(parameters::<Exponential>(&mut law)?),
-        Kind::Logarithmic => Model::Logarithmic(parameters::<Logarithmic>(&mut law)?),
+        Kind::Algebraic if law.has("preset") => Model::Algebraic(preset(&mut law)?),
+        Kind::Algebraic => Model::Algebraic(parameters(&mut law, &[])?),
+        Kind::Exponential => Model::Exponential(parameters(&mut law, &[])?),
+        Kind::Logarithmic => Model::Logarithmic(parameters(&mut law, &[])?),
         Kind::Formula => return formula(file, section),
     };
     law.finish()?;
@@ -39,42 +39,30 @@ const KINDS: [(&str, Kind); 4] = [
     ("formula", Kind::Formula),
 ];
 
-/// The parameters of a law, as its file lists them.
-fn parameters<L: Law>(reader: &mut Reader<'_>) -> Result<L, RecipeError> {
+/// The parameters of a law, as its file lists them. Those that are `fixed` to a value must not be given, those fixed to
+/// none must.
+fn parameters<L: Law>(reader: &mut Reader<'_>, fixed: &[(&str, Option<f64>)]) -> Result<L, RecipeError> {
     let mut law = L::default();
     for parameter in L::PARAMETERS {
         let range = match parameter.range {
             Range::Positive => POSITIVE,
             Range::NotNegative => NOT_NEGATIVE,
         };
-        *(parameter.place)(&mut law) = match parameter.default {
-            None => reader.number(parameter.name, range)?,
-            Some(default) => reader.optional_number(parameter.name, range)?.unwrap_or(default),
+        let fixed = fixed.iter().find(|(name, _)| *name == parameter.name).map(|(_, value)| *value);
+        *(parameter.place)(&mut law) = match (fixed, parameter.default) {
+            (Some(Some(value)), _) => value,
+            (None, Some(default)) => reader.optional_number(parameter.name, range)?.unwrap_or(default),
+            _ => reader.number(parameter.name, range)?,
         };
     }
     Ok(law)
 }
 
 /// A model of tab:model; the parameters that it leaves open must be given, the others must not.
-fn preset(law: &mut Reader<'_>) -> Result<Model, RecipeError> {
+fn preset(law: &mut Reader<'_>) -> Result<Algebraic, RecipeError> {
     let preset = law.one_of("preset", &PRESETS.map(|preset| (preset.name, preset)))?;
-    let fixed = [
-        ("mu", preset.strength),
-        ("delta", Some(preset.relative)),
-        ("q", Some(preset.power)),
-        ("a_v", preset.widening),
-    ];
-    let mut own = Algebraic::default();
-    for parameter in Algebraic::PARAMETERS {
-        let range = if parameter.range == Range::Positive { POSITIVE } else { NOT_NEGATIVE };
-        *(parameter.place)(&mut own) = match (fixed.iter().find(|(name, _)| *name == parameter.name), parameter.default)
-        {
-            (Some((_, Some(value))), _) => *value,
-            (None, Some(default)) => law.optional_number(parameter.name, range)?.unwrap_or(default),
-            _ => law.number(parameter.name, range)?,
-        };
-    }
-    Ok(Model::Algebraic(own))
+    let (delta, q) = (Some(preset.relative), Some(preset.power));
+    parameters(law, &[("mu", preset.strength), ("delta", delta), ("q", q), ("a_v", preset.widening)])
 }
 
 /// A law as formulas: every key but `kind` is a parameter or an expression.
