@@ -9,6 +9,7 @@ use files::write::{atomic_all, with_path};
 use plot::style::COLUMN_WIDTH;
 use plot::{ColorScale, Picture};
 use scene::map::{Computed, Value};
+use scene::uniform::stability;
 use serde_json::json;
 use std::path::PathBuf;
 
@@ -84,9 +85,9 @@ fn points(recipe: &Recipe, arguments: &Arguments) -> Result<(), Failure> {
     let (mut summary, mut words) = (Vec::new(), Vec::new());
     for panel in recipe.panels.iter().filter(|panel| panel.kind == Kind::Run) {
         let scene = scene::run::read(&recipe.file, &panel.tables)?;
-        let speed = scene.steady_speed;
-        summary.push(json!({ "panel": panel.name, "steady_speed": speed, "uniform_flow": uniform::as_json(&scene) }));
-        words.push(format!("{}: {}", panel.name, uniform::in_words(&scene)));
+        let (speed, flow) = (scene.steady_speed, stability(&scene));
+        summary.push(json!({ "panel": panel.name, "steady_speed": speed, "uniform_flow": uniform::as_json(flow) }));
+        words.push(format!("{}: {}", panel.name, uniform::in_words(flow, scene.ring.pedestrians)));
     }
     if words.is_empty() {
         return Err(Failure::input(format!("{}: has neither [map] nor [run]", recipe.file)));

@@ -3,6 +3,7 @@
 use crate::checkpoint::{Care, Ended};
 use crate::failure::{Failure, print};
 use crate::panels::{points, trajectories};
+use crate::uniform;
 use files::recipe::{self, Kind};
 use files::table::Table;
 use files::write::atomic_all;
@@ -14,6 +15,7 @@ use scene::Overrides;
 use scene::check::{self, Errors};
 use scene::run::Scene;
 use scene::simulation::{Broken, Outcome};
+use scene::uniform::{Stability, stability};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -89,7 +91,8 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     let is_checked = !(arguments.no_check || arguments.check);
     let errors = is_checked.then(|| check::errors(&scene, &ended.outcome));
     let errors = errors.as_ref();
-    let summary = summary(&scene, &ended, errors);
+    let flow = stability(&scene);
+    let summary = summary(&scene, &ended, flow, errors);
     let Ended { outcome, broken, seconds, .. } = ended;
     let mut files = Vec::new();
     if let Some(folder) = &arguments.out {
@@ -103,7 +106,7 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     files.extend(arguments.state.iter().map(|file| (file.clone(), state(&outcome).to_csv())));
     atomic_all(&files)?;
     arguments.care.remove()?;
-    let words = if arguments.json { summary.to_string() } else { in_words(&scene, &outcome, errors, seconds) };
+    let words = if arguments.json { summary.to_string() } else { in_words(&scene, &outcome, flow, errors, seconds) };
     print(&words)?;
     broken.map_or(Ok(()), |broken| Err(Failure::work(broken)))
 }
@@ -213,7 +216,7 @@ fn pretty(summary: &Value) -> String {
     format!("{summary:#}\n")
 }
 
-fn summary(scene: &Scene, ended: &Ended, errors: Option<&Errors>) -> Value {
+fn summary(scene: &Scene, ended: &Ended, flow: Option<Stability>, errors: Option<&Errors>) -> Value {
     let Ended { outcome, broken, seconds, resumed_steps, .. } = ended;
     let control = match scene.control {
         Control::Fixed { step } => json!({ "dt": step }),
@@ -243,7 +246,7 @@ fn summary(scene: &Scene, ended: &Ended, errors: Option<&Errors>) -> Value {
         "pedestrians": scene.ring.pedestrians,
         "length": scene.ring.length,
         "steady_speed": scene.steady_speed,
-        "uniform_flow": crate::uniform::as_json(scene),
+        "uniform_flow": uniform::as_json(flow),
         "method": scene.method.name(),
         "control": control,
         "steps": outcome.statistics.steps,
@@ -300,7 +303,13 @@ fn rounded(time: f64) -> f64 {
     (1e3 * time).round() / 1e3
 }
 
-fn in_words(scene: &Scene, outcome: &Outcome, errors: Option<&Errors>, seconds: f64) -> String {
+fn in_words(
+    scene: &Scene,
+    outcome: &Outcome,
+    flow: Option<Stability>,
+    errors: Option<&Errors>,
+    seconds: f64,
+) -> String {
     let statistics = &outcome.statistics;
     let mut text = format!(
         "{} law, {} pedestrians on {}: {} to t = {:?}\n{} steps ({} rejected), {} right-hand sides, {seconds:.3} s",
@@ -313,7 +322,7 @@ fn in_words(scene: &Scene, outcome: &Outcome, errors: Option<&Errors>, seconds: 
         statistics.rejected,
         statistics.evaluations,
     );
-    let _ = write!(text, "\n{}", crate::uniform::in_words(scene));
+    let _ = write!(text, "\n{}", uniform::in_words(flow, scene.ring.pedestrians));
     for (index, happening) in outcome.events.iter().enumerate() {
         let (event, time) = (happening.event, happening.time);
         let is_same = |other: &Happening| (other.event, other.time) == (event, time);

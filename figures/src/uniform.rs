@@ -1,16 +1,14 @@
 //! The stability of a scene's uniform flow, in words and as JSON.
 
-use scene::run::Scene;
-use scene::uniform::{Stability, stability};
+use scene::uniform::Stability;
 use serde_json::{Value, json};
 
-/// One line.
-pub fn in_words(scene: &Scene) -> String {
-    let Some(Stability { speed, margin, margin_on_ring, growing, growth_rate, waves }) = stability(scene) else {
+/// One line, for a ring of `count` pedestrians; `None` where there is no flow that could be stable.
+pub fn in_words(flow: Option<Stability>, count: usize) -> String {
+    let Some(Stability { speed, margin, margin_on_ring, growing, growth_rate, waves }) = flow else {
         return "no uniform flow with a response of its own: nothing to be stable".to_owned();
     };
     let flow = format!("uniform flow at speed {speed:.6}");
-    let count = scene.ring.pedestrians;
     let on_ring = if margin_on_ring > 0.0 {
         format!("on this ring {waves} in {count} grow fastest, at rate {growth_rate:.4e}")
     } else {
@@ -27,8 +25,8 @@ pub fn in_words(scene: &Scene) -> String {
 }
 
 /// The same for `summary.json`.
-pub fn as_json(scene: &Scene) -> Value {
-    stability(scene).map_or(Value::Null, |flow| {
+pub fn as_json(flow: Option<Stability>) -> Value {
+    flow.map_or(Value::Null, |flow| {
         json!({
             "stable": flow.growing.is_none(),
             "margin": flow.margin,

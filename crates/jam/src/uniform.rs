@@ -86,17 +86,17 @@ pub fn of_formula(formula: &Formula, headway: f64, wanted: Option<f64>) -> Resul
             .map(|(at, _)| bisected(at[0], at[1], acceleration))
             .collect()
     };
-    let (ahead, behind) = (grid(scale), grid(scale).into_iter().rev().map(|speed| -speed).collect::<Vec<_>>());
+    let mut speeds = grid(scale);
+    let backwards = || falls(&grid(scale).into_iter().rev().map(|speed| -speed).collect::<Vec<_>>());
     // a flow that stands still: the acceleration falls through 0 at 0
-    let step = ahead[1];
-    let ahead: Vec<f64> = std::iter::once(-step * 1e-9).chain(ahead).collect();
-    let forwards = falls(&ahead);
+    speeds.insert(0, -speeds[1] * 1e-9);
+    let forwards = falls(&speeds);
     if let Some(wanted) = wanted {
-        let all = forwards.into_iter().chain(falls(&behind));
+        let all = forwards.into_iter().chain(backwards());
         return all.min_by(|a, b| (a - wanted).abs().total_cmp(&(b - wanted).abs())).ok_or_else(|| none(headway));
     }
     match forwards[..] {
-        [] => falls(&behind).last().copied().ok_or_else(|| none(headway)),
+        [] => backwards().last().copied().ok_or_else(|| none(headway)),
         [speed] => Ok(speed),
         _ => Err(NoUniformFlow { headway, speeds: forwards }),
     }
