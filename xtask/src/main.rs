@@ -9,10 +9,7 @@ use xtask::verbs;
 
 fn main() {
     if let Err(failure) = run(Cli::parse()) {
-        if !failure.text().is_empty() {
-            eprintln!("{}", failure.text());
-        }
-        exit(failure.code());
+        exit(failure.tell());
     }
 }
 

@@ -33,6 +33,14 @@ impl Failure {
         }
     }
 
+    /// Says the text on stderr, if there is one left to say; the exit code.
+    pub fn tell(&self) -> i32 {
+        if !self.text().is_empty() {
+            eprintln!("{}", self.text());
+        }
+        self.code()
+    }
+
     /// The text for stderr; empty when there is nothing left to say.
     pub fn text(&self) -> &str {
         match self {

@@ -46,13 +46,7 @@ fn percent(text: &str) -> Result<f64, String> {
 pub fn main() -> i32 {
     let arguments = BenchArgs::parse();
     let done = Paths::find(arguments.root.clone()).and_then(|paths| run(&paths, &arguments));
-    done.map_or_else(
-        |failure| {
-            eprintln!("{}", failure.text());
-            failure.code()
-        },
-        |()| 0,
-    )
+    done.map_or_else(|failure| failure.tell(), |()| 0)
 }
 
 /// Runs the verb.

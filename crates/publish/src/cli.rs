@@ -53,12 +53,7 @@ struct PageArgs {
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> i32 {
     match carry_out(Cli::parse_from(arguments)) {
         Ok(()) => 0,
-        Err(failure) => {
-            if !failure.text().is_empty() {
-                eprintln!("{}", failure.text());
-            }
-            failure.code()
-        }
+        Err(failure) => failure.tell(),
     }
 }
 

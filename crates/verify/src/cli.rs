@@ -92,12 +92,7 @@ struct BlessArgs {
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> i32 {
     match carry_out(Cli::parse_from(arguments)) {
         Ok(()) => 0,
-        Err(failure) => {
-            if !failure.text().is_empty() {
-                eprintln!("{}", failure.text());
-            }
-            failure.code()
-        }
+        Err(failure) => failure.tell(),
     }
 }
 
