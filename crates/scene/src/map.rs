@@ -101,6 +101,18 @@ impl Computed {
         self.blank.len() as f64 / (self.table.len() + self.blank.len()) as f64
     }
 
+    /// Why cells are blank, if some are.
+    pub fn blank_reason(&self) -> Option<&'static str> {
+        let reason = "the paper's criterion differs there from the exact one by more than 0.1 %; `margin` is exact";
+        (!self.blank.is_empty()).then_some(reason)
+    }
+
+    /// The part of all cells with a value above 0.
+    pub fn unstable_share(&self) -> f64 {
+        let unstable = self.table.rows().filter(|row| row[2] > 0.0).count();
+        unstable as f64 / (self.table.len() + self.blank.len()) as f64
+    }
+
     /// The table of this map as CSV, the value of blank cells empty.
     pub fn to_csv(&self, map: &Map) -> Vec<u8> {
         if self.blank.is_empty() {
