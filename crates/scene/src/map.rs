@@ -267,9 +267,19 @@ impl Map {
     /// # Errors
     /// A cell without a uniform flow or a finite value: its parameters.
     pub fn compute(&self) -> Result<Computed, String> {
+        self.compute_seen(&mut |_| ())
+    }
+
+    /// The same; `onlooker` is told before each cell which part of them is done.
+    ///
+    /// # Errors
+    /// As [`Map::compute`].
+    pub fn compute_seen(&self, onlooker: &mut dyn FnMut(f64)) -> Result<Computed, String> {
         let mut table = Table::new(&self.columns());
         let (mut error, mut blank) = (0.0, Vec::new());
-        for cell in 0..self.x.cells * self.y.cells {
+        let cells = self.x.cells * self.y.cells;
+        for cell in 0..cells {
+            onlooker(cell as f64 / cells as f64);
             let (x, y) = (self.x.centre(cell / self.y.cells), self.y.centre(cell % self.y.cells));
             let (value, other) = self
                 .cell(x, y)
