@@ -9,7 +9,8 @@ use cpu_time::ProcessTime;
 use files::write::{atomic, sha256, sha256_file};
 use scene::checkpoint::{Checkpoint, Underway};
 use scene::run::Scene;
-use scene::simulation::{Broken, Judging, Onlooker, Outcome, run_from};
+use scene::simulation::{Judging, Onlooker, run_from};
+use scene::summary::Ended;
 use std::io::{IsTerminal as _, Write as _};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -34,19 +35,6 @@ pub struct Care {
 fn seconds(text: &str) -> Result<Duration, String> {
     let seconds: f64 = text.parse().map_err(|_| format!("{text}: must be a number of seconds"))?;
     Duration::try_from_secs_f64(seconds).map_err(|error| error.to_string())
-}
-
-/// A run that has ended.
-#[derive(Debug)]
-pub struct Ended {
-    /// What it gave; of a run that broke, until then.
-    pub outcome: Outcome,
-    /// Why it went no further, if it broke.
-    pub broken: Option<Broken>,
-    /// Seconds of CPU in the integration, those before the run was killed included.
-    pub seconds: f64,
-    /// Steps that were taken from the checkpoint.
-    pub resumed_steps: u64,
 }
 
 /// Writings take less than this part of the time.

@@ -9,6 +9,7 @@ use files::write::{atomic_all, with_path};
 use plot::style::COLUMN_WIDTH;
 use plot::{ColorScale, Picture};
 use scene::map::{Computed, Value};
+use scene::summary;
 use scene::uniform::stability;
 use serde_json::json;
 use std::path::PathBuf;
@@ -46,24 +47,15 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
         let numbers = map.compute().map_err(|problem| Failure::input(format!("{}: {problem}", recipe.file)))?;
         computed.push((panel.name.as_str(), map, numbers));
     }
-    let (mut files, mut summary, mut words) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut files, mut summaries, mut words) = (Vec::new(), Vec::new(), Vec::new());
     for (name, map, numbers) in &computed {
         let [_, _, value] = map.columns();
         let values = numbers.table.column(value)?;
-        let share = |count: usize| count as f64 / (values.len() + numbers.blank.len()) as f64;
-        let unstable = share(values.iter().filter(|&&value| value > 0.0).count());
-        let (cells, error, blank) = (values.len() + numbers.blank.len(), numbers.error, numbers.blank_share());
-        let reason = (blank > 0.0).then_some(BLANK);
-        summary.push(json!({
-            "panel": name,
-            "value": value,
-            "cells": cells,
-            "unstable_share": unstable,
-            "blank_share": blank,
-            "blank_reason": reason,
-            "error": error,
-        }));
-        let note = reason.map_or(String::new(), |reason| format!(", {:.1} % blank: {reason}", 100.0 * blank));
+        let (unstable, blank) = (numbers.unstable_share(), numbers.blank_share());
+        let (cells, error) = (values.len() + numbers.blank.len(), numbers.error);
+        summaries.push(summary::of_map(name, map, numbers));
+        let note =
+            numbers.blank_reason().map_or(String::new(), |reason| format!(", {:.1} % blank: {reason}", 100.0 * blank));
         words.push(format!("{name}: {cells} cells, {:.1} % unstable{note}, error {error:.1e}", 100.0 * unstable));
         let Some(folder) = &arguments.out else { continue };
         files.push((folder.join(format!("{name}.csv")), numbers.to_csv(map)));
@@ -77,30 +69,31 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
         std::fs::create_dir_all(folder).map_err(|error| with_path(error, folder))?;
         atomic_all(&files)?;
     }
-    print(&if arguments.json { json!({ "schema_version": 1, "maps": summary }).to_string() } else { words.join("\n") })
+    print(&if arguments.json {
+        json!({ "schema_version": 1, "maps": summaries }).to_string()
+    } else {
+        words.join("\n")
+    })
 }
 
 /// Of a scene that is run, the stability of its uniform flow: a map of one point. Nothing is written.
 fn points(recipe: &Recipe, arguments: &Arguments) -> Result<(), Failure> {
-    let (mut summary, mut words) = (Vec::new(), Vec::new());
+    let (mut summaries, mut words) = (Vec::new(), Vec::new());
     for panel in recipe.panels.iter().filter(|panel| panel.kind == Kind::Run) {
         let scene = scene::run::read(&recipe.file, &panel.tables)?;
         let (speed, flow) = (scene.steady_speed, stability(&scene));
-        summary.push(json!({ "panel": panel.name, "steady_speed": speed, "uniform_flow": uniform::as_json(flow) }));
+        summaries.push(json!({ "panel": panel.name, "steady_speed": speed, "uniform_flow": summary::of_flow(flow) }));
         words.push(format!("{}: {}", panel.name, uniform::in_words(flow, scene.ring.pedestrians)));
     }
     if words.is_empty() {
         return Err(Failure::input(format!("{}: has neither [map] nor [run]", recipe.file)));
     }
     print(&if arguments.json {
-        json!({ "schema_version": 1, "points": summary }).to_string()
+        json!({ "schema_version": 1, "points": summaries }).to_string()
     } else {
         words.join("\n")
     })
 }
-
-/// Why a cell is blank.
-const BLANK: &str = "the paper's criterion differs there from the exact one by more than 0.1 %; `margin` is exact";
 
 fn picture(map: &scene::map::Map, numbers: &Computed, values: &[f64]) -> Result<Picture, Failure> {
     let symbol = match map.value {

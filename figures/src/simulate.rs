@@ -1,6 +1,6 @@
 //! Running a scene from the command line: tables, events and a summary.
 
-use crate::checkpoint::{Care, Ended};
+use crate::checkpoint::Care;
 use crate::failure::{Failure, print};
 use crate::panels::{points, trajectories};
 use crate::uniform;
@@ -14,9 +14,10 @@ use plot::{Axis, ColorScale, Lines, Picture, Series, SpaceTime};
 use scene::Overrides;
 use scene::check::{self, Errors};
 use scene::run::Scene;
-use scene::simulation::{Broken, Outcome};
+use scene::simulation::Outcome;
+use scene::summary::{self, Ended};
 use scene::uniform::{Stability, stability};
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -92,7 +93,7 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     let errors = is_checked.then(|| check::errors(&scene, &ended.outcome));
     let errors = errors.as_ref();
     let flow = stability(&scene);
-    let summary = summary(&scene, &ended, flow, errors);
+    let summary = summary::of_run(&scene, &ended, flow, errors);
     let Ended { outcome, broken, seconds, .. } = ended;
     let mut files = Vec::new();
     if let Some(folder) = &arguments.out {
@@ -214,72 +215,6 @@ fn state(outcome: &Outcome) -> Table {
 
 fn pretty(summary: &Value) -> String {
     format!("{summary:#}\n")
-}
-
-fn summary(scene: &Scene, ended: &Ended, flow: Option<Stability>, errors: Option<&Errors>) -> Value {
-    let Ended { outcome, broken, seconds, resumed_steps, .. } = ended;
-    let control = match scene.control {
-        Control::Fixed { step } => json!({ "dt": step }),
-        Control::Adaptive { tolerance } => json!({ "tolerance": tolerance }),
-    };
-    let events: Vec<Value> = outcome
-        .events
-        .iter()
-        .enumerate()
-        .map(|(index, happening)| {
-            let mut event = json!({
-                "event": happening.event.name(),
-                "t": happening.time,
-                "n": happening.pedestrian,
-                "gap": happening.gap,
-                "step": happening.step,
-            });
-            if let Some(errors) = errors {
-                event["error"] = json!(errors.events[index]);
-            }
-            event
-        })
-        .collect();
-    json!({
-        "schema_version": 1,
-        "law": scene.model.name(),
-        "pedestrians": scene.ring.pedestrians,
-        "length": scene.ring.length,
-        "steady_speed": scene.steady_speed,
-        "uniform_flow": uniform::as_json(flow),
-        "method": scene.method.name(),
-        "control": control,
-        "steps": outcome.statistics.steps,
-        "resumed_steps": resumed_steps,
-        "rejected": outcome.statistics.rejected,
-        "right_hand_sides": outcome.statistics.evaluations,
-        "seconds": seconds,
-        "t": outcome.statistics.time,
-        "stop": stop(outcome, broken.as_ref()),
-        "reason": broken.as_ref().map(ToString::to_string),
-        "events": events,
-        "error": errors.map(|errors| json!({ "std": errors.std, "x": errors.positions, "v": errors.speeds })),
-        "jams": scene.keeps_trajectories.then(|| jams(outcome)),
-    })
-}
-
-/// What ended the tables: an event, the end of the run, or why it could not go on.
-fn stop(outcome: &Outcome, broken: Option<&Broken>) -> &'static str {
-    match (outcome.stop(), broken) {
-        (Some(happening), _) => happening.event.name(),
-        (None, Some(broken)) => broken.failure.name(),
-        (None, None) => "t_end",
-    }
-}
-
-fn jams(outcome: &Outcome) -> Value {
-    let extents: Vec<f64> = outcome.drift.jams().iter().map(|jam| jam.extent).collect();
-    json!({
-        "number": extents.len(),
-        "extents": extents,
-        "speed": outcome.drift.speed().map(|(speed, _)| speed),
-        "measured_over": outcome.drift.speed().map(|(_, time)| time),
-    })
 }
 
 /// A number to the digits that are sure, with its error.

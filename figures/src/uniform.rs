@@ -1,7 +1,6 @@
-//! The stability of a scene's uniform flow, in words and as JSON.
+//! The stability of a scene's uniform flow, in words.
 
 use scene::uniform::Stability;
-use serde_json::{Value, json};
 
 /// One line, for a ring of `count` pedestrians; `None` where there is no flow that could be stable.
 pub fn in_words(flow: Option<Stability>, count: usize) -> String {
@@ -22,18 +21,4 @@ pub fn in_words(flow: Option<Stability>, count: usize) -> String {
         None if margin == 0.0 => format!("{flow}: neutral (margin 0), no wave grows, but not all decay; {on_ring}"),
         None => format!("{flow}: stable (margin {margin:.4}) for waves of all lengths; {on_ring}"),
     }
-}
-
-/// The same for `summary.json`.
-pub fn as_json(flow: Option<Stability>) -> Value {
-    flow.map_or(Value::Null, |flow| {
-        json!({
-            "stable": flow.growing.is_none(),
-            "margin": flow.margin,
-            "margin_on_ring": flow.margin_on_ring,
-            "growing_k": flow.growing.map(|(least, largest)| [least, largest]),
-            "growth_rate": flow.growth_rate,
-            "waves": flow.waves,
-        })
-    })
 }

@@ -22,6 +22,26 @@ pub struct RecipeError {
     pub line: usize,
     /// What was found and what would be valid.
     pub problem: String,
+    /// The key that is wrong, where it is one.
+    pub about: Option<Box<About>>,
+}
+
+/// The key that a complaint is about, for programs that show it in their own way.
+#[derive(Clone, Debug, PartialEq)]
+pub struct About {
+    /// The key with its table: `run.t_end`.
+    pub key: String,
+    /// The value found; `None` where the key is missing.
+    pub value: Option<Value>,
+    /// What would be valid, in words: `a number > 0.0`.
+    pub allowed: Option<String>,
+}
+
+impl RecipeError {
+    /// A complaint about a line.
+    pub fn new(file: &str, line: usize, problem: String) -> RecipeError {
+        RecipeError { file: file.to_owned(), line, problem, about: None }
+    }
 }
 
 impl std::fmt::Display for RecipeError {
@@ -41,7 +61,7 @@ pub struct Entry {
     /// Line, counted from 1.
     pub line: usize,
     /// Where the value stands: line and column in characters, both counted from 1; of a text its first character, behind
-    /// the quotation mark. `(0, 0)` for what stands in no file.
+    /// the quotation mark. Of what stands in no file only the order counts.
     pub place: (usize, usize),
     /// The value.
     pub value: Value,
@@ -52,7 +72,20 @@ impl Entry {
     pub fn new(line: usize, value: Value) -> Entry {
         Entry { line, place: (line, 0), value }
     }
+
+    /// The value number `index` of those that a caller gives, which stand in no file.
+    pub fn given(index: usize, value: Value) -> Entry {
+        Entry { line: 0, place: (IN_NO_FILE + index, 1), value }
+    }
+
+    /// Whether the value stands in no file.
+    pub fn is_in_no_file(&self) -> bool {
+        self.line == 0
+    }
 }
+
+/// No file has as many lines.
+const IN_NO_FILE: usize = 1 << 31;
 
 /// A value of a scene file.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,7 +115,7 @@ impl Section {
     /// # Errors
     /// The line and the parser's message when the text is not TOML, or a number is not an `f64`.
     pub fn parse(file: &str, text: &str) -> Result<Section, RecipeError> {
-        let fail = |line, problem| RecipeError { file: file.to_owned(), line, problem };
+        let fail = |line, problem| RecipeError::new(file, line, problem);
         let table = DeTable::parse(text).map_err(|error| {
             let line = error.span().map_or(0, |span| line_of(text, span.start));
             let hint = text.lines().nth(line.wrapping_sub(1)).and_then(hint_in);
@@ -309,12 +342,14 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The complaint that `key` has a value which is allowed by itself but not here.
+    /// The complaint that `key` has a value which is allowed by itself but not here. What the problem says behind "must be"
+    /// is what would be valid.
     pub fn complaint(&self, key: &str, problem: &str) -> RecipeError {
         let entry = self.section.entries.get(key);
         let line = entry.map_or(self.section.line, |entry| entry.line);
         let found = entry.map_or(String::new(), |entry| format!(" = {}", shown(&entry.value)));
-        self.error(line, format!("{}.{key}{found}: {problem}", self.name))
+        let allowed = problem.split_once("must be ").map(|(_, allowed)| allowed);
+        self.error(line, key, format!("{found}: {problem}"), allowed)
     }
 
     /// Ends the reading.
@@ -325,9 +360,8 @@ impl<'a> Reader<'a> {
         match self.section.entries.iter().find(|(key, _)| !self.asked.contains(key.as_str())) {
             None => Ok(()),
             Some((key, entry)) => {
-                let known: Vec<&str> = self.asked.iter().copied().collect();
-                Err(self
-                    .error(entry.line, format!("{}.{key}: unknown key; known here: {}", self.name, known.join(", "))))
+                let known = self.asked.iter().copied().collect::<Vec<&str>>().join(", ");
+                Err(self.error(entry.line, key, format!(": unknown key; known here: {known}"), Some(&known)))
             }
         }
     }
@@ -335,15 +369,21 @@ impl<'a> Reader<'a> {
     fn missing(&self, key: &str, wanted: &str) -> RecipeError {
         let others: Vec<&str> = self.section.entries.keys().map(String::as_str).collect();
         let found = if others.is_empty() { String::new() } else { format!("; found here: {}", others.join(", ")) };
-        self.error(self.section.line, format!("{}.{key} is missing; it must be {wanted}{found}", self.name))
+        self.error(self.section.line, key, format!(" is missing; it must be {wanted}{found}"), Some(wanted))
     }
 
     fn wrong(&self, key: &str, entry: &Entry, wanted: &str) -> RecipeError {
-        self.error(entry.line, format!("{}.{key} = {}: must be {wanted}", self.name, shown(&entry.value)))
+        self.error(entry.line, key, format!(" = {}: must be {wanted}", shown(&entry.value)), Some(wanted))
     }
 
-    fn error(&self, line: usize, problem: String) -> RecipeError {
-        RecipeError { file: self.file.to_owned(), line, problem }
+    /// `words` follow the key.
+    fn error(&self, line: usize, key: &str, words: String, allowed: Option<&str>) -> RecipeError {
+        // a scene itself has no name in its file
+        let name = if self.name == "scene" { key.to_owned() } else { format!("{}.{key}", self.name) };
+        let value = self.section.entries.get(key).map(|entry| entry.value.clone());
+        let about = About { key: name, value, allowed: allowed.map(str::to_owned) };
+        let problem = format!("{}.{key}{words}", self.name);
+        RecipeError { about: Some(Box::new(about)), ..RecipeError::new(self.file, line, problem) }
     }
 }
 

@@ -71,7 +71,7 @@ impl Recipe {
     }
 
     fn error(&self, line: usize, problem: String) -> RecipeError {
-        RecipeError { file: self.file.clone(), line, problem }
+        RecipeError::new(&self.file, line, problem)
     }
 }
 
@@ -81,7 +81,7 @@ impl Recipe {
 /// The file cannot be read, is not TOML, or has an unknown table.
 pub fn read(path: &Path) -> Result<Recipe, RecipeError> {
     let file = path.display().to_string();
-    let text = text::read(path).map_err(|(line, problem)| RecipeError { file: file.clone(), line, problem })?;
+    let text = text::read(path).map_err(|(line, problem)| RecipeError::new(&file, line, problem))?;
     parse(&file, &text)
 }
 
@@ -90,25 +90,32 @@ pub fn read(path: &Path) -> Result<Recipe, RecipeError> {
 /// # Errors
 /// The text is not TOML, or has an unknown table.
 pub fn parse(file: &str, text: &str) -> Result<Recipe, RecipeError> {
-    let document = Section::parse(file, text)?;
-    let complain = |line, problem| RecipeError { file: file.to_owned(), line, problem };
+    read_section(file, &Section::parse(file, text)?)
+}
+
+/// Reads a scene from the tables of its file; `file` is only for messages.
+///
+/// # Errors
+/// There is an unknown table.
+pub fn read_section(file: &str, document: &Section) -> Result<Recipe, RecipeError> {
+    let complain = |line, problem| RecipeError::new(file, line, problem);
     for (key, entry) in &document.entries {
         if !DETERMINING.contains(&key.as_str()) && !DESCRIBING.contains(&key.as_str()) {
             let known = [&DESCRIBING[..], &DETERMINING[..]].concat().join(", ");
             return Err(complain(entry.line, format!("{key}: unknown key; known here: {known}")));
         }
     }
-    let base = determining(&document);
+    let base = determining(document);
     let panels = match document.section("panel") {
         None => vec![Panel { name: "main".to_owned(), kind: kind(&base), tables: base }],
         Some(named) => panels(&base, named).map_err(|(line, problem)| complain(line, problem))?,
     };
     Ok(Recipe {
         file: file.to_owned(),
-        title: words(&document, "title").map_err(|(line, problem)| complain(line, problem))?,
-        source: words(&document, "source").map_err(|(line, problem)| complain(line, problem))?,
+        title: words(document, "title").map_err(|(line, problem)| complain(line, problem))?,
+        source: words(document, "source").map_err(|(line, problem)| complain(line, problem))?,
         panels,
-        origin: origin(&document).map_err(|(line, problem)| complain(line, problem))?,
+        origin: origin(document).map_err(|(line, problem)| complain(line, problem))?,
     })
 }
 

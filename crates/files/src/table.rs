@@ -233,6 +233,11 @@ impl<V: Value> Grid<V> {
         self.cells.is_empty()
     }
 
+    /// All cells, row by row.
+    pub fn into_cells(self) -> Vec<V> {
+        self.cells
+    }
+
     /// The rows, each a slice with one cell for each column.
     pub fn rows(&self) -> impl Iterator<Item = &[V]> {
         self.cells.chunks_exact(self.columns.len().max(1))

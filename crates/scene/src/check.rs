@@ -5,7 +5,7 @@
 //! the run, and its error is the larger one. Of fixed steps the order tells how the difference and the error compare.
 
 use crate::run::Scene;
-use crate::simulation::{Outcome, run};
+use crate::simulation::{Onlooker, Outcome, run_from};
 use jam::events::{Event, Happening};
 use jam::states::FormKind;
 use ode::{Control, Method};
@@ -34,8 +34,13 @@ const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
 /// Runs the scene once more and compares.
 pub fn errors(scene: &Scene, outcome: &Outcome) -> Errors {
+    errors_seen(scene, outcome, &mut ())
+}
+
+/// The same, with somebody who looks on while the scene runs once more.
+pub fn errors_seen(scene: &Scene, outcome: &Outcome, onlooker: &mut dyn Onlooker) -> Errors {
     let Second { scene: second, factor } = second(scene, outcome);
-    let other = run(&second).unwrap_or_else(|broken| *broken.outcome);
+    let other = run_from(&second, None, onlooker).unwrap_or_else(|broken| *broken.outcome);
     let difference = |numbers: &[f64], others: &[f64]| factor * difference(numbers, others);
     let gathered = gathered(scene, outcome);
     let ends_alike = outcome.stop().map(|stop| stop.event) == other.stop().map(|stop| stop.event);

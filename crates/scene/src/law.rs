@@ -1,6 +1,6 @@
 //! `[law]`: kind and parameters. A term whose parameter is not named is not computed.
 
-use files::reader::{Entry, NOT_NEGATIVE, POSITIVE, Reader, RecipeError, Section, Value};
+use files::reader::{About, Entry, NOT_NEGATIVE, POSITIVE, Reader, RecipeError, Section, Value};
 use formula::{Definition, Given, Place};
 use jam::laws::presets::PRESETS;
 use jam::laws::{Algebraic, Formula, Law, Model, Range};
@@ -70,7 +70,7 @@ fn formula(file: &str, section: &Section) -> Result<Model, RecipeError> {
     let mut lines: Vec<(&String, &Entry)> = section.entries.iter().filter(|(name, _)| *name != "kind").collect();
     lines.sort_by_key(|(_, entry)| entry.place);
     let mut definitions = Vec::new();
-    for (name, entry) in lines {
+    for &(name, entry) in &lines {
         let given = match &entry.value {
             Value::Number(number) => Given::Number(*number),
             Value::Text(text) => Given::Text(text),
@@ -79,14 +79,22 @@ fn formula(file: &str, section: &Section) -> Result<Model, RecipeError> {
                 return Err(law.complaint(name, "must be a number or an expression in quotation marks"));
             }
         };
-        let (key, value) = (place(entry.line, 1), place(entry.place.0, entry.place.1));
+        // a key stands on the line of its value
+        let (key, value) = (place(entry.place.0, 1), place(entry.place.0, entry.place.1));
         definitions.push(Definition { name, key, value, given });
     }
     let graph = formula::law(file, place(section.line, 1), &definitions);
-    let law = graph.and_then(Formula::new).map_err(|error| RecipeError {
-        file: file.to_owned(),
-        line: error.place.line as usize,
-        problem: format!("column {}: {}; valid: {}", error.place.column, error.found, error.valid),
+    let law = graph.and_then(Formula::new).map_err(|error| {
+        let line = error.place.line as usize;
+        let problem = format!("column {}: {}; valid: {}", error.place.column, error.found, error.valid);
+        // the last that begins no later than the error
+        let entry = lines.iter().rev().find(|(_, entry)| entry.place.0 <= line);
+        let about = entry.map(|(name, entry)| {
+            let (key, value) = (format!("law.{name}"), Some(entry.value.clone()));
+            Box::new(About { key, value, allowed: Some(error.valid) })
+        });
+        let line = if entry.is_some_and(|(_, entry)| entry.is_in_no_file()) { 0 } else { line };
+        RecipeError { about, ..RecipeError::new(file, line, problem) }
     })?;
     Ok(Model::Formula(law))
 }

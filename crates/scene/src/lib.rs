@@ -1,6 +1,6 @@
 //! From a scene file to tables: validated scenes ([`law`], [`run`], [`map`], [`curve`]) and their numbers, in memory;
-//! long runs as bytes to go on from ([`checkpoint`]); how far their numbers are off ([`check`]).
-//! No file is opened here, so that the tables can be computed wherever Rust runs.
+//! long runs as bytes to go on from ([`checkpoint`]); how far their numbers are off ([`check`]); what is told of them in
+//! the end ([`summary`]). No file is opened here, so that the tables can be computed wherever Rust runs.
 
 pub mod check;
 pub mod checkpoint;
@@ -10,6 +10,7 @@ pub mod map;
 pub mod overrides;
 pub mod run;
 pub mod simulation;
+pub mod summary;
 pub mod uniform;
 
 pub use files::reader::RecipeError;

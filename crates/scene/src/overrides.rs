@@ -1,4 +1,4 @@
-//! Values from the command line that replace those of `[run]`.
+//! Values that replace those of a scene: from the command line those of `[run]`, from a program any.
 
 use files::reader::{Entry, Section, Value};
 
@@ -43,30 +43,51 @@ impl Overrides {
 
     /// The tables of a scene with these values in `[run]`. Their line is 0: they stand in no file.
     pub fn apply(&self, tables: &Section) -> Section {
-        let mut run = Section::default();
-        let mut set = |key: &str, value: Option<Value>| {
-            if let Some(value) = value {
-                run.entries.insert(key.to_owned(), Entry::new(0, value));
-            }
-        };
-        set("method", self.method.clone().map(Value::Text));
-        set("state", self.state.clone().map(Value::Text));
-        set("tolerance", self.tolerance.map(Value::Number));
-        set("dt", self.dt.map(Value::Number));
-        set("t_end", self.t_end.map(Value::Number));
-        set("sample", self.sample.map(Value::Number));
-        let mut tables = tables.clone();
-        if let Some(Value::Section(old)) = tables.entries.get_mut("run").map(|entry| &mut entry.value) {
-            if self.dt.is_some() {
-                old.entries.remove("tolerance");
-            }
-            if self.tolerance.is_some() {
-                old.entries.remove("dt");
+        let text = |value: &Option<String>| value.clone().map(Value::Text);
+        let number = |value: Option<f64>| value.map(Value::Number);
+        let values = [
+            ("run.method", text(&self.method)),
+            ("run.state", text(&self.state)),
+            ("run.tolerance", number(self.tolerance)),
+            ("run.dt", number(self.dt)),
+            ("run.t_end", number(self.t_end)),
+            ("run.sample", number(self.sample)),
+        ];
+        set(tables, values.into_iter().filter_map(|(key, value)| Some((key, value?))))
+    }
+}
+
+/// The tables of a scene with other values at these dotted keys (`law.a_v`): what stood there is replaced, a table too.
+/// Of `run.dt` and `run.tolerance` the one that is set removes the other.
+pub fn set<'a>(tables: &Section, values: impl IntoIterator<Item = (&'a str, Value)>) -> Section {
+    let values: Vec<_> = values.into_iter().collect();
+    let mut tables = tables.clone();
+    if let Some(Value::Section(run)) = tables.entries.get_mut("run").map(|entry| &mut entry.value) {
+        for (key, other) in [("run.dt", "tolerance"), ("run.tolerance", "dt")] {
+            if values.iter().any(|(name, _)| *name == key) {
+                run.entries.remove(other);
             }
         }
-        let mut over = Section::default();
-        over.entries.insert("run".to_owned(), Entry::new(0, Value::Section(run)));
-        tables.overlay(&over);
-        tables
+    }
+    for (index, (key, value)) in values.into_iter().enumerate() {
+        put(&mut tables, key, Entry::given(index, value));
+    }
+    tables
+}
+
+fn put(tables: &mut Section, key: &str, entry: Entry) {
+    let Some((table, rest)) = key.split_once('.') else {
+        tables.entries.insert(key.to_owned(), entry);
+        return;
+    };
+    let below = tables
+        .entries
+        .entry(table.to_owned())
+        .or_insert_with(|| Entry { value: Value::Section(Section::default()), ..entry.clone() });
+    if !matches!(below.value, Value::Section(_)) {
+        below.value = Value::Section(Section::default());
+    }
+    if let Value::Section(section) = &mut below.value {
+        put(section, rest, entry);
     }
 }

@@ -150,3 +150,20 @@ fn decimal_commas_and_typographic_minus_signs_are_named() {
         assert!(error.problem.contains(words), "{error}");
     }
 }
+
+#[test]
+fn complaints_say_apart_what_they_are_about() {
+    let section = parse("a = -1.5\nb = 2.0");
+    let mut reader = Reader::new("my.toml", "law", &section);
+    let about = |error: files::reader::RecipeError| *error.about.expect("about a key");
+    let wrong = about(reader.number("a", POSITIVE).expect_err("negative"));
+    assert_eq!((wrong.key.as_str(), wrong.value), ("law.a", Some(Value::Number(-1.5))));
+    assert_eq!(wrong.allowed.as_deref(), Some("a number > 0.0"));
+    let missing = about(reader.number("c", POSITIVE).expect_err("missing"));
+    assert_eq!((missing.key.as_str(), missing.value), ("law.c", None));
+    assert_eq!(missing.allowed.as_deref(), Some("a number > 0.0"));
+    let complaint = about(reader.complaint("b", "is too large; must be below 1"));
+    assert_eq!(complaint.allowed.as_deref(), Some("below 1"));
+    let unknown = about(reader.finish().expect_err("b was not asked for"));
+    assert_eq!((unknown.key.as_str(), unknown.allowed.as_deref()), ("law.b", Some("a, c")));
+}

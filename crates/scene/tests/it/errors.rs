@@ -483,3 +483,24 @@ fn a_file_that_is_not_there() {
     let error = recipe::read(std::path::Path::new("no/such/scene.toml")).expect_err("there is no such file");
     assert!(error.to_string().starts_with("no/such/scene.toml: "), "{error}");
 }
+
+/// Of a formula the complaint names the expression, in a file by its line, of values that a program gives by their key alone.
+#[test]
+fn complaints_about_formulas_name_the_expression() {
+    use files::reader::{Entry, Section, Value};
+    let text = "[law]\nkind = \"formula\"\nacceleration = \"V - v\"\nV = \"tanh(s - c)\"\nbody = 0.0\n";
+    let mut section = Section::parse("my.toml", text).expect("TOML");
+    let law = |section: &Section| {
+        let error = scene::law::read("my.toml", section.section("law").expect("[law]")).expect_err("c has no value");
+        (error.line, error.about.expect("about a key").key)
+    };
+    assert_eq!(law(&section), (4, "law.V".to_owned()));
+    let mut given = Section::default();
+    let words = |text: &str| Value::Text(text.to_owned());
+    let values = [words("formula"), words("V - v"), words("tanh(s - c)"), Value::Number(0.0)];
+    for (index, (key, value)) in ["kind", "acceleration", "V", "body"].iter().zip(values).enumerate() {
+        given.entries.insert((*key).to_owned(), Entry::given(index, value));
+    }
+    section.entries.insert("law".to_owned(), Entry::given(9, Value::Section(given)));
+    assert_eq!(law(&section), (0, "law.V".to_owned()));
+}

@@ -63,3 +63,14 @@ fn complaints_about_given_values_name_no_line() {
     let error = scene::run::read("my.toml", &tables).expect_err("a negative time");
     assert_eq!(error.to_string(), "my.toml: run.t_end = -1: must be a number > 0.0");
 }
+
+#[test]
+fn any_value_can_be_set_and_a_step_takes_the_place_of_a_tolerance() {
+    use files::reader::{Section, Value};
+    let text = "[law]\nv0 = 1.0\n[run]\ntolerance = 1e-9\nsample = 1.0";
+    let tables = Section::parse("my.toml", text).expect("TOML");
+    let values = [("law.v0", Value::Number(2.0)), ("run.dt", Value::Number(0.5)), ("map.x.cells", Value::Number(9.0))];
+    let mut lines = Vec::new();
+    scene::overrides::set(&tables, values).canonical("", &mut lines);
+    assert_eq!(lines, ["law.v0 = 2.0", "map.x.cells = 9.0", "run.dt = 0.5", "run.sample = 1.0"]);
+}

@@ -1,0 +1,39 @@
+"""Force-based models of pedestrians (or cars) in single file on a ring: runs, stability maps, stability.
+
+    >>> import jamming
+    >>> run = jamming.simulate({
+    ...     "law": {"kind": "logarithmic", "v0": 1.0, "epsilon": 0.01},
+    ...     "ring": {"pedestrians": 10, "length": 20.0},
+    ...     "start": {"shift": 0.1},
+    ...     "run": {"t_end": 20.0, "sample": 1.0, "method": "dop853", "tolerance": 1e-9},
+    ... })
+    >>> run.x.shape, run.stop
+    ((21, 10), 't_end')
+
+Each pedestrian n obeys ``dx_n/dt = v_n``, ``dv_n/dt = f(s_n, v_n, ...)`` with the spacing ``s_n = x_{n+1} - x_n`` to the one
+ahead; the last is behind the first, a length of the ring later. A scene says which law f, on which ring, from which start
+and for how long: see ``scenes/ring.toml`` and ``scenes/map.toml``, and ``scenes/FORMULAS.md`` for laws of your own. All
+quantities are dimensionless: lengths in units of a_0 (half the length of a standing pedestrian), times in units of the
+relaxation time tau, speeds in units of a_0/tau.
+
+The numbers are those of the command line, to the last bit. Source of the laws and of most scenes: Chraibi et al.,
+Phys. Rev. E 92, 042809 (2015).
+"""
+
+from ._errors import RunError, SceneError
+from ._map import Map, map
+from ._run import Event, Run, simulate
+from ._stability import Ring, Stability, stability
+
+__all__ = [
+    "Event",
+    "Map",
+    "Ring",
+    "Run",
+    "RunError",
+    "SceneError",
+    "Stability",
+    "map",
+    "simulate",
+    "stability",
+]

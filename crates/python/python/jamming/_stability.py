@@ -1,0 +1,111 @@
+"""Linear stability of one uniform flow."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _native
+from ._scene import Scene, given, plain
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+class Ring(NamedTuple):
+    """What small waves do on a ring of N pedestrians, k = 2 pi l / N."""
+
+    margin: float
+    """The largest margin of its waves: negative where all decay."""
+    growth_rate: float
+    """Re z of the fastest wave, in units of 1/tau."""
+    waves: int
+    """How often that wave goes into the ring: l."""
+
+
+class Stability:
+    """What becomes of small waves exp(z t + i k n) on the uniform flow with one headway; see `jamming.map` for the equations."""
+
+    headway: float
+    """The spacing L/N of the uniform flow, in units of a_0."""
+    speed: float
+    """The steady speed v', at which the acceleration is 0, in units of a_0/tau."""
+    margin: float | None
+    """How far the flow is from instability: negative where the waves of all lengths decay. None where the flow lies on a
+    kink of the law and has no derivatives."""
+    margin_error: float | None
+    """The difference from the margin by a finer grid of waves."""
+    growing: tuple[float, float] | None
+    """The least and the largest wave number k that grows (0: the limit of long waves); None where none does."""
+
+    def __init__(self, headway: float, response: _native.Response) -> None:
+        self.headway, self.speed, self._response = headway, response.speed, response
+        self.margin = self.margin_error = None
+        if (margins := response.margin()) is not None:
+            self.margin, self.margin_error = margins[0], abs(margins[0] - margins[1])
+        self.growing = response.growing()
+
+    def __repr__(self) -> str:
+        words = {True: "stable", False: "unstable", None: "on a kink of the law"}[self.stable]
+        return f"<Stability: headway {self.headway!r}, speed {self.speed:.6g}: {words}>"
+
+    @property
+    def stable(self) -> bool | None:
+        """Whether waves of no length grow; None where the flow lies on a kink of the law."""
+        return None if self.margin is None else self.growing is None
+
+    def growth_rate(self, k: ArrayLike) -> NDArray[np.float64]:
+        """Re z of the faster root, in units of 1/tau, for wave numbers k in (0, pi] of any shape; NaN on a kink of the law."""
+        return self._rates(k)[0]
+
+    def growth_rate_error(self, k: ArrayLike) -> NDArray[np.float64]:
+        """The estimated error of `growth_rate`: the change by one step of Newton's method with a residual in twice the digits."""
+        rate, refined = self._rates(k)
+        return np.abs(rate - refined)
+
+    def _rates(self, k: ArrayLike) -> NDArray[np.float64]:
+        k = np.asarray(k, dtype=np.float64)
+        if not np.all((k > 0.0) & (k <= np.pi)):
+            raise ValueError("a wave number k must be above 0 and at most pi")
+        rates = self._response.growth_rates(np.ascontiguousarray(k.ravel()))
+        return np.full((2, *k.shape), np.nan) if rates is None else np.reshape(rates, (2, *k.shape))
+
+    def on_ring(self, pedestrians: int) -> Ring | None:
+        """What the waves of a ring of so many (at least 2) do; None where the flow lies on a kink of the law."""
+        if pedestrians < 2:
+            raise ValueError(f"pedestrians = {pedestrians}: must be at least 2")
+        found = self._response.on_ring(pedestrians)
+        return None if found is None else Ring(*found)
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draws the growth rate against the wave number with matplotlib."""
+        from . import _plot
+
+        return _plot.growth(self, ax)
+
+
+def stability(law: Scene, headway: float, *, speed: float | None = None, **overrides: Any) -> Stability:
+    """The stability of the uniform flow in which everybody keeps the spacing ``headway`` and the steady speed.
+
+    law: the table ``[law]`` as a dictionary or as text, or a scene that has one: a path, a text or a dictionary.
+    headway: L/N, in units of a_0.
+    speed: which steady speed is meant where a formula has several: the nearest is taken.
+    overrides: values that replace those of the scene, by dotted keys, ``**{"law.a_v": 0.3}``.
+
+    Raises `SceneError` (a ValueError) for a law that is wrong or has no uniform flow at this headway.
+
+    >>> import numpy as np
+    >>> law = {"kind": "formula", "acceleration": "kappa*(V - v)", "V": "tanh(s - 2) + tanh(2)", "kappa": 1.0, "body": 0.0}
+    >>> flow = stability(law, 2.0)
+    >>> flow
+    <Stability: headway 2.0, speed 0.964028: unstable>
+    >>> flow.growth_rate([0.1, 1.0, np.pi]).round(6).tolist()      # long waves grow, short ones decay
+    [0.004872, 0.144938, -0.5]
+    >>> stability(law, 2.0, **{"law.kappa": 2.5}).stable           # kappa > 2 V'(s) = 2
+    True
+    >>> flow.on_ring(20).waves
+    4
+    """
+    return Stability(headway, _native.response(given(law), headway, speed, plain(overrides)))

@@ -1,0 +1,141 @@
+//! What is told of a run or a map in the end, as JSON.
+
+use crate::check::Errors;
+use crate::map::{Computed, Map};
+use crate::run::Scene;
+use crate::simulation::{Broken, Outcome};
+use crate::uniform::Stability;
+use jam::outcome::{Decision, Verdict};
+use ode::Control;
+use serde_json::{Value, json};
+
+/// A run that has ended.
+#[derive(Debug)]
+pub struct Ended {
+    /// What it gave; of a run that broke, until then.
+    pub outcome: Outcome,
+    /// Why it went no further, if it broke.
+    pub broken: Option<Broken>,
+    /// Seconds of CPU in the integration, those before the run was killed included.
+    pub seconds: f64,
+    /// Steps that were taken from the checkpoint.
+    pub resumed_steps: u64,
+}
+
+/// Of a run: what `summary.json` says.
+pub fn of_run(scene: &Scene, ended: &Ended, flow: Option<Stability>, errors: Option<&Errors>) -> Value {
+    let Ended { outcome, broken, seconds, resumed_steps, .. } = ended;
+    let control = match scene.control {
+        Control::Fixed { step } => json!({ "dt": step }),
+        Control::Adaptive { tolerance } => json!({ "tolerance": tolerance }),
+    };
+    let events: Vec<Value> = outcome
+        .events
+        .iter()
+        .enumerate()
+        .map(|(index, happening)| {
+            let mut event = json!({
+                "event": happening.event.name(),
+                "t": happening.time,
+                "n": happening.pedestrian,
+                "gap": happening.gap,
+                "step": happening.step,
+            });
+            if let Some(errors) = errors {
+                event["error"] = json!(errors.events[index]);
+            }
+            event
+        })
+        .collect();
+    json!({
+        "schema_version": 1,
+        "law": scene.model.name(),
+        "pedestrians": scene.ring.pedestrians,
+        "length": scene.ring.length,
+        "steady_speed": scene.steady_speed,
+        "uniform_flow": of_flow(flow),
+        "method": scene.method.name(),
+        "control": control,
+        "steps": outcome.statistics.steps,
+        "resumed_steps": resumed_steps,
+        "rejected": outcome.statistics.rejected,
+        "right_hand_sides": outcome.statistics.evaluations,
+        "seconds": seconds,
+        "t": outcome.statistics.time,
+        "stop": stop(outcome, broken.as_ref()),
+        "reason": broken.as_ref().map(ToString::to_string),
+        "events": events,
+        "error": errors.map(|errors| json!({ "std": errors.std, "x": errors.positions, "v": errors.speeds })),
+        "outcome": outcome.verdict.as_ref().map(of_verdict),
+        "jams": scene.keeps_trajectories.then(|| jams(outcome)),
+    })
+}
+
+/// What became of a run, and what that rests on.
+pub fn of_verdict(verdict: &Verdict) -> Value {
+    let missing = match &verdict.decision {
+        Decision::Missing(missing) => Some(missing),
+        _ => None,
+    };
+    // a distance without bound has no number
+    let distance = verdict.distance.is_finite().then_some(verdict.distance);
+    json!({
+        "class": verdict.class.name(),
+        "t": verdict.time,
+        "decided_by": verdict.decision.name(),
+        "missing": missing,
+        "backward_flow": verdict.backward_flow,
+        "least_gap": verdict.least_gap,
+        "least_speed": verdict.least_speed,
+        "std": verdict.std,
+        "wave_speed": verdict.wave_speed,
+        "distance": distance,
+    })
+}
+
+/// What ended the tables: an event, the end of the run, or why it could not go on.
+fn stop(outcome: &Outcome, broken: Option<&Broken>) -> &'static str {
+    match (outcome.stop(), broken) {
+        (Some(happening), _) => happening.event.name(),
+        (None, Some(broken)) => broken.failure.name(),
+        (None, None) => "t_end",
+    }
+}
+
+fn jams(outcome: &Outcome) -> Value {
+    let extents: Vec<f64> = outcome.drift.jams().iter().map(|jam| jam.extent).collect();
+    json!({
+        "number": extents.len(),
+        "extents": extents,
+        "speed": outcome.drift.speed().map(|(speed, _)| speed),
+        "measured_over": outcome.drift.speed().map(|(_, time)| time),
+    })
+}
+
+/// Of the uniform flow; null where there is none that could be stable.
+pub fn of_flow(flow: Option<Stability>) -> Value {
+    flow.map_or(Value::Null, |flow| {
+        json!({
+            "stable": flow.growing.is_none(),
+            "margin": flow.margin,
+            "margin_on_ring": flow.margin_on_ring,
+            "growing_k": flow.growing.map(|(least, largest)| [least, largest]),
+            "growth_rate": flow.growth_rate,
+            "waves": flow.waves,
+        })
+    })
+}
+
+/// Of a map, the panel `name` of its scene.
+pub fn of_map(name: &str, map: &Map, computed: &Computed) -> Value {
+    let [_, _, value] = map.columns();
+    json!({
+        "panel": name,
+        "value": value,
+        "cells": map.x.cells * map.y.cells,
+        "unstable_share": computed.unstable_share(),
+        "blank_share": computed.blank_share(),
+        "blank_reason": computed.blank_reason(),
+        "error": computed.error,
+    })
+}
