@@ -84,7 +84,7 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
 fn points(recipe: &Recipe, arguments: &Arguments) -> Result<(), Failure> {
     let (mut summary, mut words) = (Vec::new(), Vec::new());
     for panel in recipe.panels.iter().filter(|panel| panel.kind == Kind::Run) {
-        let scene = scene::run::read(&recipe.file, &panel.tables)?;
+        let scene = scene::run::read_unrun(&recipe.file, &panel.tables)?;
         let (speed, flow) = (scene.steady_speed, stability(&scene));
         summary.push(json!({ "panel": panel.name, "steady_speed": speed, "uniform_flow": uniform::as_json(flow) }));
         words.push(format!("{}: {}", panel.name, uniform::in_words(flow, scene.ring.pedestrians)));
