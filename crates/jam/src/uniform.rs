@@ -79,7 +79,7 @@ pub fn of_formula(formula: &Formula, headway: f64, wanted: Option<f64>) -> Resul
     let scale = if scale > 0.0 { scale } else { 1.0 };
     let falls = |speeds: &[f64]| -> Vec<f64> {
         let acceleration = |speed: f64| formula.uniform(headway, speed);
-        let values: Vec<f64> = speeds.iter().map(|speed| acceleration(*speed)).collect();
+        let values = formula.uniform_at(headway, speeds);
         let pairs = speeds.windows(2).zip(values.windows(2));
         pairs
             .filter(|(_, value)| value[0] > 0.0 && value[1] <= 0.0)

@@ -57,6 +57,27 @@ const MOST_FIXED_STEPS: u64 = 100_000_000_000;
 /// # Errors
 /// What is missing, unknown or out of range, with file and line; gaps that are closed at the start; no uniform flow.
 pub fn read(file: &str, tables: &Section) -> Result<Scene, RecipeError> {
+    read_for(file, tables, Purpose::Run)
+}
+
+/// As [`read`], of a scene that is not to be run: it may have tables and steps beyond all bounds.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_unrun(file: &str, tables: &Section) -> Result<Scene, RecipeError> {
+    read_for(file, tables, Purpose::Flow)
+}
+
+/// What a scene is read for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Purpose {
+    /// To be run.
+    Run,
+    /// For its uniform flow.
+    Flow,
+}
+
+fn read_for(file: &str, tables: &Section, purpose: Purpose) -> Result<Scene, RecipeError> {
     let mut top = Reader::new(file, "scene", tables);
     let model = law::read(file, top.section("law")?)?;
     let top_start = top.section("start")?;
@@ -111,12 +132,12 @@ pub fn read(file: &str, tables: &Section) -> Result<Scene, RecipeError> {
     }
     let keeps_trajectories = !run.has("record") || run.one_of("record", &[("std", false), ("trajectories", true)])?;
     let rows = (t_end / sample).floor() * if keeps_trajectories { ring.pedestrians as f64 } else { 1.0 };
-    if rows > MOST_ROWS {
+    if rows > MOST_ROWS && purpose == Purpose::Run {
         let problem =
             format!("gives a table of {rows:e} rows, more than {MOST_ROWS:e}; sample less often, or record = \"std\"");
         return Err(run.complaint("sample", &problem));
     }
-    let most_steps = most_steps(&mut run, control, t_end)?;
+    let most_steps = most_steps(&mut run, control, t_end, purpose)?;
     if matches!(control, Control::Adaptive { .. }) && t_end < SHORTEST_RUN {
         let problem = format!("too short for steps of adaptive length; must be at least {SHORTEST_RUN:e}");
         return Err(run.complaint("t_end", &problem));
@@ -219,13 +240,13 @@ fn ring(file: &str, ring: &Section, start: &Section, model: &Model) -> Result<(R
 }
 
 /// `most_steps`, or what is usual. Of fixed steps the number is known before the first.
-fn most_steps(run: &mut Reader<'_>, control: Control, t_end: f64) -> Result<u64, RecipeError> {
+fn most_steps(run: &mut Reader<'_>, control: Control, t_end: f64, purpose: Purpose) -> Result<u64, RecipeError> {
     let named = run.optional_number("most_steps", 1.0..=MOST_FIXED_STEPS as f64)?.map(|most| most as u64);
     match control {
         Control::Adaptive { .. } => Ok(named.unwrap_or(ode::MOST_STEPS)),
         Control::Fixed { step } => {
             let most = named.unwrap_or(MOST_FIXED_STEPS);
-            if t_end / step > most as f64 {
+            if t_end / step > most as f64 && purpose == Purpose::Run {
                 let problem = format!("gives {:e} steps; at most {:e}", t_end / step, most as f64);
                 return Err(run.complaint("dt", &problem));
             }
