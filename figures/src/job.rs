@@ -1,13 +1,15 @@
 //! A figure's binary: tables first, from runs and laws; then the picture, from the tables alone.
 
 use crate::failure::{Failure, exit};
+use crate::planes::cells_of;
 use clap::Parser;
 use files::recipe::{self, Kind, Panel, Recipe};
 use files::table::{Cell, Sheet, Table};
 use files::write::{atomic, with_path};
 use plot::Picture;
+use scene::sweep::{self, Sweep};
 use serde_json::{Map, Value, json};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// The command line of every figure.
@@ -185,6 +187,33 @@ impl Job {
     /// It is missing.
     pub fn accuracy(&self, name: &str) -> Result<Sheet, Failure> {
         Ok(Sheet::read(&self.arguments.reference.with_file_name("accuracy").join(format!("{name}.csv")))?)
+    }
+
+    /// The cells of the sweep of a panel, as committed: a plane takes minutes. The table is taken over under the panel's name.
+    ///
+    /// # Errors
+    /// It is missing, or not one of this sweep.
+    pub fn take_outcomes(&self, panel: &str) -> Result<(), Failure> {
+        let file = self.arguments.reference.with_file_name("outcomes").join(format!("{panel}.csv"));
+        let bytes = std::fs::read(&file).map_err(|error| with_path(error, &file))?;
+        self.outcomes(panel, &file, &bytes)?;
+        Ok(atomic(&self.arguments.tables.join(format!("{panel}.csv")), &bytes)?)
+    }
+
+    /// The sweep of a panel, and its cells from the table of this figure.
+    ///
+    /// # Errors
+    /// As [`Job::take_outcomes`].
+    pub fn plane(&self, panel: &str) -> Result<(Sweep, Vec<sweep::Cell>), Failure> {
+        let file = self.arguments.tables.join(format!("{panel}.csv"));
+        let bytes = std::fs::read(&file).map_err(|error| with_path(error, &file))?;
+        self.outcomes(panel, &file, &bytes)
+    }
+
+    fn outcomes(&self, panel: &str, file: &Path, bytes: &[u8]) -> Result<(Sweep, Vec<sweep::Cell>), Failure> {
+        let sweep = sweep::read(&self.recipe.file, &self.panel(panel)?.tables)?;
+        let cells = cells_of(&file.display().to_string(), &String::from_utf8_lossy(bytes), &sweep)?;
+        Ok((sweep, cells))
     }
 
     /// Reads a table of archived timings: seconds are measured once, on one machine, and kept.

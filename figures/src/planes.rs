@@ -38,11 +38,7 @@ pub fn picture(sweep: &Sweep, cells: &[Cell]) -> Result<Picture, Failure> {
 ///
 /// # Errors
 /// The cells of a plane are not those of the plane.
-pub fn grid(
-    planes: &[(&str, &Sweep, &[Cell])],
-    columns: usize,
-    [width, height]: [f64; 2],
-) -> Result<Picture, Failure> {
+pub fn grid(planes: &[(&str, &Sweep, &[Cell])], columns: usize, [width, height]: [f64; 2]) -> Result<Picture, Failure> {
     let mut picture = Picture::new(width, height).columns(columns);
     let mut shown = Shown { classes: [false; LOOKS.len()], lines: [false; 2] };
     for (index, (title, sweep, cells)) in planes.iter().enumerate() {

@@ -8,6 +8,7 @@ use files::recipe::{self, Kind};
 use files::table::Table;
 use files::write::atomic_all;
 use jam::events::Happening;
+use jam::outcome::{Decision, Verdict};
 use ode::{Control, Method};
 use plot::style::COLUMN_WIDTH;
 use plot::{Axis, ColorScale, Lines, Picture, Series, SpaceTime};
@@ -281,10 +282,25 @@ fn in_words(
         let (std, x, v) = (number(errors.std), number(errors.positions), number(errors.speeds));
         let _ = write!(text, "\nestimated errors: std {std}; at the end x {x}, v {v}");
     }
+    if let Some(verdict) = &outcome.verdict {
+        let _ = write!(text, "\n{}", fate(verdict));
+    }
     if let Some((speed, time)) = outcome.drift.speed() {
         let count = outcome.drift.jams().len();
         let jams = if count == 1 { "jam" } else { "jams" };
         let _ = write!(text, "\n{count} {jams}, travelling at {speed:.4} (mean over the last {})", rounded(time));
     }
     text
+}
+
+/// What became of the run, in a line.
+fn fate(verdict: &Verdict) -> String {
+    let Verdict { class, time, decision, .. } = verdict;
+    match decision {
+        Decision::Missing(missing) => format!("outcome: undecided; needs {missing}"),
+        decided => {
+            let speed = verdict.wave_speed.map_or(String::new(), |speed| format!(", travelling at {speed:.4}"));
+            format!("outcome: {}{speed} ({} at t = {time:.1})", class.in_words(), decided.name())
+        }
+    }
 }

@@ -35,9 +35,11 @@ const SHARED_SOURCES: [&str; 10] = [
     "data/reference/",
 ];
 /// Sources that supplements share: no figure of the paper reads them.
-const SUPPLEMENT_SOURCES: [&str; 4] = ["crates/reference/", "crates/studies/", "data/accuracy/", "data/timing/"];
+const SUPPLEMENT_SOURCES: [&str; 5] =
+    ["crates/reference/", "crates/studies/", "data/accuracy/", "data/outcomes/", "data/timing/"];
 /// Folders that are searched for sources.
-const SOURCE_FOLDERS: [&str; 5] = ["crates", "figures", "data/accuracy", "data/reference", "data/timing"];
+const SOURCE_FOLDERS: [&str; 6] =
+    ["crates", "figures", "data/accuracy", "data/outcomes", "data/reference", "data/timing"];
 /// Below the folders searched, what reaches no figure: the page for browsers, the programs about the result, solutions to
 /// compare with, archived benchmarks.
 const NO_SOURCES: [&str; 9] = [

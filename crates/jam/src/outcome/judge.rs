@@ -25,6 +25,8 @@ pub struct Judge {
     std: f64,
     /// The end of the step looked at last.
     seen: f64,
+    /// The largest less the least speed there.
+    contrast: f64,
     blocks: Vec<Stretch>,
     block: Stretch,
     repeats: Repeats,
@@ -74,6 +76,7 @@ impl Judge {
             least_of_all: f64::INFINITY,
             std: 0.0,
             seen: 0.0,
+            contrast: 0.0,
             blocks: Vec::new(),
             block: Stretch::EMPTY,
             repeats: Repeats::default(),
@@ -88,14 +91,14 @@ impl Judge {
 
     /// What has been seen so far.
     pub fn remember(&self) -> Memory {
-        let numbers = [self.least_gap, self.least_speed, self.least_of_all, self.std, self.seen];
+        let numbers = [self.least_gap, self.least_speed, self.least_of_all, self.std, self.seen, self.contrast];
         let (blocks, block) = (self.blocks.clone(), self.block.clone());
         Memory { numbers, blocks, block, repeats: self.repeats.clone(), verdict: self.verdict.clone() }
     }
 
     /// Goes on where another judge of the same run stood.
     pub fn recall(&mut self, memory: Memory) {
-        [self.least_gap, self.least_speed, self.least_of_all, self.std, self.seen] = memory.numbers;
+        [self.least_gap, self.least_speed, self.least_of_all, self.std, self.seen, self.contrast] = memory.numbers;
         (self.blocks, self.block, self.repeats, self.verdict) =
             (memory.blocks, memory.block, memory.repeats, memory.verdict);
     }
@@ -149,8 +152,12 @@ impl Judge {
         self.verdict.take().unwrap_or_else(|| self.of(Class::Undecided, time, Decision::Start, 0.0))
     }
 
-    /// Decides for lasting waves if the last windows agree.
+    /// Decides for lasting waves if the last windows agree, or for a decay that is on its way.
     fn judge_windows(&mut self, time: f64) -> Result<(), String> {
+        if let Some(margin) = self.is_falling() {
+            self.decide(Class::Decays, time, Decision::Falling, -margin);
+            return Ok(());
+        }
         let [mut late, early] = self.agreeing()?;
         late.least_speed = lowest(&[late.least_speed, early.least_speed]);
         let label_speed = late.label_speed();
@@ -177,7 +184,7 @@ impl Judge {
             (gap, speed) = (lower(gap, lowest(&within.rooms)), lower(speed, lowest(&within.speeds)));
         }
         let now = watch.after();
-        self.std = spread(&now.speeds);
+        (self.std, self.contrast) = (spread(&now.speeds), contrast);
         let mean = now.speeds.iter().sum::<f64>() / now.speeds.len() as f64;
         self.block.add(since, self.std, mean, drift(&now.speeds, &now.speed_rates));
         self.block.contrast = lower(self.block.contrast, contrast);
@@ -224,10 +231,7 @@ impl Judge {
 
     /// Whether the state is back at the uniform flow, and stays there.
     fn is_back(&self, watch: &Watch<'_>) -> bool {
-        let Some(Flow { headway, speed, room, margin, growth_rate }) = self.flow else { return false };
-        if !(growth_rate < 0.0 && margin < -NEAR_LINE) {
-            return false;
-        }
+        let Some(Flow { headway, speed, room, .. }) = self.flow.filter(Flow::decays) else { return false };
         let now = watch.after();
         let near = |numbers: &[f64], flow: f64, bound: f64| numbers.iter().all(|number| (number - flow).abs() < bound);
         near(&now.speeds, speed, NEAR_FLOW * self.scale) && near(&now.gaps, headway, NEAR_FLOW * room)
@@ -247,13 +251,22 @@ impl Judge {
         Some([late, early])
     }
 
+    /// The margin of stability, if every wave of the ring decays, speeds differ too little for waves, and less and less. Where
+    /// neighbours hardly answer to each other, a perturbation takes longer than any run to fall below [`NEAR_FLOW`].
+    fn is_falling(&self) -> Option<f64> {
+        let flow = self.flow.filter(Flow::decays)?;
+        let [late, early] = self.windows(THIRD * self.seen)?;
+        let is_weak = self.contrast < CONTRAST * self.scale;
+        (is_weak && late.mean_std() < (1.0 - AGREEMENT) * early.mean_std()).then_some(flow.margin)
+    }
+
     /// The last two thirds of the run, if waves last through both and they agree.
     fn agreeing(&self) -> Result<[Stretch; 2], String> {
         let least = self.window().unwrap_or(SHORTEST_WINDOW);
         let third = THIRD * self.seen;
         let windows = if third > least { self.windows(third) } else { None };
         let Some(windows) = windows else {
-            return Err(format!("t_end: three windows of at least {least:.0} must fit in"));
+            return Err(format!("a longer t_end: three windows of at least {least:.0} must fit in"));
         };
         let contrast = lowest(&[windows[0].contrast, windows[1].contrast]);
         if !is_above(contrast, CONTRAST * self.scale) {
@@ -274,9 +287,9 @@ impl Judge {
     fn too_weak(&self, contrast: f64) -> String {
         let weak = format!("speeds differ by no more than {contrast:.1e}");
         match self.flow {
-            None => format!("{weak}; the uniform flow has no linearised law"),
+            None => format!("another law: {weak}, and the uniform flow has no linearised law"),
             Some(flow) if flow.margin.abs() <= NEAR_LINE => {
-                format!("{weak}, and the margin of stability is {:.1e}: too near to its line", flow.margin)
+                format!("another place: {weak}, and the margin of stability, {:.1e}, is too near to 0", flow.margin)
             }
             Some(flow) if flow.growth_rate > 0.0 => {
                 format!("a longer t_end: {weak}, growing at a rate of {:.1e}", flow.growth_rate)
@@ -351,6 +364,11 @@ fn changes([late, early]: &[Stretch; 2]) -> [f64; 2] {
 }
 
 impl Flow {
+    /// Whether every wave of the ring decays, and the linearised law can tell.
+    fn decays(&self) -> bool {
+        self.growth_rate < 0.0 && self.margin < -NEAR_LINE
+    }
+
     fn of(model: &Model, ring: Ring, speed: f64) -> Option<Flow> {
         let headway = ring.headway();
         let response = model.response(headway, speed)?;

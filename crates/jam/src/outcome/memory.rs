@@ -8,7 +8,7 @@ use super::{Class, Decision, Verdict};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Memory {
     /// The judge's own.
-    pub(super) numbers: [f64; 5],
+    pub(super) numbers: [f64; 6],
     pub(super) blocks: Vec<Stretch>,
     pub(super) block: Stretch,
     pub(super) repeats: Repeats,
@@ -55,7 +55,7 @@ impl Memory {
             rest = left;
             Some(taken)
         };
-        let own = take(5)?.try_into().ok()?;
+        let own = take(6)?.try_into().ok()?;
         let count = whole(take(1)?[0])?;
         let mut blocks =
             (0..=count).map(|_| take(OF_STRETCH).and_then(Stretch::parse)).collect::<Option<Vec<Stretch>>>()?;
@@ -94,7 +94,8 @@ impl Memory {
 }
 
 /// What can have decided before the end of a run.
-const KEPT: [Decision; 4] = [Decision::Start, Decision::Event, Decision::Return, Decision::Repetition];
+const KEPT: [Decision; 6] =
+    [Decision::Start, Decision::Event, Decision::Return, Decision::Falling, Decision::Repetition, Decision::Windows];
 
 /// A number that counts something.
 fn whole(number: f64) -> Option<usize> {

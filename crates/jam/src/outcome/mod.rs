@@ -94,6 +94,8 @@ pub enum Decision {
     Event,
     /// The state is near the uniform flow, and every wave of the ring decays by the linearised law.
     Return,
+    /// The perturbation is weak and falls, and every wave of the ring decays by the linearised law.
+    Falling,
     /// The state repeats itself, shifted along the ring.
     Repetition,
     /// The last two windows of the run agree.
@@ -109,6 +111,7 @@ impl Decision {
             Decision::Start => "start",
             Decision::Event => "event",
             Decision::Return => "return to the uniform flow",
+            Decision::Falling => "a falling perturbation of a stable flow",
             Decision::Repetition => "the state repeats itself",
             Decision::Windows => "the last two windows agree",
             Decision::Missing(_) => "nothing",
