@@ -98,8 +98,7 @@ fn hatching(
     for index in 0..=count {
         let start = lowest + (index as f64 + 0.5) * step;
         let across = (0..=columns).map(|column| column as f64 * wide);
-        let mut cuts: Vec<f64> =
-            across.chain((0..=rows).map(|row| (row as f64 * high - start) / slope)).collect();
+        let mut cuts: Vec<f64> = across.chain((0..=rows).map(|row| (row as f64 * high - start) / slope)).collect();
         cuts.sort_by(f64::total_cmp);
         for pair in cuts.windows(2) {
             let at = |right: f64| (right, slope * right + start);

@@ -106,13 +106,7 @@ impl Key {
         self.entries.chunks(rows).map(column).collect()
     }
 
-    fn draw_columns(
-        &self,
-        page: &Area,
-        (left, top): (f64, f64),
-        rows: usize,
-        widths: &[f64],
-    ) -> Result<(), PlotError> {
+    fn draw_columns(&self, page: &Area, (left, top): (f64, f64), rows: usize, widths: &[f64]) -> Result<(), PlotError> {
         let mut x = left;
         for (entries, width) in self.entries.chunks(larger(rows as f64, 1.0) as usize).zip(widths) {
             for (row, (sample, name)) in entries.iter().enumerate() {

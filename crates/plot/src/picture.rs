@@ -156,8 +156,7 @@ impl Picture {
 
     /// Margins of each panel, with the room that letters and titles take.
     fn margins(&self) -> Result<Vec<Margins>, PlotError> {
-        let above =
-            self.scale.is_some() || self.has_letters() || self.panels.iter().any(|panel| !panel.1.is_empty());
+        let above = self.scale.is_some() || self.has_letters() || self.panels.iter().any(|panel| !panel.1.is_empty());
         let margins = |(panel, _): &(Box<dyn Panel>, String)| {
             let own = panel.margins()?;
             Ok(Margins { top: if above { larger(own.top, TITLE_ROW) } else { own.top }, ..own })

@@ -81,7 +81,10 @@ pub fn cells(sweep: &Sweep, text: &str) -> Result<Vec<Cell>, String> {
         let found = [number(), number()];
         if found != at.map(Some) {
             let [x, y] = at;
-            return Err(format!("{}: {line:?}: not the next cell of the plane; must begin with {x:?},{y:?}", index + 2));
+            return Err(format!(
+                "{}: {line:?}: not the next cell of the plane; must begin with {x:?},{y:?}",
+                index + 2
+            ));
         }
         parse_cell(words).ok_or_else(|| format!("{}: {line:?}: not a cell; must have {expected}", index + 2))
     });
