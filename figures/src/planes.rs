@@ -140,9 +140,9 @@ mod tests {
     /// A plane of the algebraic law whose uniform flow is stable and unstable, forwards and backwards.
     fn sweep() -> Sweep {
         let text = "title = \"\"\nsource = \"\"\n[law]\nkind = \"algebraic\"\ndelta = 1.0\nq = 2.0\nv0 = 3.0\nepsilon = 0.1\n\
-                    [ring]\npedestrians = 67\n[start]\nshift = 0.1\n[run]\nt_end = 10.0\n[sweep]\n\
+                    [ring]\npedestrians = 67\n[start]\nshift = 0.1\n[run]\nt_end = 10.0\nmethod = \"taylor\"\ntolerance = 1e-6\n[sweep]\n\
                     x = { parameter = \"mu\", from = 0.2, to = 1.0, cells = 4 }\n\
-                    y = { parameter = \"d_gap\", from = 0.2, to = 2.0, cells = 3, scale = \"log\" }\n";
+                    y = { parameter = \"headway\", from = 2.2, to = 4.0, cells = 3, scale = \"log\" }\n";
         let recipe = recipe::parse("plane.toml", text).expect("a scene");
         scene::sweep::read(&recipe.file, &recipe.panels[0].tables).expect("a sweep")
     }
@@ -216,9 +216,9 @@ mod tests {
                 assert_eq!(place.backward_flow, exact.speed < 0.0, "{i} {j}");
             }
         }
-        // long waves of an infinite row become unstable at mu = 0.73970 for d' = 1
+        // long waves of an infinite row become unstable at mu = 0.73970 for d' = 1, which is a headway of 3
         let x = (0.739_70 - 0.2) / 0.8 * 4.0;
-        let y = math::log10(1.0 / 0.2) / math::log10(10.0) * 3.0;
+        let y = math::log10(3.0 / 2.2) / math::log10(4.0 / 2.2) * 3.0;
         let margins = [-0.001, 0.001].map(|step| sweep.exact([x + step, y]).expect("numbers").margin);
         assert!(margins[0] < 0.0 && margins[1] > 0.0, "{margins:?}");
     }
