@@ -22,6 +22,8 @@ use plotters_backend::text_anchor::{HPos, VPos};
 
 /// Least space around a region's name, and step in which more is looked for, in millimetres.
 const NAME_MARGIN: f64 = 0.5;
+/// At least so many places along each axis are tried for a name.
+const PLACES: usize = 120;
 /// Width of a line with its white rim, relative to that without.
 const RIM: f64 = 2.4;
 /// Length of the teeth of a border, in millimetres; each stands in the middle of a dash.
@@ -122,17 +124,21 @@ impl Plane {
     /// Where the name of a class so many millimetres wide goes, in millimetres right of and above the lower left corner:
     /// away from the lines over the plane, as long as there is such a place.
     fn place(&self, rect: &Rect, class: usize, width: f64) -> Option<Point> {
-        let own: Vec<f64> = self.classes.iter().map(|cell| if *cell == class { 1.0 } else { -1.0 }).collect();
+        // few cells are divided, so that there are enough places to choose from
+        let finer = [self.columns, self.rows].map(|count| PLACES.div_ceil(count));
+        let (columns, rows) = (self.columns * finer[0], self.rows * finer[1]);
+        let of = |place: usize| self.classes[place / columns / finer[1] * self.columns + place % columns / finer[0]];
+        let own: Vec<f64> = (0..columns * rows).map(|place| if of(place) == class { 1.0 } else { -1.0 }).collect();
         let mut clear = own.clone();
         for (right, up) in self.lines.iter().flat_map(|(_, surface)| surface.lines()).flatten() {
             let index = |share: f64, count: usize| ((share * count as f64) as usize).min(count - 1);
-            clear[index(up, self.rows) * self.columns + index(right, self.columns)] = -1.0;
+            clear[index(up, rows) * columns + index(right, columns)] = -1.0;
         }
-        // from millimetres to cells
-        let (across, up) = (self.columns as f64 / rect.width, self.rows as f64 / rect.height);
+        // from millimetres to places
+        let (across, up) = (columns as f64 / rect.width, rows as f64 / rect.height);
         let room = ((width + 2.0 * NAME_MARGIN) * across, (REGION + 2.0 * NAME_MARGIN) * up);
         let margin = (NAME_MARGIN * across, NAME_MARGIN * up);
-        let spot = |values: &[f64]| widest_spot((self.columns, self.rows), values, true, room, margin);
+        let spot = |values: &[f64]| widest_spot((columns, rows), values, true, room, margin);
         let (column, row) = spot(&clear).or_else(|| spot(&own))?;
         Some((column / across, row / up))
     }
@@ -243,12 +249,10 @@ fn teeth(line: &[Point], value: &dyn Fn(Point) -> f64) -> Vec<Vec<Point>> {
         while next <= step && step > 0.0 {
             let at = (x0 + dx * next / step, y0 + dy * next / step);
             let side = |sign: f64| (at.0 - sign * TOOTH * dy / step, at.1 + sign * TOOTH * dx / step);
-            let (left, right) = (side(1.0), side(-1.0));
-            let (one, other) = (value(left), value(right));
-            if one < 0.0 && !(other < one) {
-                teeth.push(vec![at, left]);
-            } else if other < 0.0 {
-                teeth.push(vec![at, right]);
+            let sides = [1.0, -1.0].map(|sign| (value(side(sign)), side(sign))).into_iter();
+            let lower = sides.filter(|(value, _)| *value < 0.0).min_by(|one, other| one.0.total_cmp(&other.0));
+            if let Some((_, end)) = lower {
+                teeth.push(vec![at, end]);
             }
             next += distance;
         }
