@@ -3,8 +3,8 @@
 
 use plot::style::{COLUMN_WIDTH, FULL_WIDTH};
 use plot::{
-    Axis, Color, ColorScale, Corner, Drawing, Lines, Map, Marker, Picture, PlotError, Point, Series, SpaceTime,
-    Trajectory,
+    Axis, Color, ColorScale, Corner, Drawing, Fill, Key, Lines, Map, Marker, Picture, Plane, PlotError, Point, Series,
+    SpaceTime, Trajectory,
 };
 use std::fmt::Write as _;
 
@@ -12,13 +12,14 @@ use std::fmt::Write as _;
 pub type Kind = (&'static str, &'static str, fn() -> Picture);
 
 /// The kinds of panels.
-pub const KINDS: [Kind; 6] = [
+pub const KINDS: [Kind; 7] = [
     ("curves", "Curves with a legend; every series has its own colour, lightness and dashes.", curves),
     ("inset", "A logarithmic inset, points of another source, guides and notes.", inset),
     ("work", "Error against work: two logarithmic axes, markers, a slope to compare with.", work),
     ("maps", "Signed values over two parameters: zero line, names of regions, one bar for all panels.", maps),
     ("space_time", "Trajectories on a ring coloured by speed: as a field, and enlarged as lines.", space_time),
     ("sketch", "A sketch from lines, arrows, dimensions, boxes, discs and labels.", sketch),
+    ("planes", "Classes of cells over two parameters, with exact lines on top; one key for all panels.", planes),
 ];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -127,6 +128,45 @@ fn maps() -> Picture {
         .scale(ColorScale::diverging(r"$\tilde\Phi$", values(0.1)))
         .titled(r"$\langle 0, 2\rangle$", panel(0.0))
         .titled(r"$\langle 1, 2\rangle$", panel(0.2))
+}
+
+fn planes() -> Picture {
+    let classes = [
+        (Fill::PALE, "decays"),
+        (Fill::BLUE, "waves"),
+        (Fill::PURPLE, "waves, backwards"),
+        (Fill::ORANGE, "contact"),
+        (Fill::BLACK, "blow-up"),
+        (Fill::GREY, "undecided"),
+        (Fill::RISING, "closed at the start"),
+    ];
+    let margin = |x: f64, y: f64| x - y * y - 0.1;
+    let class = |x: f64, y: f64| match margin(x, y) {
+        _ if x > 0.85 && y < 0.3 => 6,
+        margin if margin < 0.0 => 0,
+        margin if margin > 0.45 => {
+            if y > 0.45 {
+                5
+            } else {
+                4
+            }
+        }
+        margin => ((6.0 * margin) as usize).min(2) + 1,
+    };
+    let cells = |i: usize| class((i % 50) as f64 / 50.0 + 0.01, (i / 50) as f64 / 40.0 + 0.0125);
+    let points = |value: &dyn Fn(f64, f64) -> f64| {
+        (0..60 * 60).map(|i| value((i % 60) as f64 / 59.0, (i / 60) as f64 / 59.0)).collect::<Vec<f64>>()
+    };
+    let panel = |x: Axis| {
+        let plane = Plane::new(x, Axis::linear("$v_0'$", 0.0, 1.0), 50, 40, (0..2000).map(cells).collect());
+        let plane = classes.into_iter().fold(plane, |plane, (fill, name)| plane.class(fill, name));
+        plane.border(60, 60, points(&|x, y| y + 0.3 - 0.6 * x)).contour(60, 60, points(&margin))
+    };
+    let key = classes.into_iter().fold(Key::new(), |key, (fill, name)| key.fill(fill, name));
+    Picture::new(FULL_WIDTH, 75.0)
+        .key(key.contour("exact criterion").border("uniform flow walks backwards (teeth)"))
+        .titled("linear", panel(Axis::linear(r"$\tilde a_v$", 0.0, 1.0)))
+        .titled("logarithmic", panel(Axis::log10(r"$\epsilon_1$", 1e-4, 1.0)))
 }
 
 fn space_time() -> Picture {

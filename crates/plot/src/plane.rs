@@ -22,10 +22,12 @@ use plotters_backend::text_anchor::{HPos, VPos};
 
 /// Least space around a region's name, and step in which more is looked for, in millimetres.
 const NAME_MARGIN: f64 = 0.5;
+/// At least so many places along each axis are tried for a name.
+const PLACES: usize = 120;
 /// Width of a line with its white rim, relative to that without.
 const RIM: f64 = 2.4;
-/// Distance of the teeth of a border, and their length, in millimetres.
-const TOOTH: (f64, f64) = (2.0, 0.9);
+/// Length of the teeth of a border, in millimetres; each stands in the middle of a dash.
+const TOOTH: f64 = 0.9;
 
 /// A panel of classes over two axes, linear or logarithmic.
 #[derive(Debug, Clone)]
@@ -49,7 +51,7 @@ pub(crate) enum Line {
     Border,
 }
 
-/// A matrix of values that fills the plane.
+/// A matrix of values from edge to edge of the plane.
 #[derive(Debug, Clone)]
 struct Surface {
     columns: usize,
@@ -71,8 +73,8 @@ impl Plane {
         self
     }
 
-    /// Draws the zero contour of values at the centres of `columns` x `rows` cells of their own, of equal size on paper
-    /// (`values[row * columns + column]`, the first row lowest; NaN where there is none).
+    /// Draws the zero contour of values at `columns` x `rows` points (each at least 2), equally far apart on paper and the
+    /// outermost on the edges: `values[row * columns + column]`, the first row lowest; NaN where there is none.
     pub fn contour(self, columns: usize, rows: usize, values: Vec<f64>) -> Self {
         self.line(Line::Contour, columns, rows, values)
     }
@@ -96,12 +98,15 @@ impl Plane {
         let own = (format!("a plane of {columns} x {rows} cells"), columns * rows, self.classes.len());
         let lines = self.lines.iter().map(|(_, surface)| {
             let Surface { columns, rows, values } = surface;
-            (format!("a line over {columns} x {rows} cells"), columns * rows, values.len())
+            (format!("a line over {columns} x {rows} points"), columns * rows, values.len())
         });
         for (what, expected, found) in [own].into_iter().chain(lines) {
             if found != expected || expected == 0 {
                 return Err(PlotError::length(&what, expected, found));
             }
+        }
+        if self.lines.iter().any(|(_, surface)| surface.columns < 2 || surface.rows < 2) {
+            return Err(PlotError("a line over a plane needs at least 2 x 2 points".to_owned()));
         }
         match self.classes.iter().find(|class| **class >= self.looks.len()) {
             Some(class) => Err(PlotError(format!("a plane has class {class}; there are {}", self.looks.len()))),
@@ -119,17 +124,21 @@ impl Plane {
     /// Where the name of a class so many millimetres wide goes, in millimetres right of and above the lower left corner:
     /// away from the lines over the plane, as long as there is such a place.
     fn place(&self, rect: &Rect, class: usize, width: f64) -> Option<Point> {
-        let own: Vec<f64> = self.classes.iter().map(|cell| if *cell == class { 1.0 } else { -1.0 }).collect();
+        // few cells are divided, so that there are enough places to choose from
+        let finer = [self.columns, self.rows].map(|count| PLACES.div_ceil(count));
+        let (columns, rows) = (self.columns * finer[0], self.rows * finer[1]);
+        let of = |place: usize| self.classes[place / columns / finer[1] * self.columns + place % columns / finer[0]];
+        let own: Vec<f64> = (0..columns * rows).map(|place| if of(place) == class { 1.0 } else { -1.0 }).collect();
         let mut clear = own.clone();
         for (right, up) in self.lines.iter().flat_map(|(_, surface)| surface.lines()).flatten() {
             let index = |share: f64, count: usize| ((share * count as f64) as usize).min(count - 1);
-            clear[index(up, self.rows) * self.columns + index(right, self.columns)] = -1.0;
+            clear[index(up, rows) * columns + index(right, columns)] = -1.0;
         }
-        // from millimetres to cells
-        let (across, up) = (self.columns as f64 / rect.width, self.rows as f64 / rect.height);
+        // from millimetres to places
+        let (across, up) = (columns as f64 / rect.width, rows as f64 / rect.height);
         let room = ((width + 2.0 * NAME_MARGIN) * across, (REGION + 2.0 * NAME_MARGIN) * up);
         let margin = (NAME_MARGIN * across, NAME_MARGIN * up);
-        let spot = |values: &[f64]| widest_spot((self.columns, self.rows), values, true, room, margin);
+        let spot = |values: &[f64]| widest_spot((columns, rows), values, true, room, margin);
         let (column, row) = spot(&clear).or_else(|| spot(&own))?;
         Some((column / across, row / up))
     }
@@ -174,9 +183,11 @@ impl Panel for Plane {
 }
 
 impl Surface {
-    /// The zero lines, in shares of width and height from the lower left corner.
+    /// The zero lines, in shares of width and height from the lower left corner; a little beyond the edges, too.
     fn lines(&self) -> impl Iterator<Item = Vec<Point>> {
-        let share = |(column, row): Point| (column / self.columns as f64, row / self.rows as f64);
+        // the first point counts as the centre of a cell
+        let along = |place: f64, count: usize| (place - 0.5) / (count - 1) as f64;
+        let share = move |(column, row): Point| (along(column, self.columns), along(row, self.rows));
         let lines = zero_lines(self.columns, self.rows, &self.values).into_iter();
         lines.map(move |line| line.into_iter().map(share).collect())
     }
@@ -187,9 +198,9 @@ impl Surface {
         self.lines().map(|line| line.into_iter().map(place).collect()).collect()
     }
 
-    /// The value of the cell at a place of the page, in millimetres.
+    /// The value nearest to a place of the page, in millimetres.
     fn nearest(&self, rect: &Rect, (x, y): Point) -> f64 {
-        let index = |share: f64, count: usize| ((share * count as f64) as usize).min(count - 1);
+        let index = |share: f64, count: usize| ((share * (count - 1) as f64).round() as usize).min(count - 1);
         let column = index((x - rect.left) / rect.width, self.columns);
         self.values[index((rect.bottom() - y) / rect.height, self.rows) * self.columns + column]
     }
@@ -229,21 +240,19 @@ impl Line {
 
 /// Short strokes across a line (in millimetres) on its negative side.
 fn teeth(line: &[Point], value: &dyn Fn(Point) -> f64) -> Vec<Vec<Point>> {
-    let (distance, length) = TOOTH;
-    let (mut teeth, mut next) = (Vec::new(), distance / 2.0);
+    let distance: f64 = REFERENCE_DASH.iter().sum();
+    let (mut teeth, mut next) = (Vec::new(), REFERENCE_DASH[0] / 2.0);
     for pair in line.windows(2) {
         let [(x0, y0), (x1, y1)] = [pair[0], pair[1]];
         let (dx, dy) = (x1 - x0, y1 - y0);
         let step = (dx * dx + dy * dy).sqrt();
         while next <= step && step > 0.0 {
             let at = (x0 + dx * next / step, y0 + dy * next / step);
-            let side = |sign: f64| (at.0 - sign * length * dy / step, at.1 + sign * length * dx / step);
-            let (left, right) = (side(1.0), side(-1.0));
-            let (one, other) = (value(left), value(right));
-            if one < 0.0 && !(other < one) {
-                teeth.push(vec![at, left]);
-            } else if other < 0.0 {
-                teeth.push(vec![at, right]);
+            let side = |sign: f64| (at.0 - sign * TOOTH * dy / step, at.1 + sign * TOOTH * dx / step);
+            let sides = [1.0, -1.0].map(|sign| (value(side(sign)), side(sign))).into_iter();
+            let lower = sides.filter(|(value, _)| *value < 0.0).min_by(|one, other| one.0.total_cmp(&other.0));
+            if let Some((_, end)) = lower {
+                teeth.push(vec![at, end]);
             }
             next += distance;
         }
@@ -301,10 +310,14 @@ mod tests {
 
     #[test]
     fn lines_follow_the_paper_not_the_scale() {
-        let values = (0..400).map(|cell| f64::from(cell % 40) - 19.5).collect();
-        let plane = plane(halves(), 20, 10).contour(40, 10, values);
+        // 41 points from edge to edge, zero at a quarter of the way
+        let values = (0..410).map(|point| f64::from(point % 41) - 10.0).collect();
+        let plane = plane(halves(), 20, 10).contour(41, 10, values);
         let lines = plane.lines[0].1.on_page(&RECT);
-        assert!(lines.len() == 1 && lines[0].iter().all(|(x, _)| (x - 30.0).abs() < 1e-9), "{lines:?}");
+        assert!(lines.len() == 1 && lines[0].iter().all(|(x, _)| (x - 20.0).abs() < 1e-9), "{lines:?}");
+        let [first, last] = [lines[0][0].1, lines[0][lines[0].len() - 1].1];
+        let (top, bottom) = if first < last { (first, last) } else { (last, first) };
+        assert!(top <= RECT.top && bottom >= RECT.bottom(), "{top} {bottom}: from edge to edge");
     }
 
     #[test]
@@ -313,5 +326,6 @@ mod tests {
         assert!(message(plane(vec![0; 5], 3, 2)).contains("6 values needed, 5 given"));
         assert!(message(plane(vec![0, 1, 2, 0, 0, 0], 3, 2)).contains("class 2"));
         assert!(message(plane(vec![0; 6], 3, 2).border(4, 4, vec![0.0; 15])).contains("16 values needed, 15 given"));
+        assert!(message(plane(vec![0; 6], 3, 2).contour(1, 4, vec![0.0; 4])).contains("at least 2 x 2"));
     }
 }
