@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import LineCollection
-from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.colors import Colormap, LinearSegmentedColormap
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -43,11 +43,9 @@ VALUES = {"margin": "margin", "phi": r"$\Phi$", "re_z": r"$\mathrm{Re}\,z^+$"}
 MOST_PIECES = 150_000
 
 
-def scale(stops: list[str]) -> LinearSegmentedColormap:
+def scale(stops: list[str]) -> Colormap:
     """A colour map through these stops."""
-    made = LinearSegmentedColormap.from_list("jamming", stops)
-    made.set_bad(MISSING)
-    return made
+    return LinearSegmentedColormap.from_list("jamming", stops).with_extremes(bad=MISSING)
 
 
 def axes(ax: Axes | None) -> Axes:
@@ -70,7 +68,7 @@ def trajectories(run: Run, ax: Axes | None) -> Axes:
     ax = axes(ax)
     every = max(1, math.ceil(run.x.size / MOST_PIECES))
     t, x, v = run.t[::every], run.x[::every], run.v[::every]
-    lines = LineCollection(pieces(t, x, run.length), cmap=scale(SEQUENTIAL), linewidth=0.5)
+    lines = LineCollection(list(pieces(t, x, run.length)), cmap=scale(SEQUENTIAL), linewidth=0.5)
     lines.set_array(np.repeat(0.5 * (v[1:] + v[:-1]).ravel(), 2))
     ax.add_collection(lines)
     ax.set(xlabel="$t$", ylabel="$x'$", xlim=(0.0, run.t[-1] or 1.0), ylim=(0.0, run.length))

@@ -192,10 +192,10 @@ def simulate(
     ... '''
     >>> run = simulate(ring)
     >>> run
-    <Run: formula law, 20 pedestrians, 603 steps to t = 400.0: t_end>
+    <Run: formula law, 20 pedestrians, 1404 steps to t = 400.0: t_end>
     >>> run.t.shape, run.x.shape, run.v.shape
     ((401,), (401, 20), (401, 20))
-    >>> bool(run.std[-1] > 100 * run.std[1])  # a jam has grown
+    >>> bool(run.v[-1].min() < 0.1 < 1.8 < run.v[-1].max())  # a jam has grown, and moves on
     True
     >>> run.errors["std"] < 1e-6
     True
