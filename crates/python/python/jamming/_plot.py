@@ -38,6 +38,7 @@ SYMBOLS = {
     "k": r"k",
     "epsilon": r"\varepsilon",
 }
+GREEK = "alpha beta gamma delta epsilon eta kappa lambda mu nu rho sigma tau theta xi".split()
 VALUES = {"margin": "margin", "phi": r"$\Phi$", "re_z": r"$\mathrm{Re}\,z^+$"}
 # As many pieces of lines as a picture shows in a second or so.
 MOST_PIECES = 150_000
@@ -68,7 +69,7 @@ def trajectories(run: Run, ax: Axes | None) -> Axes:
     ax = axes(ax)
     every = max(1, math.ceil(run.x.size / MOST_PIECES))
     t, x, v = run.t[::every], run.x[::every], run.v[::every]
-    lines = LineCollection(list(pieces(t, x, run.length)), cmap=scale(SEQUENTIAL), linewidth=0.5)
+    lines = LineCollection(list(pieces(t, x, run.length)), cmap=scale(SEQUENTIAL), linewidth=0.8)
     lines.set_array(np.repeat(0.5 * (v[1:] + v[:-1]).ravel(), 2))
     ax.add_collection(lines)
     ax.set(xlabel="$t$", ylabel="$x'$", xlim=(0.0, run.t[-1] or 1.0), ylim=(0.0, run.length))
@@ -118,7 +119,7 @@ def colour_limit(values: NDArray[np.float64]) -> float:
 def symbol(parameter: str) -> str:
     """A parameter as the paper writes it."""
     name, _, index = parameter.partition("_")
-    other = name if len(name) == 1 else rf"\mathrm{{{name}}}"
+    other = rf"\{name}" if name in GREEK else name if len(name) == 1 else rf"\mathrm{{{name}}}"
     return SYMBOLS.get(parameter, rf"{other}_{{\mathrm{{{index}}}}}" if index else other)
 
 
