@@ -1,6 +1,6 @@
 //! A long run in the eyes of its user: how far it is, and a file from which it goes on after it was killed.
 //!
-//! The file: a line `checkpoint 2 RUN SUM`, then the seconds of CPU so far and the run, as 64-bit words. `RUN` is the
+//! The file: a line `checkpoint 3 RUN SUM`, then the seconds of CPU so far and the run, as 64-bit words. `RUN` is the
 //! SHA-256 of the program and of the scene, `SUM` that of everything behind the line: what is damaged, cut off or of
 //! another run or program is not believed, and the run begins anew.
 
@@ -9,7 +9,7 @@ use cpu_time::ProcessTime;
 use files::write::{atomic, sha256, sha256_file};
 use scene::checkpoint::{Checkpoint, Underway};
 use scene::run::Scene;
-use scene::simulation::{Onlooker, run_from};
+use scene::simulation::{Judging, Onlooker, run_from};
 use scene::summary::Ended;
 use std::io::{IsTerminal as _, Write as _};
 use std::path::PathBuf;
@@ -27,6 +27,9 @@ pub struct Care {
     /// Say how far the run is, a line a second on stderr: `progress 0.42`, or `resumed 0.40` at the start
     #[arg(long)]
     progress: bool,
+    /// Leave out what became of the run
+    #[arg(long)]
+    no_outcome: bool,
 }
 
 fn seconds(text: &str) -> Result<Duration, String> {
@@ -118,7 +121,7 @@ impl<'a> Keeper<'a> {
     }
 
     fn line(&self, body: &[u8]) -> String {
-        format!("checkpoint 2 {} {}\n", self.run, sha256(body))
+        format!("checkpoint 3 {} {}\n", self.run, sha256(body))
     }
 
     fn start(&mut self, done: f64, before: f64) {
@@ -160,6 +163,10 @@ impl<'a> Keeper<'a> {
 }
 
 impl Onlooker for Keeper<'_> {
+    fn judging(&self) -> Judging {
+        if self.care.no_outcome { Judging::No } else { Judging::Along }
+    }
+
     fn between(&mut self, underway: &Underway<'_>) {
         let now = Instant::now();
         if now >= self.next_word {

@@ -70,13 +70,13 @@ pub struct Happening {
 
 /// Gaps, speeds and rooms with their rates at one instant.
 #[derive(Clone, Debug)]
-struct Instant {
-    gaps: Vec<f64>,
-    speeds: Vec<f64>,
-    rooms: Vec<f64>,
+pub(crate) struct Instant {
+    pub(crate) gaps: Vec<f64>,
+    pub(crate) speeds: Vec<f64>,
+    pub(crate) rooms: Vec<f64>,
     gap_rates: Vec<f64>,
-    speed_rates: Vec<f64>,
-    room_rates: Vec<f64>,
+    pub(crate) speed_rates: Vec<f64>,
+    pub(crate) room_rates: Vec<f64>,
     net_gaps: Vec<f64>,
 }
 
@@ -95,14 +95,19 @@ impl Instant {
     }
 
     fn read(&mut self, form: &dyn Form, force: &dyn Force, state: &[f64], rates: &[f64]) {
-        form.read(state, &mut self.gaps, &mut self.speeds);
+        self.read_values(form, force, state);
         form.read_rates(rates, &mut self.gap_rates, &mut self.speed_rates);
-        self.net_gaps.clear();
-        self.net_gaps.extend(self.gaps.iter().map(|gap| gap - force.contact()));
-        force.effective_gaps(&self.net_gaps, &self.speeds, &mut self.rooms);
         let now = Rows { spacings: &self.net_gaps, speeds: &self.speeds };
         let rates = Rows { spacings: &self.gap_rates, speeds: &self.speed_rates };
         force.effective_gap_rates(now, rates, &mut self.room_rates);
+    }
+
+    /// All but the rates.
+    fn read_values(&mut self, form: &dyn Form, force: &dyn Force, state: &[f64]) {
+        form.read(state, &mut self.gaps, &mut self.speeds);
+        self.net_gaps.clear();
+        self.net_gaps.extend(self.gaps.iter().map(|gap| gap - force.contact()));
+        force.effective_gaps(&self.net_gaps, &self.speeds, &mut self.rooms);
     }
 }
 
@@ -114,6 +119,9 @@ pub struct Watch<'a> {
     found: Vec<Happening>,
     before: Instant,
     after: Instant,
+    /// Within the step looked at last; its rates are of no meaning.
+    within: Instant,
+    state: Vec<f64>,
     /// The time that `after` shows.
     seen: Option<f64>,
 }
@@ -129,7 +137,8 @@ impl<'a> Watch<'a> {
     pub fn new(model: Model, form: &'a dyn Form, pedestrians: usize) -> Watch<'a> {
         let instant = Instant::new(pedestrians);
         let force = model.force();
-        Watch { model, force, form, found: Vec::new(), before: instant.clone(), after: instant, seen: None }
+        let [before, after, within] = [instant.clone(), instant.clone(), instant];
+        Watch { model, force, form, found: Vec::new(), before, after, within, state: Vec::new(), seen: None }
     }
 
     /// Goes on with the same ring in another form.
@@ -163,6 +172,24 @@ impl<'a> Watch<'a> {
     /// Goes on where a watch stood that had found these.
     pub fn resume(&mut self, found: Vec<Happening>) {
         self.found = found;
+    }
+
+    /// The start of the step looked at last.
+    pub(crate) fn before(&self) -> &Instant {
+        &self.before
+    }
+
+    /// Its end; at first, the start of the run.
+    pub(crate) fn after(&self) -> &Instant {
+        &self.after
+    }
+
+    /// A fraction of it, without rates.
+    pub(crate) fn within(&mut self, step: &mut Step<'_>, theta: f64) -> &Instant {
+        self.state.resize(step.before().len(), 0.0);
+        step.at_fraction(theta, &mut self.state);
+        self.within.read_values(self.form, &*self.force, &self.state);
+        &self.within
     }
 
     /// The speeds at the end of the step looked at last.

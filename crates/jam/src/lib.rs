@@ -9,6 +9,7 @@ pub mod force;
 pub mod jams;
 pub mod laws;
 pub mod observe;
+pub mod outcome;
 pub mod ramp;
 pub mod ring;
 pub mod stability;

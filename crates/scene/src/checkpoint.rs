@@ -1,7 +1,7 @@
 //! A run on its way, as bytes, to be gone on with later to the same bits. Pure: who writes them
 //! where, and how often, is the caller's business.
 //!
-//! The bytes are 64-bit words, low byte first, numbers by their bits: place, counts, state, pace, events, samples, jams. What
+//! The bytes are 64-bit words, low byte first, numbers by their bits: place, counts, state, pace, events, samples, jams, what the judge has seen. What
 //! follows from the scene and the rest is left out: the times and numbers in the table of trajectories, and whether the
 //! run has come to a stop. Nothing guards them against damage; a file should hold their hash.
 
@@ -10,11 +10,12 @@ use crate::simulation::Counts;
 use files::table::Table;
 use jam::events::{Event, Happening};
 use jam::jams::{Drift, Jam};
+use jam::outcome::Memory;
 use jam::states::FormKind;
 use ode::{Control, Mark, Pace, Place, Statistics};
 
 /// A run between two of its steps.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Underway<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) mark: &'a Mark<'a>,
@@ -27,6 +28,8 @@ pub struct Underway<'a> {
     /// When the leg near the walls began, if it has.
     pub(crate) near_walls: Option<f64>,
     pub(crate) earlier: Counts,
+    /// What the judge of its outcome has seen, if there is one.
+    pub(crate) memory: Option<Memory>,
 }
 
 impl Underway<'_> {
@@ -70,6 +73,9 @@ impl Underway<'_> {
             words.count(jam.pedestrians);
             words.numbers(&[jam.extent, jam.centre]);
         }
+        let memory = self.memory.as_ref().map_or(Vec::new(), Memory::to_numbers);
+        words.count(memory.len());
+        words.numbers(&memory);
         words.0
     }
 }
@@ -88,6 +94,7 @@ pub struct Checkpoint {
     pub(crate) std: Table,
     pub(crate) trajectories: Table,
     pub(crate) drift: Drift,
+    pub(crate) memory: Option<Memory>,
 }
 
 /// What adaptive steps remember (see [`Pace`]).
@@ -127,6 +134,11 @@ impl Checkpoint {
         let trajectories = words.trajectories(scene, &std)?;
         let (distance, time, count) = (words.number()?, words.number()?, words.count()?);
         let before = (0..count).map(|_| words.jam()).collect::<Option<Vec<Jam>>>()?;
+        let count = words.count()?;
+        let memory = match (0..count).map(|_| words.number()).collect::<Option<Vec<f64>>>()? {
+            numbers if numbers.is_empty() => None,
+            numbers => Some(Memory::parse(&numbers)?),
+        };
         let is_whole = words.words.next().is_none() && words.words.remainder().is_empty();
         let kind = if is_near_walls { FormKind::Gaps } else { scene.form };
         let fits = state.len() == kind.build(&scene.model, scene.ring).dimension()
@@ -144,6 +156,7 @@ impl Checkpoint {
             std,
             trajectories,
             drift,
+            memory,
         })
     }
 

@@ -6,6 +6,7 @@ use files::table::Table;
 use jam::events::{Event, Happening, Watch};
 use jam::jams;
 use jam::laws::Model;
+use jam::outcome::{Judge, Verdict};
 use jam::states::{Form, FormKind, gaps_state};
 use ode::{Control, Mark, Observer, Problem, Sampler, Statistics, Step, integrate, resume};
 use std::ops::ControlFlow;
@@ -30,6 +31,8 @@ pub struct Outcome {
     pub drift: jams::Drift,
     /// What an overlap does.
     pub at_overlap: AtOverlap,
+    /// What became of the run, if that was asked for.
+    pub verdict: Option<Verdict>,
 }
 
 impl Outcome {
@@ -89,6 +92,22 @@ pub trait Onlooker {
 
     /// Sees the run every few thousand steps.
     fn between(&mut self, _underway: &Underway<'_>) {}
+
+    /// Whether the outcome of the run is judged. Methods that interpolate by evaluations then make some more of them.
+    fn judging(&self) -> Judging {
+        Judging::No
+    }
+}
+
+/// Whether the outcome of a run is judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Judging {
+    /// It is not.
+    No,
+    /// It is, and the run goes to its end.
+    Along,
+    /// It is, and the run ends where it is certain.
+    UntilCertain,
 }
 
 /// Nobody looks on.
@@ -166,6 +185,7 @@ struct Recorder<'a> {
     scene: &'a Scene,
     sampler: Sampler,
     watch: Watch<'a>,
+    judge: Option<Judge>,
     record: Record<'a>,
     onlooker: &'a mut dyn Onlooker,
     is_stopped: bool,
@@ -180,8 +200,11 @@ struct Recorder<'a> {
 
 impl<'a> Recorder<'a> {
     fn new(scene: &'a Scene, form: &'a dyn Form, onlooker: &'a mut dyn Onlooker) -> Recorder<'a> {
+        let judge =
+            (onlooker.judging() != Judging::No).then(|| Judge::new(&scene.model, scene.ring, scene.steady_speed));
         Recorder {
             scene,
+            judge,
             sampler: Sampler::new(scene.sample, form.dimension()),
             watch: Watch::new(scene.model.clone(), form, scene.ring.pedestrians),
             record: Record::new(scene, form),
@@ -199,7 +222,11 @@ impl<'a> Recorder<'a> {
     fn start(&mut self, state: &[f64]) {
         let mut rates = vec![0.0; state.len()];
         self.record.form.rates(state, &mut rates);
-        self.is_stopped = self.watch.start(0.0, state, &rates).iter().any(|happening| self.stops(happening));
+        let found = self.watch.start(0.0, state, &rates);
+        self.is_stopped = found.iter().any(|happening| self.stops(happening));
+        if let Some(judge) = &mut self.judge {
+            judge.start(&self.watch, &found);
+        }
         self.record.take(0.0, state);
         self.record.follow(0.0, state);
     }
@@ -228,6 +255,9 @@ impl<'a> Recorder<'a> {
             None => (form, 0.0),
         };
         self.record.begin = begin;
+        if let (Some(judge), Some(memory)) = (&mut self.judge, checkpoint.memory) {
+            judge.recall(memory);
+        }
         let pace = pace.as_ref().map(Remembered::pace);
         let mark = Mark { place, statistics: &statistics, state: &state, pace };
         let made = resume(&self.problem(form, begin, &state), &mark, self);
@@ -272,7 +302,8 @@ impl<'a> Recorder<'a> {
         form.write_positions(&statistics.state, &mut positions);
         form.read(&statistics.state, &mut gaps, &mut speeds);
         let (events, at_overlap) = (self.watch.found().to_vec(), self.scene.at_overlap);
-        let outcome = Outcome { std, trajectories, events, statistics, positions, speeds, drift, at_overlap };
+        let verdict = self.judge.map(|judge| judge.end(statistics.time, &events));
+        let outcome = Outcome { std, trajectories, events, statistics, positions, speeds, drift, at_overlap, verdict };
         match broken {
             None => Ok(outcome),
             Some(failure) => {
@@ -383,6 +414,12 @@ impl Observer for Recorder<'_> {
     fn after(&mut self, step: &mut Step<'_>) -> ControlFlow<()> {
         self.onlooker.after(step);
         let new = self.watch.look(step);
+        if let Some(judge) = &mut self.judge {
+            judge.look(&mut self.watch, step, &new);
+            if self.onlooker.judging() == Judging::UntilCertain && judge.verdict().is_some() {
+                return ControlFlow::Break(());
+            }
+        }
         if !self.is_stopped {
             let stop = new.iter().find(|happening| self.stops(happening)).map(|happening| happening.time);
             let until = stop.unwrap_or(self.scene.t_end);
@@ -430,7 +467,8 @@ impl Observer for Recorder<'_> {
         let (found, earlier, followed) = (self.watch.found(), self.earlier, *followed);
         let near_walls = self.is_near_walls.then_some(*begin);
         let scene = self.scene;
-        let underway = Underway { scene, mark, found, std, trajectories, drift, followed, near_walls, earlier };
+        let memory = self.judge.as_ref().map(Judge::remember);
+        let underway = Underway { scene, mark, found, std, trajectories, drift, followed, near_walls, earlier, memory };
         self.onlooker.between(&underway);
     }
 }

@@ -5,6 +5,7 @@ use crate::map::{Computed, Map};
 use crate::run::Scene;
 use crate::simulation::{Broken, Outcome};
 use crate::uniform::Stability;
+use jam::outcome::{Decision, Verdict};
 use ode::Control;
 use serde_json::{Value, json};
 
@@ -65,7 +66,30 @@ pub fn of_run(scene: &Scene, ended: &Ended, flow: Option<Stability>, errors: Opt
         "reason": broken.as_ref().map(ToString::to_string),
         "events": events,
         "error": errors.map(|errors| json!({ "std": errors.std, "x": errors.positions, "v": errors.speeds })),
+        "outcome": outcome.verdict.as_ref().map(of_verdict),
         "jams": scene.keeps_trajectories.then(|| jams(outcome)),
+    })
+}
+
+/// What became of a run, and what that rests on.
+pub fn of_verdict(verdict: &Verdict) -> Value {
+    let missing = match &verdict.decision {
+        Decision::Missing(missing) => Some(missing),
+        _ => None,
+    };
+    // a distance without bound has no number
+    let distance = verdict.distance.is_finite().then_some(verdict.distance);
+    json!({
+        "class": verdict.class.name(),
+        "t": verdict.time,
+        "decided_by": verdict.decision.name(),
+        "missing": missing,
+        "backward_flow": verdict.backward_flow,
+        "least_gap": verdict.least_gap,
+        "least_speed": verdict.least_speed,
+        "std": verdict.std,
+        "wave_speed": verdict.wave_speed,
+        "distance": distance,
     })
 }
 

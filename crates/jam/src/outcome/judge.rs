@@ -1,0 +1,328 @@
+//! Judging a run while it is made.
+
+use super::least::{Ends, highest, lowest};
+use super::repeats::{Repeats, Repetition};
+use super::windows::{Stretch, drift, last};
+use super::{AGREEMENT, CONTRAST, Class, Decision, Memory, NEAR_FLOW, NEAR_LINE, START, Verdict};
+use crate::events::{Event, Happening, Watch};
+use crate::laws::Model;
+use crate::observe::spread;
+use crate::ring::Ring;
+use crate::stability::Waves;
+use ode::Step;
+
+/// Looks at every step of a run and says what became of it.
+#[derive(Debug)]
+pub struct Judge {
+    ring: Ring,
+    /// The size of speeds.
+    scale: f64,
+    flow: Option<Flow>,
+    least_gap: f64,
+    least_speed: f64,
+    /// The least speed of all, the start from rest included.
+    least_of_all: f64,
+    std: f64,
+    /// The end of the step looked at last.
+    seen: f64,
+    blocks: Vec<Stretch>,
+    block: Stretch,
+    repeats: Repeats,
+    verdict: Option<Verdict>,
+}
+
+/// What the linearised law says about the uniform flow.
+#[derive(Clone, Copy, Debug)]
+struct Flow {
+    headway: f64,
+    speed: f64,
+    /// The least of headway and effective gap.
+    room: f64,
+    /// The margin of stability of the waves of the ring.
+    margin: f64,
+    growth_rate: f64,
+}
+
+/// The duration of a block of statistics.
+const BLOCK: f64 = 50.0;
+
+/// Windows are at least so long.
+const SHORTEST_WINDOW: f64 = 200.0;
+
+/// And so long that waves go around the ring so often, seen by those who walk in it: as seen from the ground a wave can
+/// stand, and no window would be long enough.
+const ROUNDS: f64 = 2.0;
+
+impl Judge {
+    /// For a run of this law on this ring, whose uniform flow has this speed, if there is one.
+    pub fn new(model: &Model, ring: Ring, speed: Option<f64>) -> Judge {
+        let flow = speed.and_then(|speed| Flow::of(model, ring, speed));
+        Judge {
+            ring,
+            scale: model.desired_speed(),
+            flow,
+            least_gap: f64::INFINITY,
+            least_speed: f64::INFINITY,
+            least_of_all: f64::INFINITY,
+            std: 0.0,
+            seen: 0.0,
+            blocks: Vec::new(),
+            block: Stretch::EMPTY,
+            repeats: Repeats::default(),
+            verdict: None,
+        }
+    }
+
+    /// What is certain so far, if anything is.
+    pub fn verdict(&self) -> Option<&Verdict> {
+        self.verdict.as_ref()
+    }
+
+    /// What has been seen so far.
+    pub fn remember(&self) -> Memory {
+        let numbers = [self.least_gap, self.least_speed, self.least_of_all, self.std, self.seen];
+        let (blocks, block) = (self.blocks.clone(), self.block.clone());
+        Memory { numbers, blocks, block, repeats: self.repeats.clone(), verdict: self.verdict.clone() }
+    }
+
+    /// Goes on where another judge of the same run stood.
+    pub fn recall(&mut self, memory: Memory) {
+        [self.least_gap, self.least_speed, self.least_of_all, self.std, self.seen] = memory.numbers;
+        (self.blocks, self.block, self.repeats, self.verdict) =
+            (memory.blocks, memory.block, memory.repeats, memory.verdict);
+    }
+
+    /// Looks at what happens at the start.
+    pub fn start(&mut self, watch: &Watch<'_>, found: &[Happening]) {
+        let now = watch.after();
+        (self.least_gap, self.least_of_all) = (lowest(&now.rooms), lowest(&now.speeds));
+        self.std = spread(&now.speeds);
+        self.happened(watch, found);
+    }
+
+    /// Looks at a step, after the watch has; `new` is what it found there.
+    pub fn look(&mut self, watch: &mut Watch<'_>, step: &mut Step<'_>, new: &[Happening]) {
+        if self.verdict.is_some() {
+            return;
+        }
+        let contrast = self.gather(watch, step);
+        self.happened(watch, new);
+        if self.verdict.is_some() {
+            return;
+        }
+        if self.is_back(watch) {
+            let distance = self.flow.map_or(0.0, |flow| -flow.margin);
+            return self.decide(Class::Decays, step.end, Decision::Return, distance);
+        }
+        if contrast > CONTRAST * self.scale && step.end > START {
+            let repetition = self.repeats.look(watch, step, contrast, self.scale);
+            if let Some(repetition) = repetition {
+                self.lasting(step.end, Decision::Repetition, Some(repetition));
+            }
+        }
+    }
+
+    /// The verdict of a run that ended at this time, with these events: those that no step showed among them.
+    pub fn end(mut self, time: f64, found: &[Happening]) -> Verdict {
+        if self.verdict.is_none() {
+            self.stopped(found, f64::INFINITY);
+        }
+        if self.verdict.is_none() {
+            self.close_block();
+            match self.missing() {
+                None => self.lasting(time, Decision::Windows, None),
+                Some(missing) => self.decide(Class::Undecided, time, Decision::Missing(missing), 0.0),
+            }
+        }
+        self.verdict.take().unwrap_or_else(|| self.of(Class::Undecided, time, Decision::Start, 0.0))
+    }
+
+    /// Takes the numbers of a step; returns the contrast of speeds at its end.
+    fn gather(&mut self, watch: &mut Watch<'_>, step: &mut Step<'_>) -> f64 {
+        let h = step.length();
+        // steps of fixed length between two samples are not all shown: this one stands for them
+        let since = step.end - self.seen;
+        self.seen = step.end;
+        let (mut gap, mut speed) = (lowest(&watch.after().rooms), lowest(&watch.after().speeds));
+        let contrast = highest(&watch.after().speeds) - speed;
+        let (before, after) = (watch.before(), watch.after());
+        let gaps = Ends { before: (&before.rooms, &before.room_rates), after: (&after.rooms, &after.room_rates), h };
+        let speeds =
+            Ends { before: (&before.speeds, &before.speed_rates), after: (&after.speeds, &after.speed_rates), h };
+        let lower = |a: f64, b: f64| if b < a { b } else { a };
+        let dips = [gaps.dip(lower(gap, self.block.least_gap)), speeds.dip(lower(speed, self.block.least_speed))];
+        for theta in dips.into_iter().flatten() {
+            let within = watch.within(step, theta);
+            (gap, speed) = (lower(gap, lowest(&within.rooms)), lower(speed, lowest(&within.speeds)));
+        }
+        let now = watch.after();
+        self.std = spread(&now.speeds);
+        let mean = now.speeds.iter().sum::<f64>() / now.speeds.len() as f64;
+        self.block.add(since, self.std, mean, drift(&now.speeds, &now.speed_rates));
+        self.block.contrast = lower(self.block.contrast, contrast);
+        self.block.least_gap = lower(self.block.least_gap, gap);
+        self.block.least_speed = lower(self.block.least_speed, speed);
+        self.least_gap = lower(self.least_gap, gap);
+        self.least_of_all = lower(self.least_of_all, speed);
+        if step.start >= START {
+            self.least_speed = lower(self.least_speed, speed);
+        }
+        if self.block.duration >= BLOCK {
+            self.close_block();
+        }
+        contrast
+    }
+
+    fn close_block(&mut self) {
+        if self.block.duration > 0.0 {
+            self.blocks.push(std::mem::replace(&mut self.block, Stretch::EMPTY));
+        }
+    }
+
+    /// Decides by the first event that ends a run.
+    fn happened(&mut self, watch: &Watch<'_>, new: &[Happening]) {
+        if let Some(stop) = new.iter().find(|happening| happening.event.is_stop()) {
+            self.stopped(new, watch.after().room_rates[stop.pedestrian].abs() / self.scale);
+        }
+    }
+
+    /// The same, of a gap that closes at this speed, in units of the desired one.
+    fn stopped(&mut self, found: &[Happening], closing: f64) {
+        let Some(stop) = found.iter().find(|happening| happening.event.is_stop()) else { return };
+        let (class, distance) = match stop.event {
+            Event::Undefined => (Class::Undefined, f64::INFINITY),
+            Event::BlowUp => (Class::BlowUp, f64::INFINITY),
+            _ => (Class::Contact, if closing.is_nan() { f64::INFINITY } else { closing }),
+        };
+        if class == Class::Contact && self.least_gap > 0.0 {
+            self.least_gap = 0.0;
+        }
+        self.decide(class, stop.time, Decision::Event, distance);
+    }
+
+    /// Whether the state is back at the uniform flow, and stays there.
+    fn is_back(&self, watch: &Watch<'_>) -> bool {
+        let Some(Flow { headway, speed, room, margin, growth_rate }) = self.flow else { return false };
+        if !(growth_rate < 0.0 && margin < -NEAR_LINE) {
+            return false;
+        }
+        let now = watch.after();
+        let near = |numbers: &[f64], flow: f64, bound: f64| numbers.iter().all(|number| (number - flow).abs() < bound);
+        near(&now.speeds, speed, NEAR_FLOW * self.scale) && near(&now.gaps, headway, NEAR_FLOW * room)
+    }
+
+    /// The length of the windows that waves are judged by; `None` if nothing travels.
+    fn window(&self) -> Option<f64> {
+        let (recent, _) = last(&self.blocks, 0.0, SHORTEST_WINDOW)?;
+        let around = ROUNDS * self.ring.pedestrians as f64 / recent.label_speed().abs();
+        around.is_finite().then_some(if around > SHORTEST_WINDOW { around } else { SHORTEST_WINDOW })
+    }
+
+    /// The last two windows, the later first.
+    fn windows(&self) -> Option<[Stretch; 2]> {
+        let duration = self.window()?;
+        let (late, until) = last(&self.blocks, 0.0, duration)?;
+        let (early, _) = last(&self.blocks, until, duration)?;
+        Some([late, early])
+    }
+
+    /// What keeps waves from being certain at the end of a run.
+    fn missing(&self) -> Option<String> {
+        let length = || self.window().map_or(SHORTEST_WINDOW, |window| window);
+        let Some([late, early]) = self.windows() else {
+            return Some(format!("t_end: two windows of {:.0} must follow the start", length()));
+        };
+        let contrast = if late.contrast < early.contrast { late.contrast } else { early.contrast };
+        if !(contrast > CONTRAST * self.scale) {
+            return Some(self.too_weak(contrast));
+        }
+        let change = |late: f64, early: f64| (late - early).abs() / late.abs();
+        let (std, gap) = (change(late.mean_std(), early.mean_std()), change(late.least_gap, early.least_gap));
+        if std < AGREEMENT && gap < AGREEMENT {
+            return None;
+        }
+        Some(format!(
+            "a longer t_end: between the last two windows of {:.0} the standard deviation changes by {:.1} %, the least gap by {:.1} %",
+            late.duration,
+            100.0 * std,
+            100.0 * gap
+        ))
+    }
+
+    /// Why a run without strong waves is not one that decays.
+    fn too_weak(&self, contrast: f64) -> String {
+        let weak = format!("speeds differ by no more than {contrast:.1e}");
+        match self.flow {
+            None => format!("{weak}; the uniform flow has no linearised law"),
+            Some(flow) if flow.margin.abs() <= NEAR_LINE => {
+                format!("{weak}, and the margin of stability is {:.1e}: too near to its line", flow.margin)
+            }
+            Some(flow) if flow.growth_rate > 0.0 => {
+                format!("a longer t_end: {weak}, growing at a rate of {:.1e}", flow.growth_rate)
+            }
+            Some(flow) => format!("a longer t_end: {weak}, decaying at a rate of {:.1e}", flow.growth_rate),
+        }
+    }
+
+    /// Decides for lasting waves.
+    fn lasting(&mut self, time: f64, decision: Decision, repetition: Option<Repetition>) {
+        self.close_block();
+        let windows = match repetition {
+            // one window back to before the state first repeated itself
+            Some(repetition) => last(&self.blocks, 0.0, repetition.period).map(|(window, _)| window),
+            None => self.windows().map(|[mut late, early]| {
+                late.least_speed =
+                    if early.least_speed < late.least_speed { early.least_speed } else { late.least_speed };
+                late
+            }),
+        };
+        let Some(window) = windows else { return };
+        let count = self.ring.pedestrians as f64;
+        let fitted = window.label_speed();
+        let label_speed = repetition.map_or(fitted, |Repetition { period, shift }| {
+            let rounds = ((fitted * period - shift) / count).round();
+            (shift + rounds * count) / period
+        });
+        let class = if window.least_speed < 0.0 { Class::WavesBackwards } else { Class::Waves };
+        let room = self.flow.map_or(self.ring.headway(), |flow| flow.room);
+        let distances = [
+            window.contrast / (CONTRAST * self.scale) - 1.0,
+            window.least_gap / room,
+            window.least_speed.abs() / self.scale,
+        ];
+        self.decide(class, time, decision, lowest(&distances));
+        if let Some(verdict) = &mut self.verdict {
+            verdict.std = window.mean_std();
+            verdict.wave_speed = Some(window.mean_speed() + self.ring.headway() * label_speed);
+        }
+    }
+
+    fn decide(&mut self, class: Class, time: f64, decision: Decision, distance: f64) {
+        self.verdict = Some(self.of(class, time, decision, distance));
+    }
+
+    fn of(&self, class: Class, time: f64, decision: Decision, distance: f64) -> Verdict {
+        Verdict {
+            class,
+            time,
+            decision,
+            backward_flow: self.flow.is_some_and(|flow| flow.speed < 0.0),
+            least_gap: self.least_gap,
+            least_speed: if self.least_speed.is_finite() { self.least_speed } else { self.least_of_all },
+            std: self.std,
+            wave_speed: None,
+            distance,
+        }
+    }
+}
+
+impl Flow {
+    fn of(model: &Model, ring: Ring, speed: f64) -> Option<Flow> {
+        let headway = ring.headway();
+        let response = model.response(headway, speed)?;
+        let gap = model.room(headway, speed, speed);
+        let room = if gap < headway { gap } else { headway };
+        let margin = response.margin(Waves::Ring(ring.pedestrians)).0;
+        Some(Flow { headway, speed, room, margin, growth_rate: response.fastest(ring.pedestrians).0 })
+    }
+}

@@ -1,0 +1,159 @@
+//! What became of a run: back to the uniform flow, lasting waves, contact, blow-up; or undecided, and why.
+//!
+//! The paper leaves the question to simulations ("it has to be verified by simulations whether this instability corresponds
+//! to realistic behavior"). [`Judge`] answers it for one run, step by step; the classes are [`Class`], in order of precedence.
+
+mod judge;
+mod least;
+mod memory;
+mod repeats;
+mod windows;
+
+pub use judge::Judge;
+pub use memory::Memory;
+
+/// What became of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Class {
+    /// Two touch at the start.
+    Closed,
+    /// There is no uniform flow to perturb.
+    NoUniformFlow,
+    /// The formula of the law has no value for somebody.
+    Undefined,
+    /// Speeds grow without bound while every gap is open.
+    BlowUp,
+    /// An effective gap (of the logarithmic law: a spacing) reaches 0.
+    Contact,
+    /// Back to the uniform flow for good.
+    Decays,
+    /// Lasting waves, in which somebody walks backwards.
+    WavesBackwards,
+    /// Lasting waves, in which nobody touches or walks backwards.
+    Waves,
+    /// None of these is certain by the end of the run.
+    Undecided,
+}
+
+impl Class {
+    /// All classes.
+    pub const ALL: [Class; 9] = [
+        Class::Closed,
+        Class::NoUniformFlow,
+        Class::Undefined,
+        Class::BlowUp,
+        Class::Contact,
+        Class::Decays,
+        Class::WavesBackwards,
+        Class::Waves,
+        Class::Undecided,
+    ];
+
+    /// The name in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Class::Closed => "closed",
+            Class::NoUniformFlow => "no_uniform_flow",
+            Class::Undefined => "undefined",
+            Class::BlowUp => "blow_up",
+            Class::Contact => "contact",
+            Class::Decays => "decays",
+            Class::WavesBackwards => "waves_backwards",
+            Class::Waves => "waves",
+            Class::Undecided => "undecided",
+        }
+    }
+
+    /// In words, for legends.
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Class::Closed => "closed at the start",
+            Class::NoUniformFlow => "no uniform flow",
+            Class::Undefined => "undefined",
+            Class::BlowUp => "blow-up",
+            Class::Contact => "contact",
+            Class::Decays => "decays",
+            Class::WavesBackwards => "waves, backwards",
+            Class::Waves => "waves",
+            Class::Undecided => "undecided",
+        }
+    }
+
+    /// The class of this name in tables.
+    pub fn of_name(name: &str) -> Option<Class> {
+        Class::ALL.into_iter().find(|class| class.name() == name)
+    }
+}
+
+/// What decided.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Decision {
+    /// The start itself.
+    Start,
+    /// An event.
+    Event,
+    /// The state is near the uniform flow, and every wave of the ring decays by the linearised law.
+    Return,
+    /// The state repeats itself, shifted along the ring.
+    Repetition,
+    /// The last two windows of the run agree.
+    Windows,
+    /// Nothing: this is missing.
+    Missing(String),
+}
+
+impl Decision {
+    /// The name in `summary.json`.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Decision::Start => "start",
+            Decision::Event => "event",
+            Decision::Return => "return to the uniform flow",
+            Decision::Repetition => "the state repeats itself",
+            Decision::Windows => "the last two windows agree",
+            Decision::Missing(_) => "nothing",
+        }
+    }
+}
+
+/// The outcome of a run, with the numbers that it rests on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Verdict {
+    /// What became of it.
+    pub class: Class,
+    /// When that was certain, in units of `tau`.
+    pub time: f64,
+    /// What decided.
+    pub decision: Decision,
+    /// Whether the uniform flow itself walks backwards.
+    pub backward_flow: bool,
+    /// The least effective gap of the run, of the logarithmic law the least spacing, in units of `a_0`.
+    pub least_gap: f64,
+    /// The least speed of the run, the start from rest ([`START`]) left out; of a shorter run, of all of it.
+    pub least_speed: f64,
+    /// The standard deviation of the speeds: of waves the mean over the last window, else that at the end.
+    pub std: f64,
+    /// The speed at which waves travel along the ring, against the direction of walking if negative; only of waves.
+    pub wave_speed: Option<f64>,
+    /// How far the deciding numbers are from another verdict, in the unit of each: of waves the least of the contrast above
+    /// its threshold, the least gap (both relative) and the distance of the least speed from 0; of a decay the margin of
+    /// stability; of a contact the speed at which the gap closes. 0 if undecided.
+    pub distance: f64,
+}
+
+/// How long the start from rest lasts: `e^-20` of it is left, 2e-9, after 20 relaxation times.
+pub const START: f64 = 20.0;
+
+/// A state is back at the uniform flow where deviations are below this part of headway, effective gap and desired speed. The
+/// linearised law is then exact to about as much, and so are its growth rates.
+pub const NEAR_FLOW: f64 = 1e-3;
+
+/// Nearer to the line of stability than this, the linearised law does not tell decay from waves of small amplitude: there
+/// terms of second order, relative [`NEAR_FLOW`], weigh as much.
+pub const NEAR_LINE: f64 = 1e-4;
+
+/// Speeds that differ by less than this part of the desired speed are no waves.
+pub const CONTRAST: f64 = 1e-3;
+
+/// Windows agree where the mean standard deviation and the least gap differ by less than this part of themselves.
+pub const AGREEMENT: f64 = 1e-2;
