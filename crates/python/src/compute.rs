@@ -10,33 +10,37 @@ use jam::uniform;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use scene::simulation::run_from;
+use scene::simulation::{Judging, run_from};
 use scene::summary::{self, Ended};
 use scene::{check, uniform::stability};
 
 /// Runs a scene: `std` (t, std), `trajectories` (t, n, x, v) or None, `x` and `v` of the final state, all flat, and the
-/// rest. With `check` a second run estimates the errors.
+/// rest. `wanted`: whether a second run estimates the errors, and whether it
+/// is judged what became of the run.
 #[pyfunction]
 pub fn simulate<'py>(
     py: Python<'py>,
     given: Given<'py>,
     panel: Option<&str>,
     values: &Bound<'py, PyDict>,
-    check: bool,
+    wanted: (bool, bool),
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
+    let (check, outcome) = wanted;
     let chosen = choose(&given, panel, Kind::Run, values)?;
     let scene = scene::run::read(&chosen.file, &chosen.panel.tables).map_err(|error| scene_error(py, &error))?;
     let (ended, flow, errors) = detached(py, || {
         let mut watch = Watch::new(progress.as_ref(), scene.ring.pedestrians);
         let share = if check { 0.5 } else { 1.0 };
         watch.turn_to(scene.t_end, 0.0, share);
+        watch.judging = if outcome { Judging::Along } else { Judging::No };
         let clock = ThreadTime::now();
         let (outcome, broken) = match run_from(&scene, None, &mut watch) {
             Ok(outcome) => (outcome, None),
             Err(broken) => (*broken.outcome.clone(), Some(broken)),
         };
         let ended = Ended { outcome, broken, seconds: clock.elapsed().as_secs_f64(), resumed_steps: 0 };
+        watch.judging = Judging::No;
         watch.turn_to(ended.outcome.statistics.time, share, 1.0 - share);
         let errors = check.then(|| check::errors_seen(&scene, &ended.outcome, &mut watch));
         watch.tell(1.0);

@@ -22,7 +22,7 @@ def test_other_threads_go_on():
             ticks.append(time.monotonic())
             time.sleep(0.001)
 
-    thread = threading.Thread(target=tick)
+    thread = threading.Thread(target=tick, daemon=True)
     thread.start()
     begin = time.monotonic()
     jamming.simulate(ROOT / "scenes/ring.toml", **{"run.tolerance": 1e-13})

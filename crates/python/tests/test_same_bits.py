@@ -84,6 +84,7 @@ def test_runs(scene, panel, command_line, tmp_path):
     summary = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))
     assert summary.pop("seconds") >= 0 and run.summary.pop("seconds") >= 0
     assert run.summary == summary
+    assert (run.outcome.name, run.outcome.t) == (summary["outcome"]["class"], summary["outcome"]["t"])
 
 
 @pytest.mark.parametrize(("scene", "panel"), panels("map"))

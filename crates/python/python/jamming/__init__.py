@@ -22,12 +22,13 @@ Phys. Rev. E 92, 042809 (2015).
 
 from ._errors import RunError, SceneError
 from ._map import Map, map
-from ._run import Event, Run, simulate
+from ._run import Event, Outcome, Run, simulate
 from ._stability import Ring, Stability, stability
 
 __all__ = [
     "Event",
     "Map",
+    "Outcome",
     "Ring",
     "Run",
     "RunError",

@@ -12,7 +12,7 @@ def simulate(
     given: Given,
     panel: str | None,
     values: dict[str, Any],
-    check: bool,
+    wanted: tuple[bool, bool],
     progress: Callable[[float], object] | None,
 ) -> dict[str, Any]: ...
 def map(
