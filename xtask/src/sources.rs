@@ -36,15 +36,16 @@ const SHARED_SOURCES: [&str; 9] = [
 const SUPPLEMENT_SOURCES: [&str; 4] = ["crates/reference/", "crates/studies/", "data/accuracy/", "data/timing/"];
 /// Folders that are searched for sources.
 const SOURCE_FOLDERS: [&str; 5] = ["crates", "figures", "data/accuracy", "data/reference", "data/timing"];
-/// Below the folders searched, what reaches no figure: the page for browsers, the programs about the result, solutions to
-/// compare with, archived benchmarks.
-const NO_SOURCES: [&str; 9] = [
+/// Below the folders searched, what reaches no figure: the doors for browsers and for Python, the programs about the
+/// result, solutions to compare with, archived benchmarks.
+const NO_SOURCES: [&str; 10] = [
     "crates/browser/",
     "crates/checkout/",
     "crates/claims/",
     "crates/interchange/",
     "crates/measure/",
     "crates/publish/",
+    "crates/python/",
     "crates/verify/",
     "data/reference/solutions/",
     "data/timing/bench/",
