@@ -3,10 +3,12 @@
 import re
 
 import matplotlib
+import pytest
 from conftest import ROOT
 
 
 def test_they_run(tmp_path, monkeypatch):
+    pytest.importorskip("pedpy")
     matplotlib.use("Agg")
     (tmp_path / "scenes").symlink_to(ROOT / "scenes")
     monkeypatch.chdir(tmp_path)

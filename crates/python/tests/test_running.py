@@ -88,6 +88,7 @@ def test_what_a_callback_raises_ends_the_run():
 
 
 def test_a_bar(capsys):
+    pytest.importorskip("tqdm")
     jamming.simulate(SHORT, progress=True)
     assert "100%" in capsys.readouterr().err
 
