@@ -31,6 +31,12 @@ impl From<scene::RecipeError> for Failure {
     }
 }
 
+impl From<String> for Failure {
+    fn from(problem: String) -> Failure {
+        Failure::input(problem)
+    }
+}
+
 impl From<std::io::Error> for Failure {
     fn from(error: std::io::Error) -> Failure {
         // a pipe, a device or one name twice, where files are to be written

@@ -236,7 +236,7 @@ impl Job {
                 computed.table
             }
             Kind::Curve => scene::curve::table(&self.recipe.file, &panel.tables)?,
-            Kind::Run | Kind::Drawing => return Ok(()),
+            Kind::Run | Kind::Sweep | Kind::Drawing => return Ok(()),
         };
         self.write(&panel.name, &table)
     }

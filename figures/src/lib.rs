@@ -8,7 +8,9 @@ pub mod gallery;
 pub mod job;
 pub mod map;
 pub mod panels;
+pub mod planes;
 pub mod simulate;
+pub mod sweep;
 pub mod titles;
 pub mod uniform;
 

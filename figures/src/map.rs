@@ -80,7 +80,7 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
 fn points(recipe: &Recipe, arguments: &Arguments) -> Result<(), Failure> {
     let (mut summaries, mut words) = (Vec::new(), Vec::new());
     for panel in recipe.panels.iter().filter(|panel| panel.kind == Kind::Run) {
-        let scene = scene::run::read(&recipe.file, &panel.tables)?;
+        let scene = scene::run::read_unrun(&recipe.file, &panel.tables)?;
         let (speed, flow) = (scene.steady_speed, stability(&scene));
         summaries.push(json!({ "panel": panel.name, "steady_speed": speed, "uniform_flow": summary::of_flow(flow) }));
         words.push(format!("{}: {}", panel.name, uniform::in_words(flow, scene.ring.pedestrians)));

@@ -49,6 +49,9 @@ pub enum Verb {
     /// Compute a stability map: cargo xtask map SCENE.toml [options]; --help shows the options
     #[command(disable_help_flag = true)]
     Map(ForwardArgs),
+    /// Say what became of the runs of a plane: cargo xtask sweep SCENE.toml --out DIR [options]; --help shows the options
+    #[command(disable_help_flag = true)]
+    Sweep(ForwardArgs),
     /// Run a scene or a figure and write its trajectories in metres, as PedPy and JuPedSim read them
     #[command(disable_help_flag = true)]
     Export(ForwardArgs),

@@ -33,7 +33,7 @@ pub struct Package {
 }
 
 /// The figures of the paper, and what runs scenes.
-pub const FIGURES: Package = Package { name: "figures", tools: &["simulate", "map"], supplements: false };
+pub const FIGURES: Package = Package { name: "figures", tools: &["simulate", "map", "sweep"], supplements: false };
 /// The supplements, and the tables of accuracy.
 pub const STUDIES: Package = Package { name: "studies", tools: &["precision", "hard", "studies"], supplements: true };
 

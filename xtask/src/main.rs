@@ -29,6 +29,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Verb::Bundle(arguments) => verbs::publish::bundle(paths, &arguments),
         Verb::Simulate(arguments) => verbs::forward::scene(paths, "simulate", &arguments),
         Verb::Map(arguments) => verbs::forward::scene(paths, "map", &arguments),
+        Verb::Sweep(arguments) => verbs::forward::sweep(paths, &arguments),
         Verb::Export(arguments) => verbs::forward::export(paths, &arguments),
         Verb::Describe(arguments) => verbs::describe::run(paths, &arguments),
         Verb::Doctor(arguments) => verbs::doctor::run(paths, &arguments),

@@ -11,7 +11,8 @@ use std::collections::BTreeMap;
 /// Single files that determine what the binaries do.
 const SINGLE_SOURCES: [&str; 4] = ["Cargo.toml", LOCK_FILE, TOOLCHAIN, ".cargo/config.toml"];
 /// Crates that determine the numbers of a run.
-const NUMERIC_SOURCES: [&str; 7] = [
+const NUMERIC_SOURCES: [&str; 8] = [
+    "crates/formula/",
     "crates/math/",
     "crates/ode/",
     "crates/jam/",
@@ -21,7 +22,8 @@ const NUMERIC_SOURCES: [&str; 7] = [
     "figures/Cargo.toml",
 ];
 /// Sources that every figure shares.
-const SHARED_SOURCES: [&str; 9] = [
+const SHARED_SOURCES: [&str; 10] = [
+    "crates/formula/",
     "crates/math/",
     "crates/ode/",
     "crates/jam/",

@@ -94,6 +94,8 @@ pub enum Value {
     Number(f64),
     /// A string.
     Text(String),
+    /// `true` or `false`.
+    Flag(bool),
     /// A table.
     Section(Section),
     /// A value of a type that no scene uses (boolean, array, date), as it stands in the file.
@@ -151,6 +153,7 @@ impl Section {
             match &entry.value {
                 Value::Number(number) => lines.push(format!("{name} = {number:?}")),
                 Value::Text(text) => lines.push(format!("{name} = {text:?}")),
+                Value::Flag(flag) => lines.push(format!("{name} = {flag}")),
                 Value::Other(text) => lines.push(format!("{name} = {text}")),
                 Value::Section(section) => section.canonical(&format!("{name}."), lines),
             }
@@ -170,9 +173,8 @@ fn section(text: &str, table: &DeTable<'_>, line: usize) -> Result<Section, (usi
             }
             DeValue::String(words) => Value::Text(words.to_string()),
             DeValue::Table(inner) => Value::Section(section(text, inner, line)?),
-            DeValue::Boolean(_) | DeValue::Datetime(_) | DeValue::Array(_) => {
-                Value::Other(value.get_ref().type_str().to_owned())
-            }
+            DeValue::Boolean(flag) => Value::Flag(*flag),
+            DeValue::Datetime(_) | DeValue::Array(_) => Value::Other(value.get_ref().type_str().to_owned()),
         };
         entries.insert(key.get_ref().to_string(), Entry { line, place, value });
     }
@@ -316,6 +318,19 @@ impl<'a> Reader<'a> {
         named.ok_or_else(|| self.missing(key, &names.join(", ")))
     }
 
+    /// `true` or `false` under `key`.
+    ///
+    /// # Errors
+    /// Missing, or neither.
+    pub fn flag(&mut self, key: &'static str) -> Result<bool, RecipeError> {
+        self.asked.insert(key);
+        match self.section.entries.get(key) {
+            None => Err(self.missing(key, "true or false")),
+            Some(Entry { value: Value::Flag(flag), .. }) => Ok(*flag),
+            Some(entry) => Err(self.wrong(key, entry, "true or false")),
+        }
+    }
+
     /// The text under `key`, which the message calls `wanted`.
     ///
     /// # Errors
@@ -393,6 +408,7 @@ fn shown(value: &Value) -> String {
         Value::Number(number) => format!("{number:?}"),
         Value::Text(text) => format!("{text:?}"),
         Value::Section(_) => "a table".to_owned(),
+        Value::Flag(flag) => format!("{flag}"),
         Value::Other(kind) => format!("a value of type {kind}"),
     }
 }

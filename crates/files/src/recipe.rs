@@ -6,7 +6,7 @@ use crate::text;
 use std::path::Path;
 
 /// Tables that determine numbers.
-const DETERMINING: [&str; 7] = ["law", "ring", "start", "run", "uniform", "map", "curve"];
+const DETERMINING: [&str; 8] = ["law", "ring", "start", "run", "uniform", "map", "curve", "sweep"];
 /// Everything else that may stand at the top.
 const DESCRIBING: [&str; 4] = ["title", "source", "origin", "panel"];
 
@@ -19,6 +19,8 @@ pub enum Kind {
     Map,
     /// A function of one variable (`[curve]`).
     Curve,
+    /// What became of runs over two parameters (`[sweep]`).
+    Sweep,
     /// No numbers: a drawing.
     Drawing,
 }
@@ -155,6 +157,7 @@ fn determining(document: &Section) -> Section {
 fn kind(tables: &Section) -> Kind {
     let has = |key: &str| tables.entries.contains_key(key);
     match () {
+        () if has("sweep") => Kind::Sweep,
         () if has("run") => Kind::Run,
         () if has("map") => Kind::Map,
         () if has("curve") => Kind::Curve,

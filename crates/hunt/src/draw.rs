@@ -1,5 +1,7 @@
 //! Random scenes over decades of every parameter, as the text of scene files.
 
+mod formulas;
+
 use crate::random::Random;
 use math::{larger, smaller};
 use ode::Method;
@@ -39,14 +41,26 @@ impl Law {
     }
 }
 
+/// Seeds from this on draw laws as formulas ([`formulas`]), those below the laws of the paper.
+pub const FORMULAS: u64 = 1_000_000;
+
 /// The scene of this seed.
 pub fn scene(seed: u64) -> String {
+    if seed >= FORMULAS {
+        return formulas::scene(seed);
+    }
     let mut random = Random::new(seed);
     let law = law(&mut random);
     let (ring, pedestrians, room) = ring(&mut random, &law);
     let shift = shift(&mut random, room);
-    let run = run(&mut random, &law, pedestrians, law.rate(room));
-    let panels = if random.chance(0.1) { panels(&mut random, &law) } else { String::new() };
+    // refused where the force is infinite at contact
+    let continues = match (law.contact > 0.0, law.text.contains("algebraic")) {
+        (false, _) => 0.0,
+        (true, true) => 0.01,
+        (true, false) => 0.1,
+    };
+    let run = run(&mut random, Kind { has_series: law.has_series, continues }, pedestrians, law.rate(room));
+    let panels = if random.chance(0.1) { panels(&mut random, law.v0) } else { String::new() };
     format!(
         "title = \"Random scene {seed}\"\n\n[law]\n{}\n[ring]\n{ring}\n[start]\nshift = {shift}\n\n[run]\n{run}{panels}",
         law.text
@@ -168,7 +182,15 @@ fn shift(random: &mut Random, room: f64) -> String {
     format!("{:e}", short(sign * size))
 }
 
-fn run(random: &mut Random, law: &Law, pedestrians: usize, rate: f64) -> String {
+/// What a run has to know of its law.
+struct Kind {
+    /// Whether the force depends on the spacing alone.
+    has_series: bool,
+    /// The probability that it is to go on after an overlap.
+    continues: f64,
+}
+
+fn run(random: &mut Random, law: Kind, pedestrians: usize, rate: f64) -> String {
     let method = random.pick(&Method::ALL);
     let method = if method.needs_series() && !law.has_series && random.chance(0.9) { Method::Dop853 } else { method };
     // what both integrations can afford
@@ -188,8 +210,7 @@ fn run(random: &mut Random, law: &Law, pedestrians: usize, rate: f64) -> String 
     if !method.needs_series() && random.chance(0.4) {
         let _ = writeln!(text, "state = \"{}\"", random.pick(&["gaps", "positions", "deviations"]));
     }
-    // refused where the force is infinite at contact
-    if law.contact > 0.0 && random.chance(if law.text.contains("algebraic") { 0.01 } else { 0.1 }) {
+    if law.continues > 0.0 && random.chance(law.continues) {
         text.push_str("at_overlap = \"continue\"\n");
     }
     if random.chance(0.25) {
@@ -199,10 +220,10 @@ fn run(random: &mut Random, law: &Law, pedestrians: usize, rate: f64) -> String 
 }
 
 /// Two panels that differ from the scene.
-fn panels(random: &mut Random, law: &Law) -> String {
+fn panels(random: &mut Random, v0: f64) -> String {
     let method = random.pick(&["dop853", "tsit54", "verner87"]);
     let tolerance = decades(random, -12.0, -5.0);
-    let v0 = short(law.v0 * random.between(0.7, 1.1));
+    let v0 = short(v0 * random.between(0.7, 1.1));
     format!(
         "\n[panel.slower.law]\nv0 = {v0:?}\n\n[panel.finer.start]\nshift = {:e}\n\n[panel.other.run]\nmethod = \"{method}\"\ntolerance = {tolerance:?}\n",
         decades(random, -20.0, -3.0)

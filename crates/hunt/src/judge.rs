@@ -118,6 +118,7 @@ fn refused(verdict: &mut Verdict, problem: &str, question: &Question) {
         ("gaps are closed", "refused: closed gaps"),
         ("give either dt or tolerance", "refused: dt and tolerance"),
         ("no run goes on from there", "refused: no run goes on from an overlap"),
+        ("several steady speeds", "refused: several steady speeds"),
     ];
     let class = known.iter().find(|(words, _)| problem.contains(words));
     verdict.ending = class.map_or("refused: other", |(_, class)| class).into();
@@ -139,8 +140,8 @@ fn has_uniform_flow(question: &Question) -> bool {
         if i < 0 { -size * formula.desired_speed() } else { formula.desired_speed() * (f64::from(i) / 1200.0) }
     });
     let pushes: Vec<bool> = speeds
-        .filter(|v| formula.room(headway, *v, *v) > 0.0)
-        .map(|v| formula.acceleration(headway, v, v, ramp) > 0.0)
+        .filter(|v| formula.room(|_| headway, |_| *v) > 0.0)
+        .map(|v| formula.acceleration(|_| headway, |_| v, ramp) > 0.0)
         .collect();
     pushes.windows(2).any(|pair| pair[0] && !pair[1])
 }
@@ -367,7 +368,6 @@ pub fn kind(event: Event) -> Option<Kind> {
         Event::Overlap => Some(Kind::Overlap),
         Event::NegativeSpeed => Some(Kind::NegativeSpeed),
         Event::Exchange => Some(Kind::Exchange),
-        // of formulas, which the hunt does not draw
         Event::Undefined | Event::BlowUp => None,
     }
 }

@@ -1,6 +1,8 @@
 //! What a scene asks, read a second time from its text.
 
+use formula::{Definition, Given, Place};
 use reference::formula::Formula;
+use reference::graph::Graph;
 use reference::solution::Question;
 use toml::Value;
 use toml::value::Table;
@@ -22,7 +24,7 @@ pub fn read(text: &str, panel: &str) -> Result<Question, String> {
         _ => Err(format!("no number {table}.{key}")),
     };
     let or = |key: &str, usual: f64| number("law", key).unwrap_or(usual);
-    let (a_v, v0, epsilon) = (or("a_v", 0.0), number("law", "v0")?, or("epsilon", 0.1));
+    let (a_v, v0, epsilon) = (or("a_v", 0.0), or("v0", f64::NAN), or("epsilon", 0.1));
     let formula = match find("law", "kind").as_ref().and_then(Value::as_str) {
         Some("algebraic") => {
             let (mu, delta, q, a_v) = match find("law", "preset").as_ref().and_then(Value::as_str) {
@@ -42,6 +44,7 @@ pub fn read(text: &str, panel: &str) -> Result<Question, String> {
             Formula::Exponential { a, b, c, a_v, epsilon, v0 }
         }
         Some("logarithmic") => Formula::Logarithmic { a_v, epsilon, v0 },
+        Some("formula") => Formula::Graph(graph(&document, over)?),
         kind => return Err(format!("the second reader knows no law {kind:?}")),
     };
     Ok(Question {
@@ -51,4 +54,36 @@ pub fn read(text: &str, panel: &str) -> Result<Question, String> {
         shift: number("start", "shift")?,
         times: Vec::new(),
     })
+}
+
+/// The law of a text that has no more than that.
+///
+/// # Errors
+/// In words.
+pub fn law(text: &str) -> Result<Graph, String> {
+    graph(&text.parse().map_err(|error: toml::de::Error| error.to_string())?, None)
+}
+
+/// The formulas of a scene, in which those of a panel take the place of others.
+fn graph(document: &Table, over: Option<&Value>) -> Result<Graph, String> {
+    let section = |value: Option<&Value>| value.and_then(Value::as_table).cloned().unwrap_or_default();
+    let mut law = section(document.get("law"));
+    law.extend(section(over.and_then(|panel| panel.get("law"))));
+    law.remove("kind");
+    let place = Place { line: 1, column: 1 };
+    let given = |value: &'_ Value| match value {
+        Value::Float(number) => Ok(Given::Number(*number)),
+        Value::Integer(number) => Ok(Given::Number(*number as f64)),
+        _ => Err(format!("neither a number nor a formula: {value}")),
+    };
+    let definitions = law.iter().map(|(name, value)| {
+        let given = value.as_str().map_or_else(|| given(value), |text| Ok(Given::Text(text)))?;
+        Ok(Definition { name, key: place, value: place, given })
+    });
+    let definitions: Vec<Definition<'_>> = definitions.collect::<Result<_, String>>()?;
+    let graph = formula::law("scene", place, &definitions).map_err(|error| error.to_string())?;
+    let values = graph.values();
+    let bound = graph.bind(&values).map_err(|error| error.to_string())?;
+    let value = |name: &str| graph.parameter(name).map(|index| values[index]);
+    Ok(Graph::new(bound, value("body").unwrap_or(0.0), value("v0").or(value("scale")).unwrap_or(1.0)))
 }

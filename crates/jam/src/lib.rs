@@ -10,6 +10,7 @@ pub mod jams;
 pub mod laws;
 pub mod observe;
 pub mod outcome;
+pub mod precise;
 pub mod ramp;
 pub mod ring;
 pub mod stability;

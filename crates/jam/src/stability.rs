@@ -90,10 +90,11 @@ impl Response {
         refined_rate(self.root(k), self.polynomial(k))
     }
 
-    /// The margin by a finer grid of waves: its difference from that of [`Response::margin`] is the error of the latter.
-    pub fn refined_margin(&self) -> f64 {
+    /// The wave with the largest margin by a finer grid of waves than that of [`Response::margin`] (0: the limit of long
+    /// waves).
+    pub fn largest_by_finer_grid(&self) -> f64 {
         const FINER: usize = 7;
-        self.over_all(FINER).0
+        self.over_all(FINER).1
     }
 
     /// How far a wave is from stability, negative when it decays: `-D / ((1 - cos k) sum_j f_{s_j})`, or `-D` where that sum
@@ -167,12 +168,22 @@ impl Response {
     }
 
     /// The largest margin over all waves: the best of a grid, `fineness` points for each wave length of the stencil's
-    /// widest pair, and what lies next to it.
+    /// widest pair, and what lies next to it. With one predecessor the margin and `Re b` are linear in `cos k`, so that one
+    /// end or the other is the largest.
     fn over_all(&self, fineness: usize) -> (f64, f64) {
+        let long = (self.long_wave_margin(), 0.0);
+        if self.looks_at_one() {
+            return self.largest(long, std::iter::once(PI));
+        }
         let count = self.grid(fineness);
         let step = PI / count as f64;
-        let coarse = self.largest((self.long_wave_margin(), 0.0), (1..=count).map(|i| step * i as f64));
+        let coarse = self.largest(long, (1..=count).map(|i| step * i as f64));
         self.refined(coarse, step)
+    }
+
+    /// Whether it depends on one's own spacing and speed and the speed ahead alone.
+    fn looks_at_one(&self) -> bool {
+        self.spacings.iter().all(|(j, _)| *j == 0) && self.speeds.iter().all(|(j, _)| *j == 0 || *j == 1)
     }
 
     /// The waves that grow, of all `k` in (0, pi]: the least and the largest of them (0: the limit of long waves). `None` where
@@ -266,9 +277,7 @@ impl Linear {
     /// The coefficients of a response to one predecessor; [`Linear::NONE`] of any other.
     pub fn of(response: &Response) -> Linear {
         let slope = |list: &[(i32, f64)], wanted: i32| list.iter().find(|(j, _)| *j == wanted).map_or(0.0, |(_, f)| *f);
-        let is_one =
-            response.spacings.iter().all(|(j, _)| *j == 0) && response.speeds.iter().all(|(j, _)| *j == 0 || *j == 1);
-        if !is_one {
+        if !response.looks_at_one() {
             return Linear::NONE;
         }
         let (own, ahead) = (slope(&response.speeds, 0), slope(&response.speeds, 1));
@@ -323,13 +332,6 @@ impl Linear {
     /// The same for all waves: long ones (`k -> 0`) are the first to grow, `2 phi < (1 + 2 kappa) (1 + 2 beta)`.
     pub fn long_wave_margin(&self) -> f64 {
         2.0 * self.phi - (1.0 + 2.0 * self.kappa) * (1.0 + 2.0 * self.beta)
-    }
-
-    /// [`Linear::long_wave_margin`] in twofold precision.
-    pub fn refined_margin(&self) -> f64 {
-        let twice = |x: f64| Twofold::from(2.0) * x;
-        let one = Twofold::from(1.0);
-        (twice(self.phi) - (one + twice(self.kappa)) * (one + twice(self.beta))).hi
     }
 
     /// The largest growth rate among the waves `k = 2 pi l / N`, `l = 1 .. N/2`, and its `l`.

@@ -79,7 +79,7 @@ pub fn of_formula(formula: &Formula, headway: f64, wanted: Option<f64>) -> Resul
     let scale = if scale > 0.0 { scale } else { 1.0 };
     let falls = |speeds: &[f64]| -> Vec<f64> {
         let acceleration = |speed: f64| formula.uniform(headway, speed);
-        let values: Vec<f64> = speeds.iter().map(|speed| acceleration(*speed)).collect();
+        let values = formula.uniform_at(headway, speeds);
         let pairs = speeds.windows(2).zip(values.windows(2));
         pairs
             .filter(|(_, value)| value[0] > 0.0 && value[1] <= 0.0)
@@ -122,5 +122,28 @@ fn bisected(mut low: f64, mut high: f64, value: impl Fn(f64) -> f64) -> f64 {
             return if value(high) == 0.0 { high } else { low };
         }
         if value(middle) > 0.0 { low = middle } else { high = middle }
+    }
+}
+
+/// The headway at which the uniform flow has this effective gap `d'`: the gap grows with the headway, as the steady speed's
+/// share of it does not outrun it; found by bisection to the last bit.
+///
+/// # Errors
+/// [`NoUniformFlow`] where no headway up to a million gaps has one.
+pub fn headway_of_gap(model: &Model, gap: f64) -> Result<f64, NoUniformFlow> {
+    let room = |headway: f64| steady_speed(model, headway).map(|speed| model.room(headway, speed, speed));
+    let (mut low, mut high) = (model.contact(), model.contact() + gap);
+    while room(high).is_ok_and(|room| room < gap) || room(high).is_err() {
+        high = model.contact() + 2.0 * (high - model.contact());
+        if high > 1e6 * (gap + model.contact()) {
+            return Err(none(high));
+        }
+    }
+    loop {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            return Ok(high);
+        }
+        if room(middle).is_ok_and(|room| room >= gap) { high = middle } else { low = middle }
     }
 }

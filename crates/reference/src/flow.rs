@@ -17,8 +17,8 @@ pub enum Form {
 ///
 /// A state is `[u_0 .. u_{N-1}, w_0 .. w_{N-1}, y_0, X, V]`: spacings `S + u_n`, speeds `V + w_n`, and the position
 /// `X + y_0` of pedestrian 0. In [`Form::Differences`] `X` and `V` are those of the uniform flow that starts at rest and
-/// `S = L / N`; in [`Form::Clearances`] they stay 0 and `S = 2`, where standing pedestrians touch.
-#[derive(Clone, Copy, Debug)]
+/// `S = L / N`; in [`Form::Clearances`] they stay 0 and `S` is where standing pedestrians touch.
+#[derive(Clone, Debug)]
 pub struct Flow<T> {
     /// The law.
     pub formula: Formula,
@@ -45,7 +45,7 @@ impl<T: Real> Flow<T> {
     fn base(&self) -> T {
         match self.form {
             Form::Differences => self.headway,
-            Form::Clearances => T::from(2.0),
+            Form::Clearances => T::from(self.formula.contact()),
         }
     }
 
@@ -63,7 +63,7 @@ impl<T: Real> Flow<T> {
     /// The same ring with clearances for its state, and a state in that form.
     pub fn by_clearances(&self, state: &[T]) -> (Flow<T>, Vec<T>) {
         let n = self.pedestrians;
-        let flow = Flow { form: Form::Clearances, ..*self };
+        let flow = Flow { form: Form::Clearances, ..self.clone() };
         let mut clearances: Vec<T> = state[..n].iter().map(|u| (self.base() - flow.base()) + *u).collect();
         clearances.extend((0..n).map(|i| self.speed(state, i)));
         clearances.extend([state[2 * n] + state[2 * n + 1], T::from(0.0), T::from(0.0)]);
@@ -77,24 +77,22 @@ impl<T: Real> Flow<T> {
         kinks.clear();
         let base = state[2 * n + 2];
         rates[2 * n + 2] = T::from(0.0);
+        let place = |i: usize, j: i32| (i as i64 + i64::from(j)).rem_euclid(n as i64) as usize;
         for i in 0..n {
-            let (s, v, ahead) = (state[i], state[n + i], state[n + (i + 1) % n]);
-            rates[i] = ahead - v;
+            rates[i] = state[n + place(i, 1)] - state[n + i];
             rates[n + i] = match self.form {
                 Form::Differences => {
-                    let speed = |change| Difference { base, change };
-                    let s = Difference { base: self.headway, change: s };
-                    let acceleration = self
-                        .formula
-                        .acceleration(s, speed(v), speed(ahead), &mut |x, epsilon| noted(x, epsilon, kinks));
+                    let spacing = |j| Difference { base: self.headway, change: state[place(i, j)] };
+                    let speed = |j| Difference { base, change: state[n + place(i, j)] };
+                    let ramp = &mut |x, epsilon| noted(x, epsilon, kinks);
+                    let acceleration = self.formula.acceleration(spacing, speed, ramp);
                     rates[2 * n + 2] = acceleration.base;
                     acceleration.change
                 }
                 Form::Clearances => {
-                    let speed = |rest| Parted { base, rest };
-                    let s = Parted { base: self.base(), rest: s };
+                    let (spacing, speed) = (self.spacing_parts(state, i), self.speed_parts(state, i));
                     let ramp = &mut |x, epsilon| noted(x, epsilon, kinks);
-                    self.formula.acceleration(s, speed(v), speed(ahead), ramp).whole()
+                    self.formula.acceleration(spacing, speed, ramp).whole()
                 }
             };
         }
@@ -102,12 +100,29 @@ impl<T: Real> Flow<T> {
         rates[2 * n + 1] = base;
     }
 
+    /// The spacing of who walks so many places ahead of pedestrian `n`.
+    fn spacing_parts<'a>(&self, state: &'a [T], n: usize) -> impl Fn(i32) -> Parted<T> + 'a {
+        let (base, count) = (self.base(), self.pedestrians as i64);
+        move |j| Parted { base, rest: state[(n as i64 + i64::from(j)).rem_euclid(count) as usize] }
+    }
+
+    /// The speed of who walks so many places ahead of pedestrian `n`.
+    fn speed_parts<'a>(&self, state: &'a [T], n: usize) -> impl Fn(i32) -> Parted<T> + 'a {
+        let (base, count) = (state[2 * self.pedestrians + 2], self.pedestrians);
+        move |j| Parted { base, rest: state[count + (n as i64 + i64::from(j)).rem_euclid(count as i64) as usize] }
+    }
+
     /// The room of pedestrian `n`.
     pub fn room(&self, state: &[T], n: usize) -> T {
+        self.formula.room(self.spacing_parts(state, n), self.speed_parts(state, n)).whole()
+    }
+
+    /// The components of a state that the room, spacing and speed of pedestrian `n` depend on.
+    pub fn components(&self, n: usize) -> Vec<usize> {
         let count = self.pedestrians;
-        let speed = |i: usize| Parted { base: state[2 * count + 2], rest: state[count + i] };
-        let spacing = Parted { base: self.base(), rest: state[n] };
-        self.formula.room(spacing, speed(n), speed((n + 1) % count)).whole()
+        let [behind, ahead] = self.formula.reach();
+        let places = (-behind..=ahead).map(|j| (n as i64 + i64::from(j)).rem_euclid(count as i64) as usize);
+        places.flat_map(|place| [place, count + place]).chain([2 * count + 2]).collect()
     }
 
     /// The spacing of pedestrian `n`.

@@ -1,12 +1,13 @@
 //! The laws of motion with all their terms, written once for any kind of number ([`crate::number`]).
 
+use crate::graph::Graph;
 use crate::number::Number;
 
 /// `e` to a double; `c = e - 1` of eq:modlog is rounded once more.
 const C: f64 = std::f64::consts::E - 1.0;
 
 /// A law with its parameters, named as in the paper.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Formula {
     /// eq:invd: `v_0 - v - (mu + delta r_eps(v_ahead - v))^2 / d^q`, `d = s - a_v (v + v_ahead) - 2`.
     Algebraic {
@@ -47,23 +48,35 @@ pub enum Formula {
         /// `v_0 > 0`.
         v0: f64,
     },
+    /// Any other, from the formulas of a scene.
+    Graph(Graph),
 }
 
 impl Formula {
-    /// `dv/dt` of a pedestrian with spacing `s` and speed `v` behind one with the speed `ahead`. Ramps are left to
+    /// `dv/dt` of a pedestrian, from the spacings and speeds of the one so many places ahead. Ramps are left to
     /// `ramp(x, eps)`, so that whoever integrates sees the kinks.
-    pub fn acceleration<T: Number>(&self, s: T, v: T, ahead: T, ramp: &mut impl FnMut(T, f64) -> T) -> T {
+    pub fn acceleration<T: Number>(
+        &self,
+        spacing: impl Fn(i32) -> T,
+        speed: impl Fn(i32) -> T,
+        ramp: &mut impl FnMut(T, f64) -> T,
+    ) -> T {
+        if let Formula::Graph(graph) = self {
+            return graph.acceleration(spacing, speed, ramp);
+        }
         let number = |value: f64| T::from(value);
+        let (s, v, ahead) = (spacing(0), speed(0), speed(1));
         match *self {
+            Formula::Graph(_) => number(f64::NAN),
             Formula::Algebraic { mu, delta, q, epsilon, v0, .. } => {
                 let strength = match delta {
                     0.0 => number(mu),
                     _ => number(mu) + number(delta) * ramp(ahead - v, epsilon),
                 };
-                number(v0) - v - strength * strength * self.room(s, v, ahead).power(-q)
+                number(v0) - v - strength * strength * self.room(&spacing, &speed).power(-q)
             }
             Formula::Exponential { a, b, c, epsilon, v0, .. } => {
-                let room = self.room(s, v, ahead);
+                let room = self.room(&spacing, &speed);
                 let far = number(v0) - v - number(a) * (-room / number(b)).exp();
                 if c == 0.0 { far } else { far - number(c) * ramp(room, epsilon) }
             }
@@ -76,24 +89,46 @@ impl Formula {
     }
 
     /// What an overlap uses up: `d`, or the spacing under eq:modlog.
-    pub fn room<T: Number>(&self, s: T, v: T, ahead: T) -> T {
+    pub fn room<T: Number>(&self, spacing: impl Fn(i32) -> T, speed: impl Fn(i32) -> T) -> T {
         match *self {
+            Formula::Graph(ref graph) => graph.room(spacing, speed),
             Formula::Algebraic { a_v, .. } | Formula::Exponential { a_v, .. } => {
                 // contact first: no digit of a small room is lost to it
-                s - T::from(2.0) - T::from(a_v) * (v + ahead)
+                spacing(0) - T::from(2.0) - T::from(a_v) * (speed(0) + speed(1))
             }
-            Formula::Logarithmic { .. } => s,
+            Formula::Logarithmic { .. } => spacing(0),
+        }
+    }
+
+    /// How far it looks behind and ahead.
+    pub fn reach(&self) -> [i32; 2] {
+        match self {
+            Formula::Graph(graph) => graph.reach(),
+            _ => [0, 1],
+        }
+    }
+
+    /// The spacing that clearances are counted from: where standing pedestrians touch.
+    pub fn contact(&self) -> f64 {
+        match self {
+            Formula::Graph(graph) => graph.contact(),
+            _ => 2.0,
         }
     }
 
     /// Whether the force is infinite where the room ends.
     pub fn is_singular(&self) -> bool {
-        matches!(self, Formula::Algebraic { .. })
+        match self {
+            Formula::Algebraic { .. } => true,
+            Formula::Graph(graph) => graph.is_singular(),
+            _ => false,
+        }
     }
 
-    /// `v_0`.
+    /// `v_0`; of other formulas the size of speeds.
     pub fn desired_speed(&self) -> f64 {
         match *self {
+            Formula::Graph(ref graph) => graph.scale(),
             Formula::Algebraic { v0, .. } | Formula::Exponential { v0, .. } | Formula::Logarithmic { v0, .. } => v0,
         }
     }

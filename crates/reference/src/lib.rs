@@ -1,6 +1,7 @@
 //! Solutions of the paper's scenes in numbers of 106 bits, to judge the double precision of the other crates by.
 //!
-//! Nothing is shared with `jam` and `ode` but the arithmetic of `math`: the laws are written a second time, straight
+//! Nothing is shared with `jam` and `ode` but the arithmetic of `math`, and of a law that a scene gives as formulas the
+//! parsed graph ([`graph`]): the laws are written a second time, straight
 //! from the paper and with just the terms that the scenes have; the state is clearances and speeds, not deviations; the
 //! method is extrapolation of a much higher order, in twofold numbers.
 
@@ -10,6 +11,7 @@ pub mod events;
 pub mod extrapolation;
 pub mod flow;
 pub mod formula;
+pub mod graph;
 pub mod growth;
 pub mod laws;
 pub mod number;

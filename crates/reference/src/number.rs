@@ -36,16 +36,39 @@ pub trait Number:
 
     /// `x^q` for `x > 0`.
     fn power(self, q: f64) -> Self;
+
+    /// `e^x - 1`.
+    fn exp_m1(self) -> Self;
+
+    /// `ln x` for `x > 0`.
+    fn ln(self) -> Self;
+
+    /// The square root, for `x >= 0`.
+    fn root(self) -> Self;
+
+    /// The hyperbolic tangent.
+    fn tanh(self) -> Self;
+
+    /// `|x|`.
+    fn size(self) -> Self;
+
+    /// The smaller of two; the first of equal ones.
+    fn smaller(self, other: Self) -> Self;
+
+    /// `x^n` for any `x`, by multiplication.
+    fn whole_power(self, n: i32) -> Self {
+        let product = (0..n.unsigned_abs()).fold(Self::from(1.0), |product, _| product * self);
+        if n < 0 { Self::from(1.0) / product } else { product }
+    }
+
+    /// The larger of two; the first of equal ones.
+    fn larger(self, other: Self) -> Self {
+        -(-self).smaller(-other)
+    }
 }
 
 /// A number that can be the part of a [`Difference`], and the component of a state.
 pub trait Real: Number {
-    /// `e^x - 1`.
-    fn exp_m1(self) -> Self;
-
-    /// The square root of a number `>= 0`.
-    fn root(self) -> Self;
-
     /// The size of one rounding, relative.
     const ROUNDING: f64;
 }
@@ -71,17 +94,33 @@ impl Number for f64 {
     fn power(self, q: f64) -> f64 {
         f64::powf(self, q)
     }
-}
 
-impl Real for f64 {
     fn exp_m1(self) -> f64 {
         f64::exp_m1(self)
+    }
+
+    fn ln(self) -> f64 {
+        f64::ln(self)
     }
 
     fn root(self) -> f64 {
         self.sqrt()
     }
 
+    fn tanh(self) -> f64 {
+        f64::tanh(self)
+    }
+
+    fn size(self) -> f64 {
+        self.abs()
+    }
+
+    fn smaller(self, other: f64) -> f64 {
+        if other < self || other.is_nan() { other } else { self }
+    }
+}
+
+impl Real for f64 {
     const ROUNDING: f64 = 1.1e-16;
 }
 
@@ -105,17 +144,33 @@ impl Number for Twofold {
     fn power(self, q: f64) -> Twofold {
         full::exp(full::ln(self) * q)
     }
-}
 
-impl Real for Twofold {
     fn exp_m1(self) -> Twofold {
         full::exp_m1(self)
+    }
+
+    fn ln(self) -> Twofold {
+        full::ln(self)
     }
 
     fn root(self) -> Twofold {
         self.sqrt()
     }
 
+    fn tanh(self) -> Twofold {
+        full::tanh(self)
+    }
+
+    fn size(self) -> Twofold {
+        if self.hi < 0.0 { -self } else { self }
+    }
+
+    fn smaller(self, other: Twofold) -> Twofold {
+        if (other - self).hi < 0.0 || other.hi.is_nan() { other } else { self }
+    }
+}
+
+impl Real for Twofold {
     const ROUNDING: f64 = 1e-31;
 }
 
@@ -227,6 +282,56 @@ impl<T: Real> Number for Difference<T> {
         let is_small = ratio.value().abs() < 0.5;
         self.map(is_small, |x| x.power(q), |base, _| base * (ratio.ln_1p() * T::from(q)).exp_m1())
     }
+
+    fn exp_m1(self) -> Difference<T> {
+        let base = self.base;
+        self.map(self.is_below_1(), T::exp_m1, |_, change| base.exp() * change.exp_m1())
+    }
+
+    fn ln(self) -> Difference<T> {
+        let ratio = self.change / self.base;
+        self.map(ratio.value().abs() < 0.5, T::ln, |_, _| ratio.ln_1p())
+    }
+
+    fn root(self) -> Difference<T> {
+        let whole = self.whole().root();
+        Difference { base: self.base.root(), change: self.change / (whole + self.base.root()) }
+    }
+
+    /// By the theorem of addition: `t (1 - tanh^2 x) / (1 + t tanh x)`, where `t` is the tangent of the change; `1 - tanh^2`
+    /// from `e^-2|x|`.
+    fn tanh(self) -> Difference<T> {
+        let (one, size) = (T::from(1.0), self.base.size());
+        let decay = (size * T::from(-2.0)).exp();
+        let rest = T::from(4.0) * decay / ((one + decay) * (one + decay));
+        self.map(self.is_below_1(), T::tanh, |base, change| {
+            let tangent = change.tanh();
+            tangent * rest / (one + tangent * base)
+        })
+    }
+
+    fn size(self) -> Difference<T> {
+        let (base, whole) = (self.base.value() < 0.0, self.whole().value() < 0.0);
+        match (base, whole) {
+            (false, false) => self,
+            (true, true) => -self,
+            _ => Difference { base: self.base.size(), change: self.whole().size() - self.base.size() },
+        }
+    }
+
+    /// The two numbers may change places: then what remains is the difference of the one from the other's base.
+    fn smaller(self, other: Difference<T>) -> Difference<T> {
+        let between = other - self;
+        let is_other = |part: T| part.value() < 0.0 || part.value().is_nan();
+        let (at_base, at_whole) = (is_other(between.base), is_other(between.whole()));
+        let base = if at_base { other.base } else { self.base };
+        match (at_base, at_whole) {
+            (false, false) => self,
+            (true, true) => other,
+            (false, true) => Difference { base, change: between.base + other.change },
+            (true, false) => Difference { base, change: self.change - between.base },
+        }
+    }
 }
 
 /// The sum `base + rest`, added and subtracted part by part: `(2 + rest) - 2` is `rest`, however small. Everything else is
@@ -310,5 +415,30 @@ impl<T: Real> Number for Parted<T> {
 
     fn power(self, q: f64) -> Parted<T> {
         Parted::of(self.whole().power(q))
+    }
+
+    fn exp_m1(self) -> Parted<T> {
+        Parted::of(self.whole().exp_m1())
+    }
+
+    fn ln(self) -> Parted<T> {
+        Parted::of(self.whole().ln())
+    }
+
+    fn root(self) -> Parted<T> {
+        Parted::of(self.whole().root())
+    }
+
+    fn tanh(self) -> Parted<T> {
+        Parted::of(self.whole().tanh())
+    }
+
+    fn size(self) -> Parted<T> {
+        if self.whole().value() < 0.0 { -self } else { self }
+    }
+
+    fn smaller(self, other: Parted<T>) -> Parted<T> {
+        let between = (other - self).whole().value();
+        if between < 0.0 || between.is_nan() { other } else { self }
     }
 }

@@ -132,8 +132,9 @@ const LEAST_ROOM: f64 = 1e-280;
 /// Solves in numbers of type `T`, beginning in this form. Where somebody comes near a singular force, clearances become the
 /// state. Speeds above `fastest` times the desired one, or 1, are a blow-up.
 pub fn solve<T: Real>(question: &Question, form: Form, care: Care, fastest: f64) -> Solution {
-    let flow: Flow<T> = Flow::new(question.formula, question.pedestrians, question.length, form);
-    let mut solver = Solver::new(flow, flow.start(question.shift), care);
+    let flow: Flow<T> = Flow::new(question.formula.clone(), question.pedestrians, question.length, form);
+    let (start, near) = (flow.start(question.shift), NEAR * flow.headway.value());
+    let mut solver = Solver::new(flow, start, care);
     let bound = fastest * larger(question.formula.desired_speed(), 1.0);
     let mut solution = Solution {
         samples: Vec::new(),
@@ -164,7 +165,7 @@ pub fn solve<T: Real>(question: &Question, form: Form, care: Care, fastest: f64)
             let room = solver.flow.least_room(&solver.state);
             if room < LEAST_ROOM {
                 solution.end = End::Singular;
-            } else if solver.flow.form == Form::Differences && room < NEAR * flow.headway.value() {
+            } else if solver.flow.form == Form::Differences && room < near {
                 solver.change_form();
             }
         }
@@ -215,8 +216,7 @@ fn watch<T: Real>(solver: &Solver<T>, solution: &mut Solution) {
 
 /// Where the value of pedestrian `n`, known at these places of the step, first falls below 0.
 fn crossing<T: Real>(solver: &Solver<T>, kind: Kind, n: usize, places: &[f64], values: &[f64]) -> Option<Crossing> {
-    let count = solver.flow.pedestrians;
-    let components = [n, count + n, count + (n + 1) % count, 2 * count + 2];
+    let components = solver.flow.components(n);
     let mut state = solver.state.clone();
     let mut at = |theta: f64| {
         solver.write_at(theta, &components, &mut state);

@@ -74,7 +74,7 @@ fn formula(file: &str, section: &Section) -> Result<Model, RecipeError> {
         let given = match &entry.value {
             Value::Number(number) => Given::Number(*number),
             Value::Text(text) => Given::Text(text),
-            Value::Section(_) | Value::Other(_) => {
+            Value::Section(_) | Value::Flag(_) | Value::Other(_) => {
                 let law = Reader::new(file, "law", section);
                 return Err(law.complaint(name, "must be a number or an expression in quotation marks"));
             }

@@ -1,4 +1,4 @@
-//! From a scene file to tables: validated scenes ([`law`], [`run`], [`map`], [`curve`]) and their numbers, in memory;
+//! From a scene file to tables: validated scenes ([`law`], [`run`], [`map`], [`curve`], [`sweep`]) and their numbers, in memory;
 //! long runs as bytes to go on from ([`checkpoint`]); how far their numbers are off ([`check`]); what is told of them in
 //! the end ([`summary`]). No file is opened here, so that the tables can be computed wherever Rust runs.
 
@@ -11,6 +11,7 @@ pub mod overrides;
 pub mod run;
 pub mod simulation;
 pub mod summary;
+pub mod sweep;
 pub mod uniform;
 
 pub use files::reader::RecipeError;

@@ -5,6 +5,7 @@ use files::reader::{FINITE, POSITIVE, Reader, RecipeError, Section};
 use files::table::{Table, push_number};
 use jam::criteria;
 use jam::laws::{Algebraic, Exponential, Formula, Logarithmic, Model};
+use jam::precise::Precise;
 use jam::stability::{Linear, Waves};
 use jam::uniform::{self, steady_speed};
 
@@ -310,11 +311,11 @@ impl Map {
             }
         }
         if let Model::Formula(formula) = &model {
-            return self.of_formula(formula, &point);
+            return self.of_formula(&model, formula, &point);
         }
         let (criterion, linear) = stability(&model, &point)?;
         Ok(match self.value {
-            Value::Margin => (linear.long_wave_margin(), linear.refined_margin()),
+            Value::Margin => (linear.long_wave_margin(), precise(&model, &point)?.margin()),
             Value::Criterion => (criterion, criterion_of(&model, &linear)),
             Value::GrowthRate => {
                 let k = point.wave_number.ok_or("needs a wave number")?;
@@ -324,16 +325,17 @@ impl Map {
     }
 
     /// The value of a cell of a formula, whose stencil may be any.
-    fn of_formula(&self, formula: &Formula, point: &Point) -> Result<(f64, f64), String> {
+    fn of_formula(&self, model: &Model, formula: &Formula, point: &Point) -> Result<(f64, f64), String> {
         let headway = point.headway.ok_or("needs the headway")?;
         let speed = uniform::of_formula(formula, headway, point.speed).map_err(|error| error.to_string())?;
         let response =
             formula.response(headway, speed).ok_or("the uniform flow lies on a kink, or has no derivative")?;
+        let precise = || Precise::new(model, headway, speed);
         match self.value {
-            Value::Margin => Ok((response.margin(Waves::All).0, response.refined_margin())),
+            Value::Margin => Ok((response.margin(Waves::All).0, precise().margin())),
             Value::GrowthRate => {
                 let k = point.wave_number.ok_or("needs a wave number")?;
-                Ok((response.growth_rate(k), response.refined_growth_rate(k)))
+                Ok((response.growth_rate(k), precise().rounded().refined_growth_rate(k)))
             }
             Value::Criterion => Err("the paper's criterion is one of its three laws: use margin".to_owned()),
         }
@@ -346,6 +348,16 @@ fn finite(values: (f64, f64)) -> Result<(f64, f64), String> {
         true => Ok(values),
         false => Err(format!("the value is {:?}: a number is too large or too small here", values.0)),
     }
+}
+
+/// How the law answers at a point, to twice the digits.
+fn precise(model: &Model, point: &Point) -> Result<Precise, String> {
+    if let Some(gap) = point.gap {
+        return Ok(Precise::at_gap(model, gap));
+    }
+    let headway = point.headway.ok_or("needs the headway")?;
+    let speed = steady_speed(model, headway).map_err(|error| error.to_string())?;
+    Ok(Precise::new(model, headway, speed))
 }
 
 /// The paper's criterion and the linearised law at a point.

@@ -5,7 +5,7 @@ use files::reader::{FINITE, POSITIVE, Reader, RecipeError, Section};
 use jam::laws::{Formula, Model};
 use jam::ring::{Ring, Start};
 use jam::states::{Form, FormKind};
-use jam::uniform::{self, steady_speed};
+use jam::uniform::{self, NoUniformFlow, steady_speed};
 use ode::{Control, Method};
 
 /// A simulation that can be run.
@@ -57,26 +57,42 @@ const MOST_FIXED_STEPS: u64 = 100_000_000_000;
 /// # Errors
 /// What is missing, unknown or out of range, with file and line; gaps that are closed at the start; no uniform flow.
 pub fn read(file: &str, tables: &Section) -> Result<Scene, RecipeError> {
+    read_for(file, tables, Purpose::Run)
+}
+
+/// As [`read`], of a scene that is not to be run: it may have tables and steps beyond all bounds.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_unrun(file: &str, tables: &Section) -> Result<Scene, RecipeError> {
+    read_for(file, tables, Purpose::Flow)
+}
+
+/// What a scene is read for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Purpose {
+    /// To be run.
+    Run,
+    /// For its uniform flow.
+    Flow,
+}
+
+fn read_for(file: &str, tables: &Section, purpose: Purpose) -> Result<Scene, RecipeError> {
     let mut top = Reader::new(file, "scene", tables);
     let model = law::read(file, top.section("law")?)?;
     let top_start = top.section("start")?;
     let (ring, start) = ring(file, top.section("ring")?, top_start, &model)?;
     let mut ring_reader = Reader::new(file, "ring", top.section("ring")?);
     ring_reader.number("length", POSITIVE)?;
-    let steady_speed = match &model {
+    let wanted = match &model {
         Model::Formula(law) => {
             stencil_fits(&ring_reader, law, ring)?;
-            let wanted = if top.has("uniform") { uniform_speed(file, top.section("uniform")?)? } else { None };
-            match uniform::of_formula(law, ring.headway(), wanted) {
-                Err(error) if error.speeds.is_empty() => None,
-                found => Some(found.map_err(|error| ring_reader.complaint("length", &error.to_string()))?),
-            }
+            if top.has("uniform") { uniform_speed(file, top.section("uniform")?)? } else { None }
         }
-        _ => {
-            let found = steady_speed(&model, ring.headway());
-            Some(found.map_err(|error| ring_reader.complaint("length", &error.to_string()))?)
-        }
+        _ => None,
     };
+    let steady_speed =
+        flow(&model, ring, wanted).map_err(|error| ring_reader.complaint("length", &error.to_string()))?;
     let mut run = Reader::new(file, "run", top.section("run")?);
     top.finish()?;
 
@@ -84,18 +100,8 @@ pub fn read(file: &str, tables: &Section) -> Result<Scene, RecipeError> {
     let sample = run.number("sample", POSITIVE)?;
     let method = method(&mut run)?;
     let control = control(&mut run, method)?;
-    let form = match run.has("state") {
-        false => FormKind::Deviations,
-        true => run.one_of("state", &FORMS)?,
-    };
-    // what the uniform flow itself cannot hold in a number is lost in deviations from it
-    let is_lost = match (&model, steady_speed) {
-        (_, None) => true,
-        // on a kink there is no uniform flow to be near to
-        (Model::Formula(law), Some(speed)) => law.response(ring.headway(), speed).is_none(),
-        (model, Some(speed)) => model.linearise(ring.headway(), speed).phi < LEAST_RESPONSE,
-    };
-    let form = if form == FormKind::Deviations && is_lost { FormKind::Gaps } else { form };
+    let wanted = if run.has("state") { Some(run.one_of("state", &FORMS)?) } else { None };
+    let form = fitting(wanted, &model, ring, steady_speed, method);
     if let Some((pedestrian, value)) = without_value(&*form.build(&model, ring), start, ring) {
         let problem = format!(
             "the formula has no value at the start: the acceleration of pedestrian {pedestrian} is {value:?}; must leave one to everybody"
@@ -111,12 +117,12 @@ pub fn read(file: &str, tables: &Section) -> Result<Scene, RecipeError> {
     }
     let keeps_trajectories = !run.has("record") || run.one_of("record", &[("std", false), ("trajectories", true)])?;
     let rows = (t_end / sample).floor() * if keeps_trajectories { ring.pedestrians as f64 } else { 1.0 };
-    if rows > MOST_ROWS {
+    if rows > MOST_ROWS && purpose == Purpose::Run {
         let problem =
             format!("gives a table of {rows:e} rows, more than {MOST_ROWS:e}; sample less often, or record = \"std\"");
         return Err(run.complaint("sample", &problem));
     }
-    let most_steps = most_steps(&mut run, control, t_end)?;
+    let most_steps = most_steps(&mut run, control, t_end, purpose)?;
     if matches!(control, Control::Adaptive { .. }) && t_end < SHORTEST_RUN {
         let problem = format!("too short for steps of adaptive length; must be at least {SHORTEST_RUN:e}");
         return Err(run.complaint("t_end", &problem));
@@ -139,8 +145,42 @@ pub fn read(file: &str, tables: &Section) -> Result<Scene, RecipeError> {
     })
 }
 
+/// The speed of the uniform flow; of a formula the one next to `wanted`, `None` if it has none.
+///
+/// # Errors
+/// A built-in law has none, or a formula several and none is wanted.
+pub(crate) fn flow(model: &Model, ring: Ring, wanted: Option<f64>) -> Result<Option<f64>, NoUniformFlow> {
+    match model {
+        Model::Formula(law) => match uniform::of_formula(law, ring.headway(), wanted) {
+            Err(error) if error.speeds.is_empty() => Ok(None),
+            found => found.map(Some),
+        },
+        _ => steady_speed(model, ring.headway()).map(Some),
+    }
+}
+
+/// The form of the state: deviations from the uniform flow if the scene names none and they can hold the run, else gaps.
+pub(crate) fn fitting(
+    wanted: Option<FormKind>,
+    model: &Model,
+    ring: Ring,
+    speed: Option<f64>,
+    method: Method,
+) -> FormKind {
+    let form = wanted.unwrap_or(FormKind::Deviations);
+    // what the uniform flow itself cannot hold in a number is lost in deviations from it
+    let is_lost = match (model, speed) {
+        (_, None) => true,
+        // on a kink there is no uniform flow to be near to
+        (Model::Formula(law), Some(speed)) => law.response(ring.headway(), speed).is_none(),
+        (model, Some(speed)) => model.linearise(ring.headway(), speed).phi < LEAST_RESPONSE,
+    };
+    let has_no_series = wanted.is_none() && !method.suits(&*form.build(model, ring));
+    if form == FormKind::Deviations && (is_lost || has_no_series) { FormKind::Gaps } else { form }
+}
+
 /// Names of the forms of the state.
-const FORMS: [(&str, FormKind); 3] =
+pub(crate) const FORMS: [(&str, FormKind); 3] =
     [("deviations", FormKind::Deviations), ("gaps", FormKind::Gaps), ("positions", FormKind::Positions)];
 
 /// Below this response of the uniform flow to a gap, its force has lost digits to underflow.
@@ -149,7 +189,7 @@ const LEAST_RESPONSE: f64 = 1e-280;
 /// A run by adaptive steps is at least as long: far longer than the shortest of them.
 const SHORTEST_RUN: f64 = 1e-250;
 
-fn at_overlap(run: &mut Reader<'_>, model: &Model) -> Result<AtOverlap, RecipeError> {
+pub(crate) fn at_overlap(run: &mut Reader<'_>, model: &Model) -> Result<AtOverlap, RecipeError> {
     if !run.has("at_overlap") {
         return Ok(AtOverlap::Stop);
     }
@@ -165,7 +205,7 @@ fn at_overlap(run: &mut Reader<'_>, model: &Model) -> Result<AtOverlap, RecipeEr
 }
 
 /// The first pedestrian whose acceleration is not finite at the start, and that.
-fn without_value(form: &dyn Form, start: Start, ring: Ring) -> Option<(usize, f64)> {
+pub(crate) fn without_value(form: &dyn Form, start: Start, ring: Ring) -> Option<(usize, f64)> {
     let state = form.start(start);
     let mut rates = vec![0.0; state.len()];
     form.rates(&state, &mut rates);
@@ -175,7 +215,7 @@ fn without_value(form: &dyn Form, start: Start, ring: Ring) -> Option<(usize, f6
 }
 
 /// The steady speed that is meant, where a formula has several.
-fn uniform_speed(file: &str, section: &Section) -> Result<Option<f64>, RecipeError> {
+pub(crate) fn uniform_speed(file: &str, section: &Section) -> Result<Option<f64>, RecipeError> {
     let mut reader = Reader::new(file, "uniform", section);
     let speed = reader.optional_number("speed", FINITE)?;
     reader.finish()?;
@@ -219,13 +259,13 @@ fn ring(file: &str, ring: &Section, start: &Section, model: &Model) -> Result<(R
 }
 
 /// `most_steps`, or what is usual. Of fixed steps the number is known before the first.
-fn most_steps(run: &mut Reader<'_>, control: Control, t_end: f64) -> Result<u64, RecipeError> {
+fn most_steps(run: &mut Reader<'_>, control: Control, t_end: f64, purpose: Purpose) -> Result<u64, RecipeError> {
     let named = run.optional_number("most_steps", 1.0..=MOST_FIXED_STEPS as f64)?.map(|most| most as u64);
     match control {
         Control::Adaptive { .. } => Ok(named.unwrap_or(ode::MOST_STEPS)),
         Control::Fixed { step } => {
             let most = named.unwrap_or(MOST_FIXED_STEPS);
-            if t_end / step > most as f64 {
+            if t_end / step > most as f64 && purpose == Purpose::Run {
                 let problem = format!("gives {:e} steps; at most {:e}", t_end / step, most as f64);
                 return Err(run.complaint("dt", &problem));
             }
@@ -234,12 +274,12 @@ fn most_steps(run: &mut Reader<'_>, control: Control, t_end: f64) -> Result<u64,
     }
 }
 
-fn method(run: &mut Reader<'_>) -> Result<Method, RecipeError> {
+pub(crate) fn method(run: &mut Reader<'_>) -> Result<Method, RecipeError> {
     run.one_of("method", &Method::ALL.map(|method| (method.name(), method)))
 }
 
 /// `tolerance` for methods that choose their steps, `dt` for any.
-fn control(run: &mut Reader<'_>, method: Method) -> Result<Control, RecipeError> {
+pub(crate) fn control(run: &mut Reader<'_>, method: Method) -> Result<Control, RecipeError> {
     let tolerance = run.optional_number("tolerance", 1e-15..=1e-2)?;
     let step = run.optional_number("dt", POSITIVE)?;
     match (tolerance, step) {

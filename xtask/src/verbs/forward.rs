@@ -3,6 +3,7 @@
 use crate::cli::ForwardArgs;
 use crate::compile::{self, FIGURES};
 use crate::lock::Lock;
+use crate::sources::Sources;
 use checkout::failure::Failure;
 use checkout::paths::Paths;
 use checkout::process;
@@ -19,6 +20,20 @@ pub fn scene(paths: &Paths, name: &str, arguments: &ForwardArgs) -> Result<(), F
         compile::tools(paths, FIGURES)?;
     }
     process::run_shown(Command::new(paths.binary(name)).args(&arguments.arguments))
+}
+
+/// `sweep`: as [`scene`], with the hash of what determines its numbers, which is the same wherever it was built.
+///
+/// # Errors
+/// As [`scene`].
+pub fn sweep(paths: &Paths, arguments: &ForwardArgs) -> Result<(), Failure> {
+    let program = {
+        let _lock = Lock::take(paths)?;
+        compile::tools(paths, FIGURES)?;
+        Sources::read(paths)?.numeric()
+    };
+    let mut command = Command::new(paths.binary("sweep"));
+    process::run_shown(command.args(&arguments.arguments).arg(format!("--program={program}")))
 }
 
 /// `export`: SQLite is compiled for it, so it is built by this verb alone.

@@ -34,9 +34,33 @@ fn every_number_of_a_law_matters_to_the_judge() {
     }
 }
 
+const FORMULA: &str = "title = \"a formula\"\n[law]\nkind = \"formula\"\nacceleration = \"kappa*(V - v) - lambda*max(0, v - v[1])^2 - c*abs(v)*v\"\nV = \"v0*(tanh(x[2]/2 - m) + tanh(m))\"\nkappa = 1.3\nlambda = 0.7\nc = 0.05\nm = 1.9\nv0 = 1.2\nbody = 0.5\n[ring]\npedestrians = 7\nlength = 14.0\n[start]\nshift = 0.3\n[run]\nmethod = \"dop853\"\ntolerance = 1e-12\nt_end = 10.0\nsample = 1.0\n";
+
+#[test]
+fn every_number_of_a_formula_matters_to_the_judge() {
+    let judged_as = |other: &str| judge::scene_as(FORMULA, other).pop().expect("a panel");
+    let verdict = judged_as(FORMULA);
+    assert!(verdict.findings.is_empty() && verdict.undecided.is_empty(), "{verdict:#?}");
+    assert!(verdict.ratios.len() > 30, "{verdict:#?}");
+    let changes = [
+        ("kappa = 1.3", "kappa = 1.300001"),
+        ("lambda = 0.7", "lambda = 0.70001"),
+        ("c = 0.05", "c = 0.050001"),
+        ("m = 1.9", "m = 1.900001"),
+        ("v0 = 1.2", "v0 = 1.200001"),
+        ("x[2]", "x[3]"),
+        ("max(0, v", "min(0, v"),
+    ];
+    for (from, to) in changes {
+        let other = FORMULA.replace(from, to);
+        assert_ne!(other, FORMULA, "{from}");
+        assert!(!judged_as(&other).findings.is_empty(), "{to} goes unseen");
+    }
+}
+
 #[test]
 fn the_same_seed_draws_the_same_scene() {
-    for seed in 0..50 {
+    for seed in (0..50).chain(draw::FORMULAS..draw::FORMULAS + 50) {
         assert_eq!(draw::scene(seed), draw::scene(seed));
     }
     assert_ne!(draw::scene(1), draw::scene(2));

@@ -4,6 +4,7 @@ use crate::force::{Force, Interpreted, Prepared, Source};
 use crate::stability::Response;
 use formula::{Error, Graph};
 use math::dual::Dual;
+use math::number::Number;
 use std::sync::Arc;
 
 /// A law as formulas, with values for its parameters.
@@ -104,6 +105,18 @@ impl Formula {
     /// The acceleration in the uniform flow; NaN where the formula has no value.
     pub fn uniform(&self, headway: f64, speed: f64) -> f64 {
         self.acceleration.program().carry_out(|source| self.variable(source, headway, speed))
+    }
+
+    /// The acceleration with any numbers for the variables.
+    pub fn carry_out<X: Number>(&self, variable: impl Fn(Source) -> X) -> X {
+        self.acceleration.program().carry_out(variable)
+    }
+
+    /// The acceleration in the uniform flow for many speeds at once.
+    pub fn uniform_at(&self, headway: f64, speeds: &[f64]) -> Vec<f64> {
+        let mut accelerations = vec![0.0; speeds.len()];
+        self.acceleration.in_uniform_flows(headway - self.contact, speeds, &mut accelerations);
+        accelerations
     }
 
     /// The effective gap in the uniform flow.

@@ -49,6 +49,9 @@ const BLOCK: f64 = 50.0;
 /// Windows are at least so long.
 const SHORTEST_WINDOW: f64 = 200.0;
 
+/// Waves that go round irregularly are judged by windows of this part of the run.
+const THIRD: f64 = 1.0 / 3.0;
+
 /// And so long that waves go around the ring so often, seen by those who walk in it: as seen from the ground a wave can
 /// stand, and no window would be long enough.
 const ROUNDS: f64 = 2.0;
@@ -115,9 +118,8 @@ impl Judge {
             return self.decide(Class::Decays, step.end, Decision::Return, distance);
         }
         if contrast > CONTRAST * self.scale && step.end > START {
-            let repetition = self.repeats.look(watch, step, contrast, self.scale);
-            if let Some(repetition) = repetition {
-                self.lasting(step.end, Decision::Repetition, Some(repetition));
+            if let Some(repetition) = self.repeats.look(watch, step, contrast, self.scale) {
+                self.repeated(step.end, repetition);
             }
         }
     }
@@ -129,9 +131,13 @@ impl Judge {
         }
         if self.verdict.is_none() {
             self.close_block();
-            match self.missing() {
-                None => self.lasting(time, Decision::Windows, None),
-                Some(missing) => self.decide(Class::Undecided, time, Decision::Missing(missing), 0.0),
+            match self.agreeing() {
+                Ok([mut late, early]) => {
+                    late.least_speed = lowest(&[late.least_speed, early.least_speed]);
+                    let label_speed = late.label_speed();
+                    self.lasting(time, Decision::Windows, &late, label_speed);
+                }
+                Err(missing) => self.decide(Class::Undecided, time, Decision::Missing(missing), 0.0),
             }
         }
         self.verdict.take().unwrap_or_else(|| self.of(Class::Undecided, time, Decision::Start, 0.0))
@@ -218,35 +224,35 @@ impl Judge {
         around.is_finite().then_some(if around > SHORTEST_WINDOW { around } else { SHORTEST_WINDOW })
     }
 
-    /// The last two windows, the later first.
-    fn windows(&self) -> Option<[Stretch; 2]> {
-        let duration = self.window()?;
+    /// The last two windows of this length, the later first.
+    fn windows(&self, duration: f64) -> Option<[Stretch; 2]> {
         let (late, until) = last(&self.blocks, 0.0, duration)?;
         let (early, _) = last(&self.blocks, until, duration)?;
         Some([late, early])
     }
 
-    /// What keeps waves from being certain at the end of a run.
-    fn missing(&self) -> Option<String> {
-        let length = || self.window().map_or(SHORTEST_WINDOW, |window| window);
-        let Some([late, early]) = self.windows() else {
-            return Some(format!("t_end: two windows of {:.0} must follow the start", length()));
+    /// The last two windows that agree: of the usual length, or thirds of the run.
+    fn agreeing(&self) -> Result<[Stretch; 2], String> {
+        let usual = self.window();
+        let length = usual.unwrap_or(SHORTEST_WINDOW);
+        let third = THIRD * self.seen;
+        let pairs = [self.windows(length), if third > length { self.windows(third) } else { None }];
+        let [Some(windows), thirds] = pairs else {
+            return Err(format!("t_end: two windows of {length:.0} must follow the start"));
         };
-        let contrast = if late.contrast < early.contrast { late.contrast } else { early.contrast };
-        if !(contrast > CONTRAST * self.scale) {
-            return Some(self.too_weak(contrast));
+        let contrast = |pair: &[Stretch; 2]| lowest(&[pair[0].contrast, pair[1].contrast]);
+        if !(contrast(&windows) > CONTRAST * self.scale) {
+            return Err(self.too_weak(contrast(&windows)));
         }
-        let change = |late: f64, early: f64| (late - early).abs() / late.abs();
-        let (std, gap) = (change(late.mean_std(), early.mean_std()), change(late.least_gap, early.least_gap));
-        if std < AGREEMENT && gap < AGREEMENT {
-            return None;
-        }
-        Some(format!(
-            "a longer t_end: between the last two windows of {:.0} the standard deviation changes by {:.1} %, the least gap by {:.1} %",
-            late.duration,
-            100.0 * std,
-            100.0 * gap
-        ))
+        let changed = format!(
+            "a longer t_end: between the last two windows of {length:.0} the standard deviation changes by {:.1} %, the least gap by {:.1} %",
+            100.0 * changes(&windows)[0],
+            100.0 * changes(&windows)[1]
+        );
+        let agree = |pair: &[Stretch; 2]| {
+            contrast(pair) > CONTRAST * self.scale && changes(pair).iter().all(|change| *change < AGREEMENT)
+        };
+        [Some(windows), thirds].into_iter().flatten().find(agree).ok_or(changed)
     }
 
     /// Why a run without strong waves is not one that decays.
@@ -264,25 +270,18 @@ impl Judge {
         }
     }
 
-    /// Decides for lasting waves.
-    fn lasting(&mut self, time: f64, decision: Decision, repetition: Option<Repetition>) {
+    /// Decides for waves that repeat themselves.
+    fn repeated(&mut self, time: f64, Repetition { period, shift }: Repetition) {
         self.close_block();
-        let windows = match repetition {
-            // one window back to before the state first repeated itself
-            Some(repetition) => last(&self.blocks, 0.0, repetition.period).map(|(window, _)| window),
-            None => self.windows().map(|[mut late, early]| {
-                late.least_speed =
-                    if early.least_speed < late.least_speed { early.least_speed } else { late.least_speed };
-                late
-            }),
-        };
-        let Some(window) = windows else { return };
+        // back to before the state first repeated itself
+        let Some((window, _)) = last(&self.blocks, 0.0, period) else { return };
         let count = self.ring.pedestrians as f64;
-        let fitted = window.label_speed();
-        let label_speed = repetition.map_or(fitted, |Repetition { period, shift }| {
-            let rounds = ((fitted * period - shift) / count).round();
-            (shift + rounds * count) / period
-        });
+        let rounds = ((window.label_speed() * period - shift) / count).round();
+        self.lasting(time, Decision::Repetition, &window, (shift + rounds * count) / period);
+    }
+
+    /// Decides for lasting waves, by what they are in this window.
+    fn lasting(&mut self, time: f64, decision: Decision, window: &Stretch, label_speed: f64) {
         let class = if window.least_speed < 0.0 { Class::WavesBackwards } else { Class::Waves };
         let room = self.flow.map_or(self.ring.headway(), |flow| flow.room);
         let distances = [
@@ -290,9 +289,9 @@ impl Judge {
             window.least_gap / room,
             window.least_speed.abs() / self.scale,
         ];
+        self.std = window.mean_std();
         self.decide(class, time, decision, lowest(&distances));
         if let Some(verdict) = &mut self.verdict {
-            verdict.std = window.mean_std();
             verdict.wave_speed = Some(window.mean_speed() + self.ring.headway() * label_speed);
         }
     }
@@ -314,6 +313,12 @@ impl Judge {
             distance,
         }
     }
+}
+
+/// By which part of themselves the mean standard deviation and the least gap change from the earlier to the later.
+fn changes([late, early]: &[Stretch; 2]) -> [f64; 2] {
+    let change = |late: f64, early: f64| (late - early).abs() / late.abs();
+    [change(late.mean_std(), early.mean_std()), change(late.least_gap, early.least_gap)]
 }
 
 impl Flow {

@@ -141,6 +141,23 @@ pub struct Verdict {
     pub distance: f64,
 }
 
+impl Verdict {
+    /// Of a run that was not judged.
+    pub fn none() -> Verdict {
+        Verdict {
+            class: Class::Undecided,
+            time: 0.0,
+            decision: Decision::Missing("a run".to_owned()),
+            backward_flow: false,
+            least_gap: f64::NAN,
+            least_speed: f64::NAN,
+            std: f64::NAN,
+            wave_speed: None,
+            distance: 0.0,
+        }
+    }
+}
+
 /// How long the start from rest lasts: `e^-20` of it is left, 2e-9, after 20 relaxation times.
 pub const START: f64 = 20.0;
 

@@ -60,7 +60,7 @@ fn flatten(section: &Section, prefix: &str, numbers: &mut BTreeMap<String, f64>)
                 numbers.insert(format!("{prefix}{key}"), *number);
             }
             Value::Section(inner) => flatten(inner, &format!("{prefix}{key}."), numbers),
-            Value::Text(_) | Value::Other(_) => {}
+            Value::Text(_) | Value::Flag(_) | Value::Other(_) => {}
         }
     }
 }

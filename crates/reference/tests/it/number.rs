@@ -11,12 +11,17 @@ fn whole(x: Difference<Twofold>) -> Twofold {
 #[test]
 fn differences_are_those_of_longer_numbers() {
     type Function = (&'static str, fn(Difference<f64>) -> Difference<f64>, fn(Twofold) -> Twofold);
-    let functions: [Function; 6] = [
+    let functions: [Function; 11] = [
         ("exp", Number::exp, Number::exp),
         ("softplus", Number::softplus, Number::softplus),
         ("ln_1p", Number::ln_1p, Number::ln_1p),
         ("power", |x| x.power(-0.7), |x| x.power(-0.7)),
         ("product", |x| x * x, |x| x * x),
+        ("exp_m1", Number::exp_m1, Number::exp_m1),
+        ("ln", Number::ln, Number::ln),
+        ("root", Number::root, Number::root),
+        ("tanh", Number::tanh, Number::tanh),
+        ("cube", |x| x.whole_power(3), |x| x.whole_power(3)),
         ("quotient", |x| Difference::from(3.0) / x, |x| Twofold::from(3.0) / x),
     ];
     for (name, difference, long) in functions {
@@ -49,10 +54,13 @@ fn a_law_in_differences_and_in_parts_is_the_law() {
                 |base: f64, change: f64| Difference { base: Twofold::from(base), change: Twofold::from(change) };
             let ramp = &mut |x, epsilon| smooth_ramp(x, epsilon);
             let by_difference =
-                whole(law.acceleration(number(s, u), number(v, w), number(v, w_ahead), &mut |x, e| smooth_ramp(x, e)));
+                whole(law.acceleration(|_| number(s, u), |j| number(v, [w, w_ahead][j as usize]), &mut |x, e| {
+                    smooth_ramp(x, e)
+                }));
             let part = |base: f64, rest: f64| Parted { base, rest };
-            let by_parts = law.acceleration(part(s, u), part(v, w), part(v, w_ahead), &mut |x, e| smooth_ramp(x, e));
-            let plain: f64 = law.acceleration(s + u, v + w, v + w_ahead, ramp);
+            let by_parts =
+                law.acceleration(|_| part(s, u), |j| part(v, [w, w_ahead][j as usize]), &mut |x, e| smooth_ramp(x, e));
+            let plain: f64 = law.acceleration(|_| s + u, |j| v + [w, w_ahead][j as usize], ramp);
             assert!((f64::from(by_difference) - plain).abs() < 2e-14, "{law:?}");
             assert!((by_parts.whole() - plain).abs() < 2e-14, "{law:?}");
         }
@@ -60,8 +68,22 @@ fn a_law_in_differences_and_in_parts_is_the_law() {
 }
 
 #[test]
+fn kinks_keep_the_digits_of_differences() {
+    for (base, change) in [(0.3, 1e-30), (-0.3, 1e-30), (0.3, -0.5), (-0.3, 0.5), (0.0, -1e-30), (0.0, 1e-30)] {
+        let x = Difference { base, change };
+        let size = f64::abs(base + change) - f64::abs(base);
+        let expected = if f64::abs(change) > 1e-20 { size } else { if base < 0.0 { -change } else { change } };
+        let expected = if base == 0.0 { f64::abs(change) } else { expected };
+        assert!((x.size().change - expected).abs() <= 1e-16 * expected.abs(), "|{base} + {change}|");
+        // |x| is the larger of x and -x, and the smaller one's negative
+        assert_eq!(x.larger(-x), x.size(), "{base} + {change}");
+        assert_eq!((-x.smaller(-x)).whole(), x.size().whole(), "{base} + {change}");
+    }
+}
+
+#[test]
 fn a_small_room_keeps_its_digits_in_parts() {
     let law = Formula::Algebraic { mu: 1.0, delta: 0.0, q: 2.0, a_v: 0.0, epsilon: 0.1, v0: 1.0 };
     let (s, v) = (Parted { base: 2.0, rest: 1e-40 }, Parted { base: 0.0, rest: 0.0 });
-    assert_eq!(law.room(s, v, v).whole(), 1e-40);
+    assert_eq!(law.room(|_| s, |_| v).whole(), 1e-40);
 }

@@ -52,6 +52,7 @@ fn complaint(text: &str) -> Option<String> {
         let read = match panel.kind {
             Kind::Run => scene::run::read(&recipe.file, &panel.tables).map(|_| ()),
             Kind::Map => scene::map::read(&recipe.file, &panel.tables).map(|_| ()),
+            Kind::Sweep => scene::sweep::read(&recipe.file, &panel.tables).map(|_| ()),
             Kind::Curve => scene::curve::table(&recipe.file, &panel.tables).map(|_| ()),
             Kind::Drawing => Ok(()),
         };

@@ -10,6 +10,9 @@ fn read(recipe: &Recipe) {
         match panel.kind {
             Kind::Run => drop(scene::run::read(&recipe.file, &panel.tables).unwrap_or_else(|error| panic!("{error}"))),
             Kind::Map => drop(scene::map::read(&recipe.file, &panel.tables).unwrap_or_else(|error| panic!("{error}"))),
+            Kind::Sweep => {
+                drop(scene::sweep::read(&recipe.file, &panel.tables).unwrap_or_else(|error| panic!("{error}")))
+            }
             Kind::Curve => {
                 drop(scene::curve::table(&recipe.file, &panel.tables).unwrap_or_else(|error| panic!("{error}")));
             }
@@ -47,7 +50,7 @@ fn numbers(section: &Section, prefix: &str, keys: &mut Vec<String>) {
         match &entry.value {
             Value::Number(_) => keys.push(format!("{prefix}{key}")),
             Value::Section(inner) => numbers(inner, &format!("{prefix}{key}."), keys),
-            Value::Text(_) | Value::Other(_) => {}
+            Value::Text(_) | Value::Flag(_) | Value::Other(_) => {}
         }
     }
 }

@@ -176,6 +176,7 @@ fn fate(text: &str) -> String {
                 "map: Broken".to_owned()
             }
         }),
+        Kind::Sweep => scene::sweep::read(&recipe.file, &panel.tables).map(|_| "sweep: Whole".to_owned()),
         Kind::Curve => scene::curve::table(&recipe.file, &panel.tables).map(|_| "curve: Whole".to_owned()),
         Kind::Drawing => panic!("no drawing was asked for"),
     };

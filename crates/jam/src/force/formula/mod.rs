@@ -43,11 +43,26 @@ impl Prepared {
         &self.program
     }
 
+    /// Writes the accelerations in uniform flows with this net gap, one for each speed.
+    pub fn in_uniform_flows(&self, net_gap: f64, speeds: &[f64], accelerations: &mut [f64]) {
+        let program = &self.program.of_uniform_flow();
+        let (mut neighbours, mut machine) = (Neighbours::default(), Machine::default());
+        machine.resize(program.registers);
+        let (reach, net_gaps) = (Reach::of(program), [net_gap; AT_ONCE]);
+        for (speeds, result) in speeds.chunks(AT_ONCE).zip(accelerations.chunks_mut(AT_ONCE)) {
+            neighbours.fill(reach, &net_gaps[..speeds.len()], speeds, self.contact);
+            dispatch(Rows { program, kept: None, neighbours: &neighbours, machine: &mut machine, result });
+        }
+    }
+
     /// How far it looks behind and ahead, in pedestrians.
     pub fn reach(&self) -> (usize, usize) {
         (self.reach.behind, self.reach.ahead)
     }
 }
+
+/// So many uniform flows are looked at together.
+const AT_ONCE: usize = 512;
 
 /// Whether speeds occur in no operation but linear ones with constants, so that a steady relaxation of the uniform flow
 /// is all that they do.

@@ -63,6 +63,8 @@ pub struct Instruction {
     pub into: usize,
     /// The node of the graph that it belongs to, for messages.
     pub node: Id,
+    /// The register of its first operand, if nobody needs that any more.
+    pub spent: Option<usize>,
 }
 
 /// The instructions for one root of a graph.
@@ -138,6 +140,22 @@ impl Program {
         false
     }
 
+    /// The same where all pedestrians are alike: everybody's variables are one's own.
+    pub fn of_uniform_flow(&self) -> Program {
+        let own = |source: Source| match source {
+            Source::Spacing { net, .. } => Source::Spacing { j: 0, net },
+            Source::Speed(_) => Source::Speed(0),
+            register => register,
+        };
+        let mut program = self.clone();
+        for instruction in &mut program.instructions {
+            instruction.of = own(instruction.of);
+            instruction.action = instruction.action.map(own);
+        }
+        program.result = own(program.result);
+        program
+    }
+
     /// The variables that occur.
     pub fn variables(&self) -> Vec<Source> {
         let operands = self.instructions.iter().flat_map(|instruction| {
@@ -187,6 +205,10 @@ impl Program {
             instruction.of = moved(instruction.of);
             instruction.action = instruction.action.map(moved);
             instruction.into = register;
+            instruction.spent = match (instruction.of, operands.first()) {
+                (Source::Register(own), Some(first)) if last_use[*first] == index => Some(own),
+                _ => None,
+            };
             for (position, own) in operands.iter().enumerate() {
                 if last_use[*own] == index && !operands[..position].contains(own) {
                     free.push(place[*own]);
@@ -272,6 +294,14 @@ fn apply<X: Number>(unary: Unary, x: X) -> X {
     }
 }
 
+/// A division by a power of 2 has the bits of a multiplication, which is faster.
+fn divided_by(c: f64) -> Action {
+    const FRACTION: u64 = (1 << 52) - 1;
+    let inverse = 1.0 / c;
+    let is_power_of_two = c.to_bits() & FRACTION == 0 && c.is_normal() && inverse.is_normal();
+    if is_power_of_two { Action::MulConstant(inverse) } else { Action::DivConstant(c) }
+}
+
 impl Builder<'_> {
     fn constant(&self, node: Id) -> Option<f64> {
         match self.bound.nodes()[node] {
@@ -293,7 +323,7 @@ impl Builder<'_> {
 
     fn push(&mut self, action: Action, of: Source, node: Id) -> Source {
         let into = self.instructions.len();
-        self.instructions.push(Instruction { action, of, into, node });
+        self.instructions.push(Instruction { action, of, into, node, spent: None });
         Source::Register(into)
     }
 
@@ -336,7 +366,7 @@ impl Builder<'_> {
             }
             (Binary::Mul, Some(c), _) => self.with_constant(Action::MulConstant(c), b, node),
             (Binary::Mul, _, Some(c)) => self.with_constant(Action::MulConstant(c), a, node),
-            (Binary::Div, _, Some(c)) => self.with_constant(Action::DivConstant(c), a, node),
+            (Binary::Div, _, Some(c)) => self.with_constant(divided_by(c), a, node),
             (Binary::Pow, _, Some(q)) => self.with_constant(Action::Power(q), a, node),
             (Binary::Pow, ..) => {
                 // a^b = exp(b ln a), as math::lane::pow has it

@@ -106,6 +106,11 @@ impl Order<'_> {
     fn run<const START: bool>(&mut self, neighbours: &Neighbours) {
         let mut used = 0;
         for instruction in &self.program.instructions {
+            // beyond order 0 a constant adds nothing
+            if let (Action::AddConstant(_), Some(spent), false) = (instruction.action, instruction.spent, START) {
+                self.registers.swap(instruction.into, spent);
+                continue;
+            }
             let mut target = std::mem::take(&mut self.registers[instruction.into]);
             let registers = &self.registers;
             let size = self.blocks * W;

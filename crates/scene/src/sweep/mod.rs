@@ -1,0 +1,65 @@
+//! What became of the runs of a plane: `[sweep]` with two axes, beside `[law]`, `[ring]`, `[start]` and `[run]`.
+//!
+//! A cell is a scene of its own. What it gives depends on the scene file and the cell alone, so cells can be computed in
+//! any order and anywhere. Which cells are computed is said by [`tiles`].
+
+mod axis;
+mod cell;
+mod read;
+pub mod table;
+pub mod tiles;
+
+pub use axis::Axis;
+pub use cell::{Cell, DecidedBy, Place};
+pub use read::read;
+
+use crate::run::AtOverlap;
+use jam::laws::Model;
+use jam::ring::{Ring, Start};
+use jam::states::FormKind;
+use ode::{Control, Method};
+
+/// A plane of runs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sweep {
+    /// The horizontal axis.
+    pub x: Axis,
+    /// The vertical axis.
+    pub y: Axis,
+    /// Whether cells between others of one outcome are filled in without a run.
+    pub refine: bool,
+    /// The law; parameters that are an axis are replaced cell by cell.
+    pub model: Model,
+    /// The ring; as the law.
+    pub ring: Ring,
+    /// The start; as the law.
+    pub start: Start,
+    /// The steady speed that is meant where a formula has several.
+    pub speed: Option<f64>,
+    /// How each cell is run.
+    pub settings: Settings,
+}
+
+/// How the cells of a sweep are run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// When waves are judged.
+    pub t_end: f64,
+    /// The method of integration.
+    pub method: Method,
+    /// The rule for the steps.
+    pub control: Control,
+    /// As many steps as a run may take.
+    pub most_steps: u64,
+    /// The form of the state, if the scene names one.
+    pub form: Option<FormKind>,
+    /// Whether an overlap ends a run: for outcomes it always does.
+    pub at_overlap: AtOverlap,
+}
+
+impl Sweep {
+    /// The number of cells.
+    pub fn cells(&self) -> usize {
+        self.x.cells * self.y.cells
+    }
+}

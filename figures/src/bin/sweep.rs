@@ -1,0 +1,10 @@
+//! Says what became of the runs of a plane: `sweep SCENE.toml --out DIR`.
+
+use clap::Parser;
+use figures::failure::exit;
+use figures::sweep::{Arguments, main as sweep};
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    exit(sweep(&Arguments::parse()))
+}
