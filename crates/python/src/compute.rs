@@ -5,6 +5,7 @@ use crate::watch::{Watch, detached};
 use cpu_time::ThreadTime;
 use files::reader::{Reader, RecipeError, Section, Value};
 use files::recipe::{self, Kind};
+use jam::precise::Precise;
 use jam::stability::Waves;
 use jam::uniform;
 use numpy::{PyArray1, PyReadonlyArray1};
@@ -98,40 +99,40 @@ pub struct Response {
     /// The steady speed.
     #[pyo3(get)]
     speed: f64,
-    /// None where the law has no derivatives: on a kink.
-    response: Option<jam::stability::Response>,
+    /// How the law answers, and the same with twice the digits. None where it has no derivatives: on a kink.
+    answer: Option<(jam::stability::Response, Precise)>,
 }
 
 #[pymethods]
 impl Response {
-    /// The margin over all waves, and the same by a finer grid of waves.
+    /// The margin over all waves, and the same with twice the digits by a finer grid of waves.
     fn margin(&self) -> Option<[f64; 2]> {
-        let response = self.response.as_ref()?;
-        Some([response.margin(Waves::All).0, response.refined_margin()])
+        let (response, precise) = self.answer.as_ref()?;
+        Some([response.margin(Waves::All).0, precise.margin()])
     }
 
     /// The least and the largest wave number that grows.
     fn growing(&self) -> Option<(f64, f64)> {
-        self.response.as_ref()?.growing()
+        self.answer.as_ref()?.0.growing()
     }
 
     /// Of the waves of a ring: the margin, the largest growth rate, and how often that wave goes into the ring.
     fn on_ring(&self, pedestrians: usize) -> Option<(f64, f64, usize)> {
-        let response = self.response.as_ref()?;
+        let (response, _) = self.answer.as_ref()?;
         let (rate, waves) = response.fastest(pedestrians);
         Some((response.margin(Waves::Ring(pedestrians)).0, rate, waves))
     }
 
-    /// `Re z^+` of each wave number, and the same after a step of Newton's method.
+    /// `Re z^+` of each wave number, and the same with twice the digits, after a step of Newton's method.
     fn growth_rates<'py>(
         &self,
         py: Python<'py>,
         k: PyReadonlyArray1<'py, f64>,
     ) -> Option<[Bound<'py, PyArray1<f64>>; 2]> {
-        let response = self.response.as_ref()?;
-        let k = k.as_array();
+        let (response, precise) = self.answer.as_ref()?;
+        let (k, rounded) = (k.as_array(), precise.rounded());
         let rates = |rate: &dyn Fn(f64) -> f64| PyArray1::from_iter(py, k.iter().map(|k| rate(*k)));
-        Some([rates(&|k| response.growth_rate(k)), rates(&|k| response.refined_growth_rate(k))])
+        Some([rates(&|k| response.growth_rate(k)), rates(&|k| rounded.refined_growth_rate(k))])
     }
 }
 
@@ -156,7 +157,8 @@ pub fn response(
         model => uniform::steady_speed(model, headway),
     };
     let speed = found.map_err(|error| scene_error(py, &RecipeError::new(&file, 0, error.to_string())))?;
-    Ok(Response { speed, response: model.response(headway, speed) })
+    let response = model.response(headway, speed);
+    Ok(Response { speed, answer: response.map(|response| (response, Precise::new(&model, headway, speed))) })
 }
 
 /// The tables that hold `[law]`, of a whole scene or of a law alone.

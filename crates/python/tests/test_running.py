@@ -38,7 +38,7 @@ INTERRUPTED = """
 import sys, time
 import jamming
 sys.path.insert(0, {tests!r})
-from conftest import FIXED, LONG, SHORT
+from conftest import FIXED, LONG, SHORT, SWEEP
 print("ready", flush=True)
 begin = time.monotonic()
 try:
@@ -50,6 +50,7 @@ except KeyboardInterrupt:
 CALLS = {
     "run": "jamming.simulate(SHORT, **LONG)",
     "fixed steps": 'jamming.simulate(SHORT, run=FIXED)',
+    "sweep": 'jamming.sweep(SWEEP, **{"sweep.x.cells": 500, "sweep.y.cells": 500})',
     "map": 'jamming.map("MAP", **{"map.x.cells": 2000, "map.y.cells": 2000})',
 }
 

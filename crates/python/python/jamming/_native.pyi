@@ -18,6 +18,13 @@ def simulate(
 def map(
     given: Given, panel: str | None, values: dict[str, Any], progress: Callable[[float], object] | None
 ) -> dict[str, Any]: ...
+def sweep(
+    given: Given,
+    panel: str | None,
+    values: dict[str, Any],
+    jobs: int | None,
+    progress: Callable[[float], object] | None,
+) -> dict[str, Any]: ...
 def response(given: Given, headway: float, speed: float | None, values: dict[str, Any]) -> Response: ...
 
 class Response:

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import LineCollection
-from matplotlib.colors import Colormap, LinearSegmentedColormap
+from matplotlib.colors import Colormap, LinearSegmentedColormap, ListedColormap
+from matplotlib.patches import Patch
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from ._map import Map
     from ._run import Run
     from ._stability import Stability
+    from ._sweep import Sweep
 
 # As crates/plot has them (a test compares): color.rs and style.rs say how they were chosen.
 DIVERGING = (
@@ -27,6 +29,18 @@ SEQUENTIAL = "#440154 #482475 #414487 #355f8d #2a788e #21918c #22a884 #44bf70 #7
 SERIES = "#00468b #d97a00 #1b1b1b #008a72 #b81c45".split()
 INK, GREY, MISSING = "#111111", "#777777", "#b8b8b0"
 
+# What became of a run: calm in blue, waves in warm colours, ends in dark ones, what is not known in grey.
+OUTCOMES = {
+    "closed": "#111111",
+    "no_uniform_flow": "#777777",
+    "undefined": "#e0e0da",
+    "blow_up": "#440154",
+    "contact": "#b81c45",
+    "decays": "#b9cef0",
+    "waves_backwards": "#d97a00",
+    "waves": "#f2c14e",
+    "undecided": "#b8b8b0",
+}
 # Names of parameters as the paper writes them.
 SYMBOLS = {
     "mu": r"\mu",
@@ -35,6 +49,8 @@ SYMBOLS = {
     "v0": r"v_0'",
     "d_gap": r"d'",
     "headway": r"\Delta y",
+    "shift": r"\epsilon_1",
+    "pedestrians": "N",
     "k": r"k",
     "epsilon": r"\varepsilon",
 }
@@ -101,6 +117,21 @@ def map(made: Map, ax: Axes | None) -> Axes:
     ax.set(xlabel=f"${symbol(x)}$", ylabel=f"${symbol(y)}$", xlim=made.x_range, ylim=made.y_range)
     extend = "both" if np.nanmax(np.abs(made.values)) > limit else "neither"
     ax.figure.colorbar(cells, ax=ax, label=VALUES[value], extend=extend)
+    return ax
+
+
+def outcomes(made: Sweep, ax: Axes | None) -> Axes:
+    """The outcome over two parameters, in one colour each, with a legend of those that occur."""
+    ax = axes(ax)
+    present = [name for name in OUTCOMES if (made.outcome == name).any()]
+    index = np.select([made.outcome == name for name in present], range(len(present)))
+    colours = ListedColormap([OUTCOMES[name] for name in present])
+    ax.pcolormesh(*made.edges(), index, cmap=colours, vmin=-0.5, vmax=len(present) - 0.5)
+    (x, y), logs = made.columns[:2], made.logarithmic
+    ax.set(xlabel=f"${symbol(x)}$", ylabel=f"${symbol(y)}$", xlim=made.x_range, ylim=made.y_range)
+    ax.set(xscale="log" if logs[0] else "linear", yscale="log" if logs[1] else "linear")
+    patches = [Patch(facecolor=OUTCOMES[name], label=made.words[name]) for name in present]
+    ax.legend(handles=patches, loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
     return ax
 
 

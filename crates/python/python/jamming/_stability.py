@@ -36,7 +36,7 @@ class Stability:
     """How far the flow is from instability: negative where the waves of all lengths decay. None where the flow lies on a
     kink of the law and has no derivatives."""
     margin_error: float | None
-    """The difference from the margin by a finer grid of waves."""
+    """The difference from the margin found in twice the digits, by a finer grid of waves."""
     growing: tuple[float, float] | None
     """The least and the largest wave number k that grows (0: the limit of long waves); None where none does."""
 
@@ -62,7 +62,7 @@ class Stability:
         return rate
 
     def growth_rate_error(self, k: ArrayLike) -> NDArray[np.float64]:
-        """The estimated error of `growth_rate`: the change by one step of Newton's method with a residual in twice the digits."""
+        """The estimated error of `growth_rate`: the difference from the rate with derivatives and residual in twice the digits."""
         rate, refined = self._rates(k)
         return np.asarray(np.abs(rate - refined))
 
