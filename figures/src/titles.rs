@@ -15,6 +15,7 @@ pub fn symbol(parameter: &str) -> &str {
         "k" => "\\text{wave number }k",
         "epsilon" => "\\varepsilon",
         "shift" => "\\epsilon_1",
+        "pedestrians" => "N",
         other => other,
     }
 }

@@ -1,7 +1,7 @@
 //! House style and pictures: data in, the bytes of a PNG and an SVG out.
 //!
-//! A [`Picture`] is a page in millimetres with panels in a grid: [`Lines`], [`Map`], [`SpaceTime`] or a free
-//! [`Drawing`]. Panels take numbers and labels; this crate knows no physics, opens no file and asks the host for no
+//! A [`Picture`] is a page in millimetres with panels in a grid: [`Lines`], [`Map`], [`Plane`],
+//! [`SpaceTime`], a free [`Drawing`], or a [`Key`] to what the others show. Panels take numbers and labels; this crate knows no physics, opens no file and asks the host for no
 //! font. The same data give the same bytes on every machine.
 //!
 //! Panels are charts of plotters, drawn once for both files: on a page whose surfaces write SVG and paint pixels.
@@ -28,16 +28,19 @@ mod drawing;
 mod elements;
 mod error;
 mod field;
+mod fill;
 mod font;
 mod frame;
 mod geometry;
 mod grid;
+mod key;
 mod label;
 mod lines;
 mod map;
 mod page;
 mod picture;
 mod pixels;
+mod plane;
 mod raster;
 mod regions;
 mod series;
@@ -51,10 +54,13 @@ pub use axis::Axis;
 pub use color_scale::ColorScale;
 pub use drawing::Drawing;
 pub use error::PlotError;
+pub use fill::Fill;
 pub use geometry::Point;
+pub use key::Key;
 pub use lines::{Corner, Lines};
 pub use map::Map;
 pub use picture::{Panel, Picture, Rendered};
+pub use plane::Plane;
 pub use series::{Marker, Series};
 pub use space_time::{SpaceTime, Trajectory};
 pub use style::Color;

@@ -137,7 +137,7 @@ fn neighbours(place: f64, count: usize) -> (usize, usize, f64) {
 
 /// Whether white text reads better than black. The weights are those of Rec. 709 on the coded bytes; 115 of 255 is
 /// where both texts have about the same contrast.
-fn is_dark(color: Color) -> bool {
+pub(crate) fn is_dark(color: Color) -> bool {
     let light = 0.2126 * f64::from(color.0) + 0.7152 * f64::from(color.1) + 0.0722 * f64::from(color.2);
     light < 115.0
 }

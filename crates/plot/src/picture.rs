@@ -6,9 +6,10 @@ use crate::error::PlotError;
 use crate::frame::Margins;
 use crate::geometry::{Rect, larger, largest};
 use crate::grid::{Cell, Grid};
+use crate::key::Key;
 use crate::page::{Page, units};
 use crate::pixels::Pixels;
-use crate::style::{INK, PANEL_GAP, PAPER, TITLE, TITLE_RISE, TITLE_ROW, text};
+use crate::style::{INK, PAGE_EDGE, PANEL_GAP, PAPER, ROW_GAP, TITLE, TITLE_RISE, TITLE_ROW, text};
 use crate::svg::Svg;
 use plotters_backend::text_anchor::{HPos, VPos};
 use std::cell::RefCell;
@@ -23,13 +24,18 @@ pub struct Rendered {
     pub png: Vec<u8>,
 }
 
-/// One panel of a picture: [`Lines`](crate::Lines), [`Map`](crate::Map), [`SpaceTime`](crate::SpaceTime) or
-/// [`Drawing`](crate::Drawing).
+/// One panel of a picture: [`Lines`](crate::Lines), [`Map`](crate::Map), [`Plane`](crate::Plane),
+/// [`SpaceTime`](crate::SpaceTime), [`Drawing`](crate::Drawing) or [`Key`].
 pub trait Panel {
     #[doc(hidden)]
     fn margins(&self) -> Result<Margins, PlotError>;
     #[doc(hidden)]
     fn draw(&self, page: &Area, cell: &Cell, scale: Option<&ColorScale>) -> Result<(), PlotError>;
+    /// Whether the panel counts among the lettered ones.
+    #[doc(hidden)]
+    fn is_lettered(&self) -> bool {
+        true
+    }
 }
 
 /// A picture in the making.
@@ -40,6 +46,7 @@ pub struct Picture {
     columns: usize,
     row_shares: Vec<f64>,
     scale: Option<ColorScale>,
+    key: Option<Key>,
     panels: Vec<(Box<dyn Panel>, String)>,
 }
 
@@ -47,7 +54,7 @@ impl Picture {
     /// An empty page; both sides in millimetres, from 5 to 2000. All panels go in one row until [`Picture::columns`]
     /// says otherwise.
     pub fn new(width: f64, height: f64) -> Self {
-        Self { width, height, columns: usize::MAX, row_shares: vec![], scale: None, panels: vec![] }
+        Self { width, height, columns: usize::MAX, row_shares: vec![], scale: None, key: None, panels: vec![] }
     }
 
     /// Number of panels in a row, at least 1.
@@ -65,6 +72,12 @@ impl Picture {
     /// The colour scale of all maps and space-time panels; its bar is drawn at the right.
     pub fn scale(mut self, scale: ColorScale) -> Self {
         self.scale = Some(scale);
+        self
+    }
+
+    /// The key to all panels, in a row or more along the lower edge of the page.
+    pub fn key(mut self, key: Key) -> Self {
+        self.key = Some(key);
         self
     }
 
@@ -99,9 +112,16 @@ impl Picture {
     fn draw(&self, page: &Area) -> Result<(), PlotError> {
         page.fill(&PAPER)?;
         let cells = self.cells()?;
-        for (index, (panel, title)) in self.panels.iter().enumerate() {
-            panel.draw(page, &cells[index], self.scale.as_ref())?;
-            self.head(page, index, title, &cells[index].rect)?;
+        let mut letters = ('a'..='z').cycle();
+        for ((panel, title), cell) in self.panels.iter().zip(&cells) {
+            panel.draw(page, cell, self.scale.as_ref())?;
+            let letter = if panel.is_lettered() { letters.next() } else { None };
+            self.head(page, letter, title, &cell.rect)?;
+        }
+        if let Some(key) = &self.key {
+            let height = key.height(self.key_width())?;
+            let top = self.height - PAGE_EDGE - height;
+            key.draw_in(page, &Rect { left: PAGE_EDGE, top, width: self.key_width(), height })?;
         }
         let (Some(scale), Some(first), Some(last)) = (&self.scale, cells.first(), cells.last()) else {
             return Ok(());
@@ -112,11 +132,21 @@ impl Picture {
     }
 
     /// Letter and title above a box.
-    fn head(&self, page: &Area, index: usize, title: &str, rect: &Rect) -> Result<(), PlotError> {
-        let letter = char::from(b'a' + (index % 26) as u8);
-        let head = if self.panels.len() > 1 { format!("({letter})$\\;\\,${title}") } else { title.to_owned() };
+    fn head(&self, page: &Area, letter: Option<char>, title: &str, rect: &Rect) -> Result<(), PlotError> {
+        let head = match letter.filter(|_| self.has_letters()) {
+            Some(letter) => format!("({letter})$\\;\\,${title}"),
+            None => title.to_owned(),
+        };
         let place = (units(rect.left), units(rect.top - TITLE_RISE));
         Ok(page.draw_text(&head, &text(TITLE, INK, HPos::Left, VPos::Bottom), place)?)
+    }
+
+    fn has_letters(&self) -> bool {
+        self.panels.iter().filter(|(panel, _)| panel.is_lettered()).count() > 1
+    }
+
+    fn key_width(&self) -> f64 {
+        self.width - 2.0 * PAGE_EDGE
     }
 
     fn bar_gap(&self) -> Result<f64, PlotError> {
@@ -127,7 +157,7 @@ impl Picture {
     /// Margins of each panel, with the room that letters and titles take.
     fn margins(&self) -> Result<Vec<Margins>, PlotError> {
         let above =
-            self.scale.is_some() || self.panels.len() > 1 || self.panels.iter().any(|panel| !panel.1.is_empty());
+            self.scale.is_some() || self.has_letters() || self.panels.iter().any(|panel| !panel.1.is_empty());
         let margins = |(panel, _): &(Box<dyn Panel>, String)| {
             let own = panel.margins()?;
             Ok(Margins { top: if above { larger(own.top, TITLE_ROW) } else { own.top }, ..own })
@@ -144,9 +174,10 @@ impl Picture {
             Ok(self.bar_gap()? + scale.width()?)
         };
         let bar = self.scale.as_ref().map(room).transpose()?;
+        let below = self.key.as_ref().map(|key| key.height(self.key_width())).transpose()?;
         let grid = Grid {
             width: self.width,
-            height: self.height,
+            height: self.height - below.map_or(0.0, |key| key + ROW_GAP),
             columns: self.columns.min(self.panels.len()),
             row_shares: &self.row_shares,
             bar,

@@ -14,6 +14,10 @@ pub(crate) const PROTANOPIA: Vision =
 pub(crate) const DEUTERANOPIA: Vision =
     [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]];
 
+/// No short-wave cones: the same table.
+pub(crate) const TRITANOPIA: Vision =
+    [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]];
+
 /// From linear sRGB to CIE XYZ (IEC 61966-2-1).
 const TO_XYZ: Vision =
     [[0.4124564, 0.3575761, 0.1804375], [0.2126729, 0.7151522, 0.0721750], [0.0193339, 0.1191920, 0.9503041]];

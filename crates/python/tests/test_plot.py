@@ -33,6 +33,18 @@ def test_colours_are_those_of_the_house():
         assert colour(re.search(rf"{name}: .*?;", style)[0]) == [getattr(_plot, name)]
 
 
+def test_outcomes_look_as_those_of_the_house():
+    fills = dict(re.findall(r"const (\w+): Fill = Fill::flat\((.*?)\)", constants("fill.rs")))
+    planes = (ROOT / "figures/src/planes.rs").read_text(encoding="utf-8")
+    looks = {
+        re.sub(r"(?<!^)(?=[A-Z])", "_", name).lower(): fill
+        for name, fill in re.findall(r"\(Class::(\w+), Fill::(\w+)\)", planes)
+    }
+    flat = {name: "#" + fills[fill].replace("0x", "").replace(", ", "") for name, fill in looks.items() if fill in fills}
+    assert list(flat.items()) == list(_plot.FLAT.items())
+    assert [name for name in looks if name not in flat] == list(_plot.HATCHED)
+
+
 def test_runs():
     run = jamming.simulate(SHORT)
     ax = run.plot()

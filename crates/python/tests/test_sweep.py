@@ -78,5 +78,10 @@ def test_what_a_callback_raises_ends_it():
 
 def test_a_picture(plane):
     pytest.importorskip("matplotlib").use("Agg")
-    ax = plane.plot()
-    assert {text.get_text() for text in ax.get_legend().get_texts()} == {plane.words[name] for name in plane.counts()}
+    # from headways below the size of a body on
+    closed = jamming.sweep(SWEEP, **{"law.body": 1.2, "sweep.x.cells": 6, "sweep.y.cells": 4})
+    assert "closed" in closed.counts()
+    for one in (plane, closed):
+        ax = one.plot()
+        assert {text.get_text() for text in ax.get_legend().get_texts()} == {one.words[name] for name in one.counts()}
+        ax.figure.canvas.draw()

@@ -21,7 +21,7 @@ pub(super) fn gather(task: &Task, arguments: &Arguments) -> Result<(), Failure> 
     let summary = summary(task, &cells);
     let mut files: Vec<(PathBuf, Vec<u8>)> = vec![(task.out.join("cells.csv"), csv.into_bytes())];
     if !arguments.tables_only {
-        let rendered = crate::planes::picture(task.sweep.clone(), &cells)?.render().map_err(Failure::work)?;
+        let rendered = crate::planes::picture(&task.sweep, &cells)?.render().map_err(Failure::work)?;
         files.push((task.out.join("sweep.png"), rendered.png));
         files.push((task.out.join("sweep.svg"), rendered.svg));
     }

@@ -29,18 +29,17 @@ SEQUENTIAL = "#440154 #482475 #414487 #355f8d #2a788e #21918c #22a884 #44bf70 #7
 SERIES = "#00468b #d97a00 #1b1b1b #008a72 #b81c45".split()
 INK, GREY, MISSING = "#111111", "#777777", "#b8b8b0"
 
-# What became of a run: calm in blue, waves in warm colours, ends in dark ones, what is not known in grey.
-OUTCOMES = {
-    "closed": "#111111",
-    "no_uniform_flow": "#777777",
-    "undefined": "#e0e0da",
-    "blow_up": "#440154",
-    "contact": "#b81c45",
-    "decays": "#b9cef0",
-    "waves_backwards": "#d97a00",
-    "waves": "#f2c14e",
-    "undecided": "#b8b8b0",
+# What became of a run, as the pictures of `cargo xtask sweep` have it (crates/plot, fill.rs): a colour, or a hatching on white.
+FLAT = {
+    "decays": "#e9f0f5",
+    "waves": "#2470b8",
+    "waves_backwards": "#5c2a86",
+    "contact": "#e8842c",
+    "blow_up": "#38090c",
+    "undecided": "#bfbfb9",
 }
+HATCHED = {"closed": "//", "no_uniform_flow": "\\\\", "undefined": "xx"}
+PAPER = "#ffffff"
 # Names of parameters as the paper writes them.
 SYMBOLS = {
     "mu": r"\mu",
@@ -123,14 +122,19 @@ def map(made: Map, ax: Axes | None) -> Axes:
 def outcomes(made: Sweep, ax: Axes | None) -> Axes:
     """The outcome over two parameters, in one colour each, with a legend of those that occur."""
     ax = axes(ax)
-    present = [name for name in OUTCOMES if (made.outcome == name).any()]
+    present = [name for name in (*FLAT, *HATCHED) if (made.outcome == name).any()]
     index = np.select([made.outcome == name for name in present], range(len(present)))
-    colours = ListedColormap([OUTCOMES[name] for name in present])
+    colours = ListedColormap([FLAT.get(name, PAPER) for name in present])
     ax.pcolormesh(*made.edges(), index, cmap=colours, vmin=-0.5, vmax=len(present) - 0.5)
+    for name in HATCHED.keys() & set(present):
+        cells = np.ma.masked_where(made.outcome != name, np.zeros(made.outcome.shape))
+        white = ListedColormap([PAPER])
+        ax.pcolor(*made.edges(), cells, cmap=white, hatch=HATCHED[name], edgecolor=GREY, linewidth=0.0)
     (x, y), logs = made.columns[:2], made.logarithmic
     ax.set(xlabel=f"${symbol(x)}$", ylabel=f"${symbol(y)}$", xlim=made.x_range, ylim=made.y_range)
     ax.set(xscale="log" if logs[0] else "linear", yscale="log" if logs[1] else "linear")
-    patches = [Patch(facecolor=OUTCOMES[name], label=made.words[name]) for name in present]
+    looks = [{"facecolor": FLAT.get(name, PAPER), "hatch": HATCHED.get(name)} for name in present]
+    patches = [Patch(**look, edgecolor=GREY, label=made.words[name]) for name, look in zip(present, looks)]
     ax.legend(handles=patches, loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
     return ax
 

@@ -52,7 +52,13 @@ impl Axis {
 
     /// The value at the centre of cell `i`; a number of pedestrians is the nearest whole one.
     pub fn centre(&self, i: usize) -> f64 {
-        let share = (i as f64 + 0.5) / self.cells as f64;
+        self.at(i as f64 + 0.5)
+    }
+
+    /// The value at a place counted in cells from the lower end: cell `i` reaches from `i` to `i + 1`. A number of
+    /// pedestrians is the nearest whole one.
+    pub fn at(&self, place: f64) -> f64 {
+        let share = place / self.cells as f64;
         let value = if self.is_log {
             let (low, high) = (math::ln(self.from), math::ln(self.to));
             math::exp(low + (high - low) * share)

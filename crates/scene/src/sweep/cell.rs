@@ -22,6 +22,15 @@ pub struct Place {
     pub unstable: Option<[bool; 2]>,
 }
 
+/// What is known exactly of a point of the plane; NaN where there is no uniform flow, or where it has no linearised law.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Exact {
+    /// The margin against waves of all lengths: negative where the uniform flow is stable.
+    pub margin: f64,
+    /// The steady speed.
+    pub speed: f64,
+}
+
 /// What decided a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DecidedBy {
@@ -85,7 +94,10 @@ impl Sweep {
     /// # Errors
     /// A formula without a value: which, and what would be valid.
     fn scene(&self, cell: [usize; 2]) -> Result<Result<Scene, Class>, String> {
-        let [x, y] = self.at(cell);
+        self.scene_at(self.at(cell))
+    }
+
+    fn scene_at(&self, [x, y]: [f64; 2]) -> Result<Result<Scene, Class>, String> {
         let axes = [(self.x.parameter.as_str(), x), (self.y.parameter.as_str(), y)];
         let value = |name: &str| axes.iter().find(|(parameter, _)| *parameter == name).map(|(_, value)| *value);
         let mut model = self.model.clone();
@@ -159,6 +171,20 @@ impl Sweep {
             [Waves::All, Waves::Ring(scene.ring.pedestrians)].map(|waves| response.margin(waves).0 > 0.0)
         });
         Ok(Place { class: None, backward_flow: speed < 0.0, unstable })
+    }
+
+    /// What is known exactly of a point of the plane, counted in cells from the lower left corner: cell `[i, j]` has its
+    /// centre at `[i + 0.5, j + 0.5]`.
+    ///
+    /// # Errors
+    /// As [`Sweep::place`].
+    pub fn exact(&self, [x, y]: [f64; 2]) -> Result<Exact, String> {
+        let Ok(scene) = self.scene_at([self.x.at(x), self.y.at(y)])? else {
+            return Ok(Exact { margin: f64::NAN, speed: f64::NAN });
+        };
+        let speed = scene.steady_speed.unwrap_or(f64::NAN);
+        let response = scene.model.response(scene.ring.headway(), speed);
+        Ok(Exact { margin: response.map_or(f64::NAN, |response| response.margin(Waves::All).0), speed })
     }
 
     /// Runs a cell: twice, the second time with a larger tolerance. Where both do not agree, it is undecided.

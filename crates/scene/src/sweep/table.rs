@@ -26,6 +26,11 @@ pub fn parse(line: &str) -> Option<([usize; 2], Cell)> {
     let mut words = line.split(',');
     let index = |word: Option<&str>| word?.parse::<usize>().ok();
     let indices = [index(words.next())?, index(words.next())?];
+    Some((indices, parse_cell(words)?))
+}
+
+/// What stands in a line after its first two words.
+fn parse_cell<'a>(mut words: impl Iterator<Item = &'a str>) -> Option<Cell> {
     let class = Class::of_name(words.next()?)?;
     let backward_flow = match words.next()? {
         "0" => false,
@@ -41,7 +46,7 @@ pub fn parse(line: &str) -> Option<([usize; 2], Cell)> {
             word => *number = word.parse().ok().filter(|number: &f64| number.is_finite())?,
         }
     }
-    words.next().is_none().then_some((indices, Cell { class, backward_flow, decided_by, numbers }))
+    words.next().is_none().then_some(Cell { class, backward_flow, decided_by, numbers })
 }
 
 /// The table of a whole plane: a row for each cell, column by column of the plane.
@@ -56,6 +61,36 @@ pub fn table(sweep: &Sweep, cells: &[Cell]) -> String {
         text.push('\n');
     }
     text
+}
+
+/// The cells of a plane from its table, as [`table`] writes it.
+///
+/// # Errors
+/// The line that is not one of this plane, and what it must be.
+pub fn cells(sweep: &Sweep, text: &str) -> Result<Vec<Cell>, String> {
+    let mut lines = text.lines();
+    let expected = header([&sweep.x.parameter, &sweep.y.parameter]);
+    let first = lines.next().unwrap_or("");
+    if first != expected {
+        return Err(format!("1: {first:?}: must be {expected:?}"));
+    }
+    let cells = lines.enumerate().map(|(index, line)| {
+        let at = sweep.at([index / sweep.y.cells, index % sweep.y.cells]);
+        let mut words = line.split(',');
+        let mut number = || words.next()?.parse::<f64>().ok();
+        let found = [number(), number()];
+        if found != at.map(Some) {
+            let [x, y] = at;
+            return Err(format!("{}: {line:?}: not the next cell of the plane; must begin with {x:?},{y:?}", index + 2));
+        }
+        parse_cell(words).ok_or_else(|| format!("{}: {line:?}: not a cell; must have {expected}", index + 2))
+    });
+    let cells = cells.collect::<Result<Vec<Cell>, String>>()?;
+    if cells.len() == sweep.cells() {
+        Ok(cells)
+    } else {
+        Err(format!("{} cells; this plane has {}", cells.len(), sweep.cells()))
+    }
 }
 
 fn push_cell(line: &mut String, cell: &Cell) {

@@ -12,6 +12,7 @@ mod formulas;
 mod gallery;
 mod hard;
 mod maps;
+mod outcome;
 mod overrides;
 mod project;
 mod properties;
