@@ -10,4 +10,6 @@ if ! command -v cargo-deny >/dev/null; then
   deny=$target/tools/bin/cargo-deny
   [ -x "$deny" ] || cargo install --locked --version $version --root "$target/tools" cargo-deny
 fi
-"$deny" --offline check licenses bans sources
+for manifest in Cargo.toml crates/python/Cargo.toml; do
+  "$deny" --offline --manifest-path "$manifest" check --config "$PWD/deny.toml" licenses bans sources
+done

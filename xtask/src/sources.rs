@@ -40,15 +40,16 @@ const SUPPLEMENT_SOURCES: [&str; 5] =
 /// Folders that are searched for sources.
 const SOURCE_FOLDERS: [&str; 6] =
     ["crates", "figures", "data/accuracy", "data/outcomes", "data/reference", "data/timing"];
-/// Below the folders searched, what reaches no figure: the page for browsers, the programs about the result, solutions to
-/// compare with, archived benchmarks.
-const NO_SOURCES: [&str; 9] = [
+/// Below the folders searched, what reaches no figure: the doors for browsers and for Python, the programs about the
+/// result, solutions to compare with, archived benchmarks.
+const NO_SOURCES: [&str; 10] = [
     "crates/browser/",
     "crates/checkout/",
     "crates/claims/",
     "crates/interchange/",
     "crates/measure/",
     "crates/publish/",
+    "crates/python/",
     "crates/verify/",
     "data/reference/solutions/",
     "data/timing/bench/",

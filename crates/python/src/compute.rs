@@ -5,38 +5,43 @@ use crate::watch::{Watch, detached};
 use cpu_time::ThreadTime;
 use files::reader::{Reader, RecipeError, Section, Value};
 use files::recipe::{self, Kind};
+use jam::precise::Precise;
 use jam::stability::Waves;
 use jam::uniform;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use scene::simulation::run_from;
+use scene::simulation::{Judging, run_from};
 use scene::summary::{self, Ended};
 use scene::{check, uniform::stability};
 
 /// Runs a scene: `std` (t, std), `trajectories` (t, n, x, v) or None, `x` and `v` of the final state, all flat, and the
-/// rest. With `check` a second run estimates the errors.
+/// rest. `wanted`: whether a second run estimates the errors, and whether it
+/// is judged what became of the run.
 #[pyfunction]
 pub fn simulate<'py>(
     py: Python<'py>,
     given: Given<'py>,
     panel: Option<&str>,
     values: &Bound<'py, PyDict>,
-    check: bool,
+    wanted: (bool, bool),
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
+    let (check, outcome) = wanted;
     let chosen = choose(&given, panel, Kind::Run, values)?;
     let scene = scene::run::read(&chosen.file, &chosen.panel.tables).map_err(|error| scene_error(py, &error))?;
     let (ended, flow, errors) = detached(py, || {
         let mut watch = Watch::new(progress.as_ref(), scene.ring.pedestrians);
         let share = if check { 0.5 } else { 1.0 };
         watch.turn_to(scene.t_end, 0.0, share);
+        watch.judging = if outcome { Judging::Along } else { Judging::No };
         let clock = ThreadTime::now();
         let (outcome, broken) = match run_from(&scene, None, &mut watch) {
             Ok(outcome) => (outcome, None),
             Err(broken) => (*broken.outcome.clone(), Some(broken)),
         };
         let ended = Ended { outcome, broken, seconds: clock.elapsed().as_secs_f64(), resumed_steps: 0 };
+        watch.judging = Judging::No;
         watch.turn_to(ended.outcome.statistics.time, share, 1.0 - share);
         let errors = check.then(|| check::errors_seen(&scene, &ended.outcome, &mut watch));
         watch.tell(1.0);
@@ -94,40 +99,40 @@ pub struct Response {
     /// The steady speed.
     #[pyo3(get)]
     speed: f64,
-    /// None where the law has no derivatives: on a kink.
-    response: Option<jam::stability::Response>,
+    /// How the law answers, and the same with twice the digits. None where it has no derivatives: on a kink.
+    answer: Option<(jam::stability::Response, Precise)>,
 }
 
 #[pymethods]
 impl Response {
-    /// The margin over all waves, and the same by a finer grid of waves.
+    /// The margin over all waves, and the same with twice the digits by a finer grid of waves.
     fn margin(&self) -> Option<[f64; 2]> {
-        let response = self.response.as_ref()?;
-        Some([response.margin(Waves::All).0, response.refined_margin()])
+        let (response, precise) = self.answer.as_ref()?;
+        Some([response.margin(Waves::All).0, precise.margin()])
     }
 
     /// The least and the largest wave number that grows.
     fn growing(&self) -> Option<(f64, f64)> {
-        self.response.as_ref()?.growing()
+        self.answer.as_ref()?.0.growing()
     }
 
     /// Of the waves of a ring: the margin, the largest growth rate, and how often that wave goes into the ring.
     fn on_ring(&self, pedestrians: usize) -> Option<(f64, f64, usize)> {
-        let response = self.response.as_ref()?;
+        let (response, _) = self.answer.as_ref()?;
         let (rate, waves) = response.fastest(pedestrians);
         Some((response.margin(Waves::Ring(pedestrians)).0, rate, waves))
     }
 
-    /// `Re z^+` of each wave number, and the same after a step of Newton's method.
+    /// `Re z^+` of each wave number, and the same with twice the digits, after a step of Newton's method.
     fn growth_rates<'py>(
         &self,
         py: Python<'py>,
         k: PyReadonlyArray1<'py, f64>,
     ) -> Option<[Bound<'py, PyArray1<f64>>; 2]> {
-        let response = self.response.as_ref()?;
-        let k = k.as_array();
+        let (response, precise) = self.answer.as_ref()?;
+        let (k, rounded) = (k.as_array(), precise.rounded());
         let rates = |rate: &dyn Fn(f64) -> f64| PyArray1::from_iter(py, k.iter().map(|k| rate(*k)));
-        Some([rates(&|k| response.growth_rate(k)), rates(&|k| response.refined_growth_rate(k))])
+        Some([rates(&|k| response.growth_rate(k)), rates(&|k| rounded.refined_growth_rate(k))])
     }
 }
 
@@ -152,7 +157,8 @@ pub fn response(
         model => uniform::steady_speed(model, headway),
     };
     let speed = found.map_err(|error| scene_error(py, &RecipeError::new(&file, 0, error.to_string())))?;
-    Ok(Response { speed, response: model.response(headway, speed) })
+    let response = model.response(headway, speed);
+    Ok(Response { speed, answer: response.map(|response| (response, Precise::new(&model, headway, speed))) })
 }
 
 /// The tables that hold `[law]`, of a whole scene or of a law alone.

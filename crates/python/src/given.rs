@@ -35,6 +35,10 @@ pub struct Chosen {
     pub panel: Panel,
 }
 
+/// What a scene has and which function takes it.
+const CALLS: [(Kind, &str, &str); 3] =
+    [(Kind::Run, "run", "simulate"), (Kind::Map, "map", "map"), (Kind::Sweep, "sweep", "sweep")];
+
 /// Reads a scene, chooses the panel `name` (or the one of this kind, if there is no other) and replaces values in it.
 pub fn choose(given: &Given<'_>, name: Option<&str>, kind: Kind, values: &Bound<'_, PyDict>) -> PyResult<Chosen> {
     let recipe = read(given).map_err(|error| scene_error(values.py(), &error))?;
@@ -58,8 +62,12 @@ fn panel<'a>(recipe: &'a Recipe, name: Option<&str>, kind: Kind) -> Result<&'a P
     match (name, &found[..]) {
         (Some(name), _) => recipe.panel(name),
         (None, [only]) => Ok(only),
-        (None, []) if kind == Kind::Run => Err(complaint("has no [run]; `map` computes maps".to_owned())),
-        (None, []) => Err(complaint("has no [map]; `simulate` computes runs".to_owned())),
+        (None, []) => {
+            let table = CALLS.iter().find(|call| call.0 == kind).map_or("", |call| call.1);
+            let calls: Vec<String> =
+                CALLS.iter().map(|(_, table, call)| format!("`{call}` is for scenes with [{table}]")).collect();
+            Err(complaint(format!("has no [{table}]; {}", calls.join(", "))))
+        }
         (None, several) => {
             let names: Vec<&str> = several.iter().map(|panel| panel.name.as_str()).collect();
             Err(complaint(format!("several panels: choose one with panel=: {}", names.join(", "))))
@@ -96,8 +104,8 @@ fn value(entry: &Bound<'_, PyAny>) -> Result<Value, RecipeError> {
     if let Ok(text) = entry.cast::<PyString>() {
         return Ok(Value::Text(text.to_string()));
     }
-    if entry.is_instance_of::<PyBool>() {
-        return Ok(Value::Other("boolean".to_owned()));
+    if let Ok(flag) = entry.cast::<PyBool>() {
+        return Ok(Value::Flag(flag.is_true()));
     }
     match entry.extract::<f64>() {
         // a whole number of Python may have more digits than a double
@@ -119,6 +127,7 @@ pub fn scene_error(py: Python<'_>, error: &RecipeError) -> PyErr {
     let found = about.and_then(|about| about.value.as_ref()).and_then(|value| match value {
         Value::Number(number) => Some(PyFloat::new(py, *number).into_any()),
         Value::Text(text) => Some(PyString::new(py, text).into_any()),
+        Value::Flag(flag) => Some(PyBool::new(py, *flag).to_owned().into_any()),
         Value::Section(_) | Value::Other(_) => None,
     });
     let words = match (key, line) {

@@ -3,13 +3,16 @@
 
 mod compute;
 mod given;
+mod sweep;
 mod watch;
 
 use pyo3::pymodule;
 
-/// Runs, maps and stability.
+/// Runs, maps, sweeps and stability.
 #[pymodule]
 mod _native {
     #[pymodule_export]
     use crate::compute::{Response, map, response, simulate};
+    #[pymodule_export]
+    use crate::sweep::sweep;
 }

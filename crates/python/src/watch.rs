@@ -2,7 +2,7 @@
 
 use pyo3::prelude::*;
 use scene::checkpoint::Underway;
-use scene::simulation::Onlooker;
+use scene::simulation::{Judging, Onlooker};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::time::{Duration, Instant};
 
@@ -21,12 +21,22 @@ pub struct Watch<'a> {
     t_end: f64,
     /// What part of the whole is looked at: where it begins, and how long it is.
     part: (f64, f64),
+    /// Whether the outcome of the run is judged.
+    pub judging: Judging,
 }
 
 impl<'a> Watch<'a> {
     /// Of a computation in steps of the work `each`.
     pub fn new(progress: Option<&'a Py<PyAny>>, each: usize) -> Watch<'a> {
-        Watch { progress, next: Instant::now() + PAUSE, work: 0, each, t_end: 1.0, part: (0.0, 1.0) }
+        Watch {
+            progress,
+            next: Instant::now() + PAUSE,
+            work: 0,
+            each,
+            t_end: 1.0,
+            part: (0.0, 1.0),
+            judging: Judging::No,
+        }
     }
 
     /// From here on a run to `t_end` is seen, the part of the whole that begins at `begin` and is `length` long.
@@ -70,6 +80,10 @@ impl Onlooker for Watch<'_> {
     fn between(&mut self, underway: &Underway<'_>) {
         self.work = WORK;
         self.look(underway.fraction());
+    }
+
+    fn judging(&self) -> Judging {
+        self.judging
     }
 }
 

@@ -20,9 +20,10 @@ struct Script {
 }
 
 /// Tried by `test`, where their tools are there; `ci` installs these.
-const SCRIPTS: [Script; 4] = [
+const SCRIPTS: [Script; 5] = [
     Script { what: "values by NumPy", command: &["checks/spot.sh"] },
     Script { what: "trajectories as PedPy reads them", command: &["checks/pedpy/run.sh"] },
+    Script { what: "the package for Python", command: &["checks/python-door.sh"] },
     Script { what: "the article and its PDF", command: &["checks/article.sh"] },
     Script { what: "the page in a browser", command: &["checks/browser/run.sh"] },
 ];

@@ -1,4 +1,4 @@
-"""Force-based models of pedestrians (or cars) in single file on a ring: runs, stability maps, stability.
+"""Force-based models of pedestrians (or cars) in single file on a ring: runs and what becomes of them, stability maps.
 
     >>> import jamming
     >>> run = jamming.simulate({
@@ -22,18 +22,22 @@ Phys. Rev. E 92, 042809 (2015).
 
 from ._errors import RunError, SceneError
 from ._map import Map, map
-from ._run import Event, Run, simulate
+from ._run import Event, Outcome, Run, simulate
 from ._stability import Ring, Stability, stability
+from ._sweep import Sweep, sweep
 
 __all__ = [
     "Event",
     "Map",
+    "Outcome",
     "Ring",
     "Run",
     "RunError",
     "SceneError",
     "Stability",
+    "Sweep",
     "map",
     "simulate",
     "stability",
+    "sweep",
 ]

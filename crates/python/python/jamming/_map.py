@@ -90,7 +90,7 @@ def map(scene: Scene, *, panel: str | None = None, progress: Progress = None, **
     ...             "y": {"parameter": "kappa", "from": 0.0, "to": 3.0, "cells": 6}},
     ... })
     >>> speeds
-    <Map: margin over headway and kappa, 7 x 6 cells, 40.5 % above 0>
+    <Map: margin over headway and kappa, 7 x 6 cells, 33.3 % above 0>
     >>> import numpy as np
     >>> exact = 2.0 / np.cosh(speeds.x - 2.0)**2 - speeds.y[:, None]   # unstable if kappa < 2 V'(s)
     >>> bool(((speeds.values > 0) == (exact > 0)).all()), speeds.error < 1e-12

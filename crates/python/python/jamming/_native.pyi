@@ -12,11 +12,18 @@ def simulate(
     given: Given,
     panel: str | None,
     values: dict[str, Any],
-    check: bool,
+    wanted: tuple[bool, bool],
     progress: Callable[[float], object] | None,
 ) -> dict[str, Any]: ...
 def map(
     given: Given, panel: str | None, values: dict[str, Any], progress: Callable[[float], object] | None
+) -> dict[str, Any]: ...
+def sweep(
+    given: Given,
+    panel: str | None,
+    values: dict[str, Any],
+    jobs: int | None,
+    progress: Callable[[float], object] | None,
 ) -> dict[str, Any]: ...
 def response(given: Given, headway: float, speed: float | None, values: dict[str, Any]) -> Response: ...
 

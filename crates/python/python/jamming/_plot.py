@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import LineCollection
-from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.colors import Colormap, LinearSegmentedColormap, ListedColormap
+from matplotlib.patches import Patch
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from ._map import Map
     from ._run import Run
     from ._stability import Stability
+    from ._sweep import Sweep
 
 # As crates/plot has them (a test compares): color.rs and style.rs say how they were chosen.
 DIVERGING = (
@@ -27,6 +29,17 @@ SEQUENTIAL = "#440154 #482475 #414487 #355f8d #2a788e #21918c #22a884 #44bf70 #7
 SERIES = "#00468b #d97a00 #1b1b1b #008a72 #b81c45".split()
 INK, GREY, MISSING = "#111111", "#777777", "#b8b8b0"
 
+# What became of a run, as the pictures of `cargo xtask sweep` have it (crates/plot, fill.rs): a colour, or a hatching on white.
+FLAT = {
+    "decays": "#e9f0f5",
+    "waves": "#2470b8",
+    "waves_backwards": "#5c2a86",
+    "contact": "#e8842c",
+    "blow_up": "#38090c",
+    "undecided": "#bfbfb9",
+}
+HATCHED = {"closed": "//", "no_uniform_flow": "\\\\", "undefined": "xx"}
+PAPER = "#ffffff"
 # Names of parameters as the paper writes them.
 SYMBOLS = {
     "mu": r"\mu",
@@ -35,19 +48,20 @@ SYMBOLS = {
     "v0": r"v_0'",
     "d_gap": r"d'",
     "headway": r"\Delta y",
+    "shift": r"\epsilon_1",
+    "pedestrians": "N",
     "k": r"k",
     "epsilon": r"\varepsilon",
 }
+GREEK = "alpha beta gamma delta epsilon eta kappa lambda mu nu rho sigma tau theta xi".split()
 VALUES = {"margin": "margin", "phi": r"$\Phi$", "re_z": r"$\mathrm{Re}\,z^+$"}
 # As many pieces of lines as a picture shows in a second or so.
 MOST_PIECES = 150_000
 
 
-def scale(stops: list[str]) -> LinearSegmentedColormap:
+def scale(stops: list[str]) -> Colormap:
     """A colour map through these stops."""
-    made = LinearSegmentedColormap.from_list("jamming", stops)
-    made.set_bad(MISSING)
-    return made
+    return LinearSegmentedColormap.from_list("jamming", stops).with_extremes(bad=MISSING)
 
 
 def axes(ax: Axes | None) -> Axes:
@@ -70,7 +84,7 @@ def trajectories(run: Run, ax: Axes | None) -> Axes:
     ax = axes(ax)
     every = max(1, math.ceil(run.x.size / MOST_PIECES))
     t, x, v = run.t[::every], run.x[::every], run.v[::every]
-    lines = LineCollection(pieces(t, x, run.length), cmap=scale(SEQUENTIAL), linewidth=0.5)
+    lines = LineCollection(list(pieces(t, x, run.length)), cmap=scale(SEQUENTIAL), linewidth=0.8)
     lines.set_array(np.repeat(0.5 * (v[1:] + v[:-1]).ravel(), 2))
     ax.add_collection(lines)
     ax.set(xlabel="$t$", ylabel="$x'$", xlim=(0.0, run.t[-1] or 1.0), ylim=(0.0, run.length))
@@ -105,6 +119,26 @@ def map(made: Map, ax: Axes | None) -> Axes:
     return ax
 
 
+def outcomes(made: Sweep, ax: Axes | None) -> Axes:
+    """The outcome over two parameters, in one colour each, with a legend of those that occur."""
+    ax = axes(ax)
+    present = [name for name in (*FLAT, *HATCHED) if (made.outcome == name).any()]
+    index = np.select([made.outcome == name for name in present], range(len(present)))
+    colours = ListedColormap([FLAT.get(name, PAPER) for name in present])
+    ax.pcolormesh(*made.edges(), index, cmap=colours, vmin=-0.5, vmax=len(present) - 0.5)
+    for name in HATCHED.keys() & set(present):
+        cells = np.ma.masked_where(made.outcome != name, np.zeros(made.outcome.shape))
+        white = ListedColormap([PAPER])
+        ax.pcolor(*made.edges(), cells, cmap=white, hatch=HATCHED[name], edgecolor=GREY, linewidth=0.0)
+    (x, y), logs = made.columns[:2], made.logarithmic
+    ax.set(xlabel=f"${symbol(x)}$", ylabel=f"${symbol(y)}$", xlim=made.x_range, ylim=made.y_range)
+    ax.set(xscale="log" if logs[0] else "linear", yscale="log" if logs[1] else "linear")
+    looks = [{"facecolor": FLAT.get(name, PAPER), "hatch": HATCHED.get(name)} for name in present]
+    patches = [Patch(**look, edgecolor=GREY, label=made.words[name]) for name, look in zip(present, looks)]
+    ax.legend(handles=patches, loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
+    return ax
+
+
 def colour_limit(values: NDArray[np.float64]) -> float:
     """Where the colours end: 1, 2 or 4 times a power of ten, near the typical size of the values of one sign."""
     known = values[np.isfinite(values) & (values != 0.0)]
@@ -120,7 +154,7 @@ def colour_limit(values: NDArray[np.float64]) -> float:
 def symbol(parameter: str) -> str:
     """A parameter as the paper writes it."""
     name, _, index = parameter.partition("_")
-    other = name if len(name) == 1 else rf"\mathrm{{{name}}}"
+    other = rf"\{name}" if name in GREEK else name if len(name) == 1 else rf"\mathrm{{{name}}}"
     return SYMBOLS.get(parameter, rf"{other}_{{\mathrm{{{index}}}}}" if index else other)
 
 

@@ -35,6 +35,33 @@ class Event(NamedTuple):
     """The estimated error of t; None if it was not estimated, or the second run had no such event."""
 
 
+class Outcome(NamedTuple):
+    """What became of a run, with the numbers that this rests on."""
+
+    name: str
+    """In order of precedence: ``closed`` (two touch at the start), ``no_uniform_flow``, ``undefined`` (the formula has no value
+    for somebody), ``blow_up``, ``contact``, ``decays`` (back to the uniform flow for good), ``waves_backwards`` (lasting waves
+    in which somebody walks backwards), ``waves``, ``undecided``."""
+    t: float
+    """When that was certain, in units of tau."""
+    decided_by: str
+    """What decided, in words."""
+    missing: str | None
+    """What is missing for a decision, if the run is undecided."""
+    backward_flow: bool
+    """Whether the uniform flow itself walks backwards."""
+    least_gap: float
+    """The least effective gap of the run (of the logarithmic law and of formulas without one the least spacing), in units of a_0."""
+    least_speed: float
+    """The least speed of the run, the start from rest left out, in units of a_0/tau."""
+    std: float
+    """The standard deviation of the speeds: of waves the mean over the last window, else that at the end."""
+    wave_speed: float | None
+    """The speed at which waves travel along the ring, below 0 against the direction of walking; None unless there are waves."""
+    distance: float | None
+    """How far the deciding numbers are from another outcome, in the unit of each; 0 if undecided, None if without bound."""
+
+
 class Run:
     """What a run gave. T samples of N pedestrians; a run that an event stops has the samples up to it.
 
@@ -45,6 +72,8 @@ class Run:
     """What the scene shows, in words."""
     summary: dict[str, Any]
     """What ``summary.json`` of the command line says: law, steps, stop, events, jams, stability of the uniform flow, errors."""
+    outcome: Outcome | None
+    """What became of it; None if that was not asked for."""
     events: tuple[Event, ...]
     """The first event of each kind, everybody to whom it happens at once, in order of time."""
     t: NDArray[np.float64]
@@ -69,6 +98,9 @@ class Run:
         self.summary = json.loads(made["summary"])
         fields = [{"error": None, **event} for event in self.summary["events"]]
         self.events = tuple(Event(**event) for event in fields)
+        self.outcome = None
+        if (told := self.summary["outcome"]) is not None:
+            self.outcome = Outcome(told["class"], **{name: told[name] for name in Outcome._fields[1:]})
         std = made["std"].reshape(-1, 2)
         self.t, self.std = std[:, 0], std[:, 1]
         self.x = self.v = None
@@ -158,7 +190,13 @@ class Run:
 
 
 def simulate(
-    scene: Scene, *, panel: str | None = None, check: bool = True, progress: Progress = None, **overrides: Any
+    scene: Scene,
+    *,
+    panel: str | None = None,
+    check: bool = True,
+    outcome: bool = True,
+    progress: Progress = None,
+    **overrides: Any,
 ) -> Run:
     """Runs a scene to its end, or to the event that ends it, as ``cargo xtask simulate`` does, to the same bits.
 
@@ -166,6 +204,7 @@ def simulate(
     panel: which one, for a scene with several runs.
     check: whether a second run, by another method, estimates the errors of std, final state and events; it takes about as
         long as the run.
+    outcome: whether it is judged what became of the run.
     progress: a function that is called with the part that is done, from 0 to 1; or True for a bar, if tqdm is there.
     overrides: values that replace those of the scene, by dotted keys: ``**{"law.a_v": 0.3, "run.t_end": 100.0}``; or a whole
         table, ``run={...}``. ``run.dt`` takes the place of ``run.tolerance``, and the other way round.
@@ -185,26 +224,26 @@ def simulate(
     ... [start]
     ... shift = 0.1
     ... [run]
-    ... t_end     = 400.0
+    ... t_end     = 1000.0
     ... sample    = 1.0
     ... method    = "dop853"
     ... tolerance = 1e-9
     ... '''
     >>> run = simulate(ring)
     >>> run
-    <Run: formula law, 20 pedestrians, 603 steps to t = 400.0: t_end>
+    <Run: formula law, 20 pedestrians, 3653 steps to t = 1000.0: t_end>
     >>> run.t.shape, run.x.shape, run.v.shape
-    ((401,), (401, 20), (401, 20))
-    >>> bool(run.std[-1] > 100 * run.std[1])  # a jam has grown
+    ((1001,), (1001, 20), (1001, 20))
+    >>> bool(run.v[-1].min() < 0.1 < 1.8 < run.v[-1].max())  # a jam has grown, and moves on
     True
-    >>> run.errors["std"] < 1e-6
-    True
-    >>> sparse = simulate(ring, check=False, **{"ring.length": 80.0, "run.t_end": 100.0})
-    >>> bool(sparse.std[-1] < sparse.std[1]), sparse.errors
-    (True, {})
+    >>> run.outcome.name, run.errors["std"] < 1e-6
+    ('waves', True)
+    >>> sparse = simulate(ring, check=False, **{"ring.length": 80.0, "run.t_end": 2000.0})
+    >>> bool(sparse.std[-1] < sparse.std[1]), sparse.outcome.name, sparse.errors
+    (True, 'decays', {})
     """
     with shown(progress, "run") as told:
-        made = _native.simulate(given(scene), panel, plain(overrides), check, told)
+        made = _native.simulate(given(scene), panel, plain(overrides), (check, outcome), told)
     run = Run(made)
     if made["broken"] is not None:
         raise RunError(made["broken"], run)

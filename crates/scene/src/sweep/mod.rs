@@ -10,7 +10,7 @@ pub mod table;
 pub mod tiles;
 
 pub use axis::Axis;
-pub use cell::{Cell, DecidedBy, Exact, Place};
+pub use cell::{Cell, DecidedBy, Exact, NUMBERS, Place};
 pub use read::read;
 
 use crate::run::AtOverlap;
