@@ -26,6 +26,8 @@ pub struct Verdict {
     pub ratios: Vec<Ratio>,
     /// True errors over those that the run states.
     pub stated: Vec<Ratio>,
+    /// What it cost to know the errors that it states: right-hand sides over those of the run, and the latter.
+    pub cost: Option<(f64, u64)>,
     /// What is wrong.
     pub findings: Vec<String>,
     /// What the second integration could not decide.
@@ -76,6 +78,7 @@ fn named(panel: &str) -> Verdict {
         ending: String::new(),
         ratios: Vec::new(),
         stated: Vec::new(),
+        cost: None,
         findings: Vec::new(),
         undecided: Vec::new(),
     }
@@ -165,6 +168,7 @@ fn ended(verdict: &mut Verdict, scene: &Scene, outcome: &Outcome, broken: Option
         question.times.push(scene.t_end);
     }
     let stated = stated::of(scene, outcome);
+    verdict.cost = Some((stated.cost, outcome.statistics.evaluations));
     // what faster numbers cannot decide, better ones are asked
     for numbers in [Numbers::Doubles, Numbers::Twofold] {
         let answer = Answer::new(&question, numbers);

@@ -109,14 +109,8 @@ fn read_for(file: &str, tables: &Section, purpose: Purpose) -> Result<Scene, Rec
         false => FormKind::Deviations,
         true => run.one_of("state", &FORMS)?,
     };
-    // what the uniform flow itself cannot hold in a number is lost in deviations from it
-    let is_lost = match (&model, steady_speed) {
-        (_, None) => true,
-        // on a kink there is no uniform flow to be near to
-        (Model::Formula(law), Some(speed)) => law.response(ring.headway(), speed).is_none(),
-        (model, Some(speed)) => model.linearise(ring.headway(), speed).phi < LEAST_RESPONSE,
-    };
-    let form = if form == FormKind::Deviations && is_lost { FormKind::Gaps } else { form };
+    let has_deviations = has_deviations(&model, ring, steady_speed);
+    let form = if form == FormKind::Deviations && !has_deviations { FormKind::Gaps } else { form };
     if let Some((pedestrian, value)) = without_value(&*form.build(&model, ring), start, ring) {
         let problem = format!(
             "the formula has no value at the start: the acceleration of pedestrian {pedestrian} is {value:?}; must leave one to everybody"
@@ -158,6 +152,17 @@ fn read_for(file: &str, tables: &Section, purpose: Purpose) -> Result<Scene, Rec
         steady_speed,
         at_overlap,
     })
+}
+
+/// Whether a ring has a uniform flow that its state can deviate from.
+pub(crate) fn has_deviations(model: &Model, ring: Ring, steady_speed: Option<f64>) -> bool {
+    match (model, steady_speed) {
+        (_, None) => false,
+        // on a kink there is no uniform flow to be near to
+        (Model::Formula(law), Some(speed)) => law.response(ring.headway(), speed).is_some(),
+        // what the uniform flow itself cannot hold in a number is lost in deviations from it
+        (model, Some(speed)) => model.linearise(ring.headway(), speed).phi >= LEAST_RESPONSE,
+    }
 }
 
 /// Names of the forms of the state.
