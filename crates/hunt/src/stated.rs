@@ -6,6 +6,7 @@ use files::table::Table;
 use jam::states::FormKind;
 use ode::{Control, Method};
 use scene::check;
+use scene::propagated::Propagated;
 use scene::run::Scene;
 use scene::simulation::{Outcome, run};
 
@@ -73,8 +74,8 @@ pub fn ratios(scene: &Scene, outcome: &Outcome, answer: &Answer, stated: &Stated
 }
 
 /// What a run states; of the table of trajectories, of which it states nothing, what [`difference`] finds.
-pub fn of(scene: &Scene, outcome: &Outcome) -> Stated {
-    let errors = check::errors(scene, outcome);
+pub fn of(scene: &Scene, outcome: &Outcome, propagated: &Propagated) -> Stated {
+    let errors = check::errors_of(scene, outcome, propagated);
     let or_none = |error: Option<f64>| error.unwrap_or(f64::INFINITY);
     Stated {
         std: or_none(errors.std),

@@ -5,6 +5,7 @@
 //! so that its own error is the smaller one. Of fixed steps the order tells how the difference and the error compare. Where
 //! it can be, the second run is one in deviations from the uniform flow, in which the start has no rounding.
 
+use crate::propagated::Propagated;
 use crate::run::{Scene, has_deviations};
 use crate::simulation::{Outcome, run};
 use jam::events::{Event, Happening};
@@ -42,7 +43,12 @@ const TIGHTEST: f64 = 3e-15;
 const SAME_TIME: f64 = 1e-9;
 
 /// No number is known better than to so many roundings of the largest of its kind.
-const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
+pub(crate) const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
+
+/// The errors that the steps of the run have told, if they have; else those by a second run.
+pub fn errors_of(scene: &Scene, outcome: &Outcome, propagated: &Propagated) -> Errors {
+    propagated.errors(scene, outcome).unwrap_or_else(|| errors(scene, outcome))
+}
 
 /// Runs the scene once more and compares.
 pub fn errors(scene: &Scene, outcome: &Outcome) -> Errors {
@@ -67,7 +73,7 @@ pub fn errors(scene: &Scene, outcome: &Outcome) -> Errors {
         cost: other.statistics.evaluations as f64 / outcome.statistics.evaluations as f64,
         std: (ends_alike && has_samples)
             .then(|| std_error(&std(outcome), &std(&other)) + rounding(scene, outcome) + f64::MIN_POSITIVE),
-        positions: state(|outcome| &outcome.positions),
+        positions: state(|outcome| &outcome.positions).map(|error| error + ROUNDINGS * largest(&outcome.positions)),
         speeds: state(|outcome| &outcome.speeds).map(|error| error + desired),
         events: outcome
             .events
@@ -155,7 +161,7 @@ fn gathered(scene: &Scene, outcome: &Outcome) -> f64 {
 }
 
 /// The largest in size.
-fn largest(numbers: &[f64]) -> f64 {
+pub(crate) fn largest(numbers: &[f64]) -> f64 {
     numbers.iter().fold(0.0, |size, number| if number.abs() <= size { size } else { number.abs() })
 }
 
