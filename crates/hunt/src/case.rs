@@ -5,6 +5,7 @@ use crate::bound::Bound;
 use crate::{draw, judge, question, stated};
 use files::recipe;
 use reference::solution::Kind;
+use scene::propagated::Propagated;
 use serde_json::{Value, json};
 
 /// Smaller shifts, as parts of the headway, are lost beside the spacings.
@@ -19,7 +20,8 @@ pub fn of(seed: u64) -> Vec<Value> {
 
 fn case(seed: u64, text: &str, panel: &recipe::Panel) -> Option<Value> {
     let scene = scene::run::read("scene.toml", &panel.tables).ok()?;
-    let outcome = scene::simulation::run(&scene).ok()?;
+    let mut propagated = Propagated::new(&scene);
+    let outcome = scene::simulation::run_from(&scene, None, &mut propagated).ok()?;
     let mut question = question::read(text, &panel.name).ok()?;
     question.times = judge::times(&scene, &outcome);
     let answer = Answer::new(&question, Numbers::Doubles);
@@ -29,7 +31,7 @@ fn case(seed: u64, text: &str, panel: &recipe::Panel) -> Option<Value> {
     }
     let end = outcome.statistics.time;
     let (right, _) = answer.at(end)?;
-    let bound = Bound::new(&stated::of(&scene, &outcome));
+    let bound = Bound::new(&stated::of(&scene, &outcome, &propagated));
     let rows: Vec<&[f64]> = outcome.std.rows().filter(|row| row[0] > 0.0).collect();
     let right_std: Vec<f64> = rows.iter().filter_map(|row| Some(answer.at(row[0])?.0.std)).collect();
     let events: Vec<Value> = outcome

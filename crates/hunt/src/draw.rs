@@ -44,8 +44,14 @@ impl Law {
 /// Seeds from this on draw laws as formulas ([`formulas`]), those below the laws of the paper.
 pub const FORMULAS: u64 = 1_000_000;
 
+/// Seeds from this on draw the scenes of seeds lower by this, but all by Taylor's method with steps of adaptive length.
+pub const TAYLOR: u64 = 2_000_000;
+
 /// The scene of this seed.
 pub fn scene(seed: u64) -> String {
+    if seed >= TAYLOR {
+        return by_taylor(&scene(seed - TAYLOR), &mut Random::new(seed));
+    }
     if seed >= FORMULAS {
         return formulas::scene(seed);
     }
@@ -65,6 +71,30 @@ pub fn scene(seed: u64) -> String {
         "title = \"Random scene {seed}\"\n\n[law]\n{}\n[ring]\n{ring}\n[start]\nshift = {shift}\n\n[run]\n{run}{panels}",
         law.text
     )
+}
+
+/// A scene by Taylor's method: in deviations if its law has them so, else in spacings.
+fn by_taylor(text: &str, random: &mut Random) -> String {
+    let tolerance = decades(random, -14.0, -4.0);
+    let own = ["method", "dt", "tolerance", "most_steps", "state"];
+    let is_own = |line: &&str| own.iter().any(|key| line.split(' ').next() == Some(key));
+    let rest: Vec<&str> = text.lines().filter(|line| !is_own(line)).collect();
+    let with = |state: &str| {
+        let run =
+            format!("[run]\nmethod = \"taylor\"\ntolerance = {tolerance:?}\nmost_steps = 100000\nstate = \"{state}\"");
+        rest.join("\n").replace("[run]", &run) + "\n"
+    };
+    let is_refused = |text: &str| {
+        let recipe = files::recipe::parse("scene.toml", text);
+        recipe.is_ok_and(|recipe| {
+            recipe.panels.iter().any(|panel| {
+                let scene = scene::run::read("scene.toml", &panel.tables);
+                scene.is_err_and(|error| error.to_string().contains("needs a force"))
+            })
+        })
+    };
+    let deviations = with("deviations");
+    if is_refused(&deviations) { with("gaps") } else { deviations }
 }
 
 /// A number as people write it: three digits.

@@ -3,14 +3,15 @@
 use crate::answer::{Answer, Numbers};
 use crate::bound::Bound;
 use crate::question;
-use crate::stated;
+use crate::stated::{self, Stated};
 use files::recipe;
 use jam::events::{Event, Happening};
 use jam::states::FormKind;
 use math::larger;
 use reference::solution::{End, Kind, Question};
+use scene::propagated::Propagated;
 use scene::run::Scene;
-use scene::simulation::{Broken, Outcome};
+use scene::simulation::{Broken, Outcome, run_from};
 use std::panic::catch_unwind;
 
 /// What became of a run.
@@ -26,6 +27,8 @@ pub struct Verdict {
     pub ratios: Vec<Ratio>,
     /// True errors over those that the run states.
     pub stated: Vec<Ratio>,
+    /// What it cost to know the errors that it states: right-hand sides over those of the run, and the latter.
+    pub cost: Option<(f64, u64)>,
     /// What is wrong.
     pub findings: Vec<String>,
     /// What the second integration could not decide.
@@ -76,6 +79,7 @@ fn named(panel: &str) -> Verdict {
         ending: String::new(),
         ratios: Vec::new(),
         stated: Vec::new(),
+        cost: None,
         findings: Vec::new(),
         undecided: Vec::new(),
     }
@@ -98,13 +102,23 @@ fn judge_panel(text: &str, panel: &recipe::Panel) -> Verdict {
         }
     };
     verdict.method = format!("{} {:?} {:?}", scene.method.name(), scene.control, scene.form);
-    match catch_unwind(|| scene::simulation::run(&scene)) {
+    let run = || {
+        let mut propagated = Propagated::new(&scene);
+        (run_from(&scene, None, &mut propagated), propagated)
+    };
+    match catch_unwind(run) {
         Err(_) => {
             verdict.ending = "panicked".into();
             verdict.findings.push("the run panicked".into());
         }
-        Ok(Err(broken)) => ended(&mut verdict, &scene, &broken.outcome, Some(&broken), question),
-        Ok(Ok(outcome)) => ended(&mut verdict, &scene, &outcome, None, question),
+        Ok((Err(broken), propagated)) => {
+            let stated = stated::of(&scene, &broken.outcome, &propagated);
+            ended(&mut verdict, &scene, &broken.outcome, Some(&broken), (question, &stated));
+        }
+        Ok((Ok(outcome), propagated)) => {
+            let stated = stated::of(&scene, &outcome, &propagated);
+            ended(&mut verdict, &scene, &outcome, None, (question, &stated));
+        }
     }
     verdict
 }
@@ -157,14 +171,20 @@ impl Fixed for Scene {
 }
 
 /// A run with tables: are they right, and is its end?
-fn ended(verdict: &mut Verdict, scene: &Scene, outcome: &Outcome, broken: Option<&Broken>, mut question: Question) {
+fn ended(
+    verdict: &mut Verdict,
+    scene: &Scene,
+    outcome: &Outcome,
+    broken: Option<&Broken>,
+    (mut question, stated): (Question, &Stated),
+) {
     verdict.ending = ending(scene, outcome, broken);
     question.times = times(scene, outcome);
     // what comes after the end tells whether there is a reason for it
     if broken.is_some() || is_blown_up(outcome) {
         question.times.push(scene.t_end);
     }
-    let stated = stated::of(scene, outcome);
+    verdict.cost = Some((stated.cost, outcome.statistics.evaluations));
     // what faster numbers cannot decide, better ones are asked
     for numbers in [Numbers::Doubles, Numbers::Twofold] {
         let answer = Answer::new(&question, numbers);
@@ -173,10 +193,10 @@ fn ended(verdict: &mut Verdict, scene: &Scene, outcome: &Outcome, broken: Option
             verdict.stated.clear();
             verdict.findings.clear();
             verdict.undecided.clear();
-            let bound = Bound::new(&stated);
+            let bound = Bound::new(stated);
             compare(verdict, scene, outcome, &answer, &bound);
             if broken.is_none() {
-                verdict.stated = stated::ratios(scene, outcome, &answer, &stated);
+                verdict.stated = stated::ratios(scene, outcome, &answer, stated);
             }
             if let Some(broken) = broken {
                 reason(verdict, scene, broken, &answer);

@@ -10,7 +10,7 @@ use std::process::ExitCode;
 struct Arguments {
     /// Scene files to judge instead of random ones
     scenes: Vec<PathBuf>,
-    /// The first seed; from 1000000 on the laws are formulas
+    /// The first seed; from 1000000 on the laws are formulas; from 2000000 on the scenes of seeds lower by that, all by Taylor's method
     #[arg(long, default_value_t = 0)]
     from: u64,
     /// How many scenes

@@ -67,6 +67,7 @@ pub fn table(all: &[Hunted]) -> String {
         let _ = writeln!(text, "error / allowed of {what}: {}", distribution(values));
     }
     text.push_str(&honesty(all));
+    text.push_str(&cost(all));
     let _ = writeln!(text, "the second integration's own error / allowed: {}", distribution(own));
     let _ = write!(
         text,
@@ -113,6 +114,20 @@ fn honesty(all: &[Hunted]) -> String {
         );
     }
     text
+}
+
+/// What the stated errors cost, in right-hand sides: in all, and run by run.
+fn cost(all: &[Hunted]) -> String {
+    let verdicts = all.iter().flat_map(|hunted| &hunted.verdicts);
+    let costs: Vec<(f64, u64)> = verdicts.filter_map(|verdict| verdict.cost).collect();
+    let of_check: f64 = costs.iter().map(|(ratio, evaluations)| ratio * *evaluations as f64).sum();
+    let of_runs: f64 = costs.iter().map(|(_, evaluations)| *evaluations as f64).sum();
+    let mean = costs.iter().map(|(ratio, _)| ratio).sum::<f64>() / costs.len().max(1) as f64;
+    let ratios = distribution(costs.iter().map(|(ratio, _)| *ratio).collect());
+    format!(
+        "cost of stating errors, in right-hand sides: {:.2} of the runs in all, {mean:.2} on average; {ratios}\n",
+        of_check / of_runs
+    )
 }
 
 fn distribution(mut values: Vec<f64>) -> String {

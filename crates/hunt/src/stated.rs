@@ -6,6 +6,7 @@ use files::table::Table;
 use jam::states::FormKind;
 use ode::{Control, Method};
 use scene::check;
+use scene::propagated::Propagated;
 use scene::run::Scene;
 use scene::simulation::{Outcome, run};
 
@@ -20,6 +21,8 @@ pub struct Stated {
     pub end: [f64; 2],
     /// Of the time of each event.
     pub events: Vec<f64>,
+    /// What it cost to know them: right-hand sides over those of the run.
+    pub cost: f64,
 }
 
 /// True errors over stated ones: of std, of positions and speeds at the end, of the time of each event.
@@ -57,7 +60,8 @@ pub fn ratios(scene: &Scene, outcome: &Outcome, answer: &Answer, stated: &Stated
     for (happening, allowed) in outcome.events.iter().zip(&stated.events) {
         let Some(kind) = kind(happening.event) else { continue };
         let crossings = answer.crossings(kind);
-        if let Some((_, time, uncertainty, _)) = crossings.into_iter().find(|(n, ..)| *n == happening.pedestrian) {
+        // of everybody, the first one: who it is, is another question
+        if let Some((_, time, uncertainty, _)) = crossings.into_iter().next() {
             let error = (happening.time - time).abs();
             ratios.push(Ratio { what: "events", error, allowed: *allowed, uncertainty, range: scene.t_end });
         }
@@ -70,14 +74,15 @@ pub fn ratios(scene: &Scene, outcome: &Outcome, answer: &Answer, stated: &Stated
 }
 
 /// What a run states; of the table of trajectories, of which it states nothing, what [`difference`] finds.
-pub fn of(scene: &Scene, outcome: &Outcome) -> Stated {
-    let errors = check::errors(scene, outcome);
+pub fn of(scene: &Scene, outcome: &Outcome, propagated: &Propagated) -> Stated {
+    let errors = check::errors_of(scene, outcome, propagated);
     let or_none = |error: Option<f64>| error.unwrap_or(f64::INFINITY);
     Stated {
         std: or_none(errors.std),
         end: [or_none(errors.positions), or_none(errors.speeds)],
         events: errors.events.into_iter().map(or_none).collect(),
         table: difference(scene, outcome).table,
+        cost: errors.cost,
     }
 }
 
@@ -131,6 +136,7 @@ fn difference(scene: &Scene, outcome: &Outcome) -> Stated {
         table: [table[0] + rounded[0], table[1] + rounded[1]],
         end: if is_whole { [ends[0] + rounded[0], ends[1] + rounded[1]] } else { [f64::INFINITY; 2] },
         events: events.collect(),
+        cost: f64::NAN,
     }
 }
 

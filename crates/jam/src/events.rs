@@ -209,6 +209,21 @@ impl<'a> Watch<'a> {
         instant.rooms
     }
 
+    /// How fast what falls through 0 in an event changes, for a pedestrian in this state, if the state changes like this:
+    /// its rates, or an error.
+    pub fn change(&mut self, event: Event, pedestrian: usize, state: &[f64], direction: &[f64]) -> f64 {
+        self.before.read(self.form, &*self.force, state, direction);
+        // what the next step begins with is read anew
+        self.seen = None;
+        let Instant { room_rates, speed_rates, gap_rates, .. } = &self.before;
+        match event {
+            Event::Overlap => room_rates[pedestrian],
+            Event::NegativeSpeed | Event::BlowUp => speed_rates[pedestrian],
+            Event::Exchange => gap_rates[pedestrian],
+            Event::Undefined => f64::NAN,
+        }
+    }
+
     /// Adds an event that the steps do not show.
     pub fn add(&mut self, happening: Happening) {
         self.found.push(happening);

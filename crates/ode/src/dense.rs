@@ -55,6 +55,18 @@ pub(crate) trait Stepper {
         0.0
     }
 
+    /// Writes by how much the end of the accepted step is off, the state before being exact: computed less exact. False
+    /// where the method does not know.
+    fn own_error(&mut self, _system: &dyn System, _ends: &Ends<'_>, _error: &mut [f64]) -> bool {
+        false
+    }
+
+    /// Writes by how much the series about a state near the start of the step differ from those of the step, for the orders
+    /// from 1 to `order` or the method's own, and returns their unit of time. Only for methods with [`Stepper::own_error`].
+    fn difference(&mut self, _system: &dyn System, _near: &[f64], _order: usize, _rows: &mut Vec<f64>) -> f64 {
+        1.0
+    }
+
     /// The power of the step with which the estimated error falls.
     fn error_power(&self) -> usize;
 

@@ -26,6 +26,8 @@ pub(crate) struct Taylor {
     forced: Vec<Range<usize>>,
     /// Room for the defect at the end of a step; 0 for position-like components.
     defect: Vec<f64>,
+    /// Whether it is that of the last step.
+    has_defect: bool,
 }
 
 /// The order at a fixed step: higher ones gain nothing in double precision.
@@ -54,7 +56,16 @@ impl Taylor {
         let (order, dimension) = (order(control), system.dimension());
         let zeros = |count: usize| vec![0.0; count];
         let (coefficients, defect) = (zeros((order + 1) * dimension), zeros(dimension));
-        Taylor { order, dimension, unit: 1.0, next_unit: 1.0, coefficients, forced: forced(system), defect }
+        Taylor {
+            order,
+            dimension,
+            unit: 1.0,
+            next_unit: 1.0,
+            coefficients,
+            forced: forced(system),
+            defect,
+            has_defect: false,
+        }
     }
 
     fn expand(&mut self, system: &dyn System, state: &[f64], rates: &[f64]) {
@@ -111,7 +122,44 @@ impl Stepper for Taylor {
             let rates = ends.rates_after;
             dispatch(Defect { coefficients, range, h, length: ends.h, rates, defect: &mut self.defect });
         }
+        self.has_defect = true;
         norm.of(&self.defect)
+    }
+
+    /// What follows the last order. Of components with a force the defect tells it, which has been found when the step was
+    /// accepted; of position-like ones it is known.
+    fn own_error(&mut self, system: &dyn System, ends: &Ends<'_>, error: &mut [f64]) -> bool {
+        if !self.has_defect {
+            return false;
+        }
+        let (n, next) = (self.dimension, (self.order + 1) as f64);
+        let h = ends.h / self.unit;
+        let power = (0..self.order).fold(ends.h / next, |power, _| power * h);
+        system.kinematics(&self.coefficients[self.order * n..], error);
+        error.iter_mut().for_each(|rate| *rate *= -power);
+        for range in self.forced.iter().cloned() {
+            for (error, defect) in error[range.clone()].iter_mut().zip(&self.defect[range]) {
+                *error = defect / next;
+            }
+        }
+        true
+    }
+
+    fn difference(&mut self, system: &dyn System, near: &[f64], order: usize, rows: &mut Vec<f64>) -> f64 {
+        let n = self.dimension;
+        let order = if order < self.order { order } else { self.order };
+        rows.clear();
+        rows.extend_from_slice(near);
+        rows.resize((order + 1) * n, 0.0);
+        let (states, rates) = rows.split_at_mut(n);
+        system.rates(states, &mut rates[..n]);
+        rates[..n].iter_mut().for_each(|rate| *rate *= self.unit);
+        system.series(order, self.unit, rows);
+        rows.drain(..n);
+        for (row, coefficient) in rows.iter_mut().zip(&self.coefficients[n..]) {
+            *row -= coefficient;
+        }
+        self.unit
     }
 
     fn error_power(&self) -> usize {

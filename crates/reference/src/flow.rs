@@ -117,6 +117,12 @@ impl<T: Real> Flow<T> {
         self.formula.room(self.spacing_parts(state, n), self.speed_parts(state, n)).whole()
     }
 
+    /// The room of everybody in the uniform flow.
+    pub fn uniform_room(&self, state: &[T]) -> f64 {
+        let speed = state[2 * self.pedestrians + 2];
+        self.formula.room(|_| self.headway, |_| speed).value()
+    }
+
     /// The components of a state that the room, spacing and speed of pedestrian `n` depend on.
     pub fn components(&self, n: usize) -> Vec<usize> {
         let count = self.pedestrians;

@@ -124,7 +124,8 @@ pub struct Solution {
     pub work: u64,
 }
 
-/// A room is near a singular force below this part of the headway: differences have lost three digits of it.
+/// A room is near a singular force below this part of that in the uniform flow: differences have lost three digits of it.
+/// Where the flow itself is near, they have not.
 const NEAR: f64 = 1e-3;
 /// Where the room is smaller, products underflow.
 const LEAST_ROOM: f64 = 1e-280;
@@ -133,7 +134,7 @@ const LEAST_ROOM: f64 = 1e-280;
 /// state. Speeds above `fastest` times the desired one, or 1, are a blow-up.
 pub fn solve<T: Real>(question: &Question, form: Form, care: Care, fastest: f64) -> Solution {
     let flow: Flow<T> = Flow::new(question.formula.clone(), question.pedestrians, question.length, form);
-    let (start, near) = (flow.start(question.shift), NEAR * flow.headway.value());
+    let start = flow.start(question.shift);
     let mut solver = Solver::new(flow, start, care);
     let bound = fastest * larger(question.formula.desired_speed(), 1.0);
     let mut solution = Solution {
@@ -165,7 +166,7 @@ pub fn solve<T: Real>(question: &Question, form: Form, care: Care, fastest: f64)
             let room = solver.flow.least_room(&solver.state);
             if room < LEAST_ROOM {
                 solution.end = End::Singular;
-            } else if solver.flow.form == Form::Differences && room < near {
+            } else if solver.flow.form == Form::Differences && room < NEAR * solver.flow.uniform_room(&solver.state) {
                 solver.change_form();
             }
         }

@@ -1,12 +1,15 @@
 //! How far the numbers of a run are off: from a second run of the same scene, by another method or by other steps.
 //!
 //! The same method at another tolerance would often take the same steps, those of a short run above all: two runs that are
-//! one differ by nothing. Another method shares neither steps nor coefficients; at a larger tolerance it costs less than
-//! the run, and its error is the larger one. Of fixed steps the order tells how the difference and the error compare.
+//! one differ by nothing. Another method shares neither steps nor coefficients; it is of order 8 and at a smaller tolerance,
+//! so that its own error is the smaller one. Of fixed steps the order tells how the difference and the error compare. Where
+//! it can be, the second run is one in deviations from the uniform flow, in which the start has no rounding.
 
-use crate::run::Scene;
+use crate::propagated::Propagated;
+use crate::run::{Scene, has_deviations};
 use crate::simulation::{Onlooker, Outcome, run_from};
 use jam::events::{Event, Happening};
+use jam::laws::Model;
 use jam::states::FormKind;
 use ode::{Control, Method};
 
@@ -21,16 +24,31 @@ pub struct Errors {
     pub speeds: Option<f64>,
     /// Of the times of the events, in their order.
     pub events: Vec<Option<f64>>,
+    /// What they cost: the right-hand sides of the check over those of the run.
+    pub cost: f64,
 }
 
-/// The tolerance of the second run over that of the run.
-const LOOSER: f64 = 2.0;
+/// The tolerance of the second run over that of the run: so much smaller that errors of both that are alike, by chance, are
+/// rare; by a method of order 8 that costs little.
+const TIGHTER: f64 = 0.1;
+
+/// The same where the run's own method is of such an order.
+const TIGHTER_IF_HIGH: f64 = 0.02;
+const HIGH: usize = 8;
+
+/// No second run has a smaller tolerance: rounding may keep it from ever being met.
+const TIGHTEST: f64 = 3e-15;
 
 /// Ends of both runs that are this near, relative to the time, are one.
 const SAME_TIME: f64 = 1e-9;
 
 /// No number is known better than to so many roundings of the largest of its kind.
-const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
+pub(crate) const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
+
+/// The errors that the steps of the run have told, if they have; else those by a second run.
+pub fn errors_of(scene: &Scene, outcome: &Outcome, propagated: &Propagated) -> Errors {
+    propagated.errors(scene, outcome).unwrap_or_else(|| errors(scene, outcome))
+}
 
 /// Runs the scene once more and compares.
 pub fn errors(scene: &Scene, outcome: &Outcome) -> Errors {
@@ -54,11 +72,14 @@ pub fn errors_seen(scene: &Scene, outcome: &Outcome, onlooker: &mut dyn Onlooker
         (ends_alike && is_same_time)
             .then(|| difference(numbers(outcome), numbers(&other)) + gathered * largest(numbers(outcome)))
     };
+    // the drive and the force may cancel
+    let desired = ROUNDINGS * scene.model.desired_speed().abs();
     Errors {
+        cost: other.statistics.evaluations as f64 / outcome.statistics.evaluations as f64,
         std: (ends_alike && has_samples)
             .then(|| std_error(&std(outcome), &std(&other)) + rounding(scene, outcome) + f64::MIN_POSITIVE),
-        positions: state(|outcome| &outcome.positions),
-        speeds: state(|outcome| &outcome.speeds),
+        positions: state(|outcome| &outcome.positions).map(|error| error + ROUNDINGS * largest(&outcome.positions)),
+        speeds: state(|outcome| &outcome.speeds).map(|error| error + desired),
         events: outcome
             .events
             .iter()
@@ -77,16 +98,24 @@ fn second(scene: &Scene, outcome: &Outcome) -> Second {
     // a run ends with the step in which it finds its last event; a blow-up is no time to end at
     let is_blow_up = outcome.events.iter().any(|happening| happening.event == Event::BlowUp);
     let t_end = if is_blow_up { scene.t_end } else { outcome.statistics.time };
+    let is_fixed_series = scene.method.needs_series() && matches!(scene.control, Control::Fixed { .. });
+    let can_deviate = has_deviations(&scene.model, scene.ring, scene.steady_speed) && !is_fixed_series;
+    // the same form would not show what becomes of the rounding of the start
+    let form = if can_deviate { FormKind::Deviations } else { scene.form };
     match scene.control {
         Control::Adaptive { tolerance } => {
             let method = if scene.method == Method::Dop853 { Method::Verner87 } else { Method::Dop853 };
-            let looser = LOOSER * tolerance;
-            let control = Control::Adaptive { tolerance: if looser < LOOSEST { looser } else { LOOSEST } };
-            Second { scene: Scene { method, control, t_end, ..scene.clone() }, factor: AGREEMENT }
+            let tighter = tolerance * if scene.method.order() < HIGH { TIGHTER } else { TIGHTER_IF_HIGH };
+            let control = Control::Adaptive { tolerance: if tighter > TIGHTEST { tighter } else { TIGHTEST } };
+            Second {
+                scene: Scene { method, control, t_end, form, most_steps: most_steps(outcome), ..scene.clone() },
+                factor: AGREEMENT,
+            }
         }
         Control::Fixed { step } => {
             let made = if step < scene.t_end { step } else { scene.t_end };
-            let order = scene.method.order().min(HIGHEST_SEEN) as i32;
+            let seen = if has_kinks(&scene.model) { ACROSS_KINKS } else { HIGHEST_SEEN };
+            let order = scene.method.order().min(seen) as i32;
             let ratio = match order {
                 // a longer step would be cut to the same one
                 _ if made > 0.5 * t_end => 0.5,
@@ -95,19 +124,30 @@ fn second(scene: &Scene, outcome: &Outcome) -> Second {
             };
             let growth = (0..order).fold(1.0, |power: f64, _| power * ratio);
             let control = Control::Fixed { step: ratio * made };
-            Second { scene: Scene { control, t_end, ..scene.clone() }, factor: CAUTION / (growth - 1.0).abs() }
+            Second { scene: Scene { control, t_end, form, ..scene.clone() }, factor: CAUTION / (growth - 1.0).abs() }
         }
     }
+}
+
+/// The second run may take a few times the work of the run, and somewhat more where that is little.
+fn most_steps(outcome: &Outcome) -> u64 {
+    const STAGES: u64 = 12;
+    const FEW_TIMES: u64 = 4;
+    FEW_TIMES * outcome.statistics.evaluations / STAGES + 1000
 }
 
 /// Errors of two methods may have one sign and agree in part.
 const AGREEMENT: f64 = 1.5;
 
-/// The largest tolerance that a scene may have.
-const LOOSEST: f64 = 1e-2;
-
 /// Errors of higher orders than this do not show as such: kinks and rounding are larger.
 const HIGHEST_SEEN: usize = 8;
+
+/// The order of steps across a kink.
+const ACROSS_KINKS: usize = 2;
+
+fn has_kinks(model: &Model) -> bool {
+    matches!(model, Model::Formula(formula) if formula.has_kinks())
+}
 
 /// Fixed steps may be too long for their error to be that of their order.
 const CAUTION: f64 = 2.0;
@@ -126,7 +166,7 @@ fn gathered(scene: &Scene, outcome: &Outcome) -> f64 {
 }
 
 /// The largest in size.
-fn largest(numbers: &[f64]) -> f64 {
+pub(crate) fn largest(numbers: &[f64]) -> f64 {
     numbers.iter().fold(0.0, |size, number| if number.abs() <= size { size } else { number.abs() })
 }
 

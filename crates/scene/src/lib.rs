@@ -8,6 +8,7 @@ pub mod curve;
 pub mod law;
 pub mod map;
 pub mod overrides;
+pub mod propagated;
 pub mod run;
 pub mod simulation;
 pub mod summary;

@@ -168,15 +168,19 @@ pub(crate) fn fitting(
     method: Method,
 ) -> FormKind {
     let form = wanted.unwrap_or(FormKind::Deviations);
-    // what the uniform flow itself cannot hold in a number is lost in deviations from it
-    let is_lost = match (model, speed) {
-        (_, None) => true,
-        // on a kink there is no uniform flow to be near to
-        (Model::Formula(law), Some(speed)) => law.response(ring.headway(), speed).is_none(),
-        (model, Some(speed)) => model.linearise(ring.headway(), speed).phi < LEAST_RESPONSE,
-    };
     let has_no_series = wanted.is_none() && !method.suits(&*form.build(model, ring));
-    if form == FormKind::Deviations && (is_lost || has_no_series) { FormKind::Gaps } else { form }
+    if form == FormKind::Deviations && (!has_deviations(model, ring, speed) || has_no_series) { FormKind::Gaps } else { form }
+}
+
+/// Whether a ring has a uniform flow that its state can deviate from.
+pub(crate) fn has_deviations(model: &Model, ring: Ring, steady_speed: Option<f64>) -> bool {
+    match (model, steady_speed) {
+        (_, None) => false,
+        // on a kink there is no uniform flow to be near to
+        (Model::Formula(law), Some(speed)) => law.response(ring.headway(), speed).is_some(),
+        // what the uniform flow itself cannot hold in a number is lost in deviations from it
+        (model, Some(speed)) => model.linearise(ring.headway(), speed).phi >= LEAST_RESPONSE,
+    }
 }
 
 /// Names of the forms of the state.

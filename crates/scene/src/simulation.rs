@@ -90,6 +90,9 @@ pub trait Onlooker {
     /// Sees every accepted step of adaptive length; of fixed ones, those that the run needs to see.
     fn after(&mut self, _step: &Step<'_>) {}
 
+    /// Sees the same with what was found in it.
+    fn seen(&mut self, _step: &mut Step<'_>, _sight: &mut Sight<'_, '_>) {}
+
     /// Sees the run every few thousand steps.
     fn between(&mut self, _underway: &Underway<'_>) {}
 
@@ -110,8 +113,52 @@ pub enum Judging {
     UntilCertain,
 }
 
+/// What was found in a step.
+#[allow(missing_debug_implementations)]
+pub struct Sight<'a, 'w> {
+    /// The events in it.
+    pub new: &'a [Happening],
+    /// The watch that found them.
+    pub watch: &'a mut Watch<'w>,
+    /// Whether the tables have ended before.
+    pub is_stopped: bool,
+}
+
 /// Nobody looks on.
 impl Onlooker for () {}
+
+/// Two look on.
+impl<A: Onlooker, B: Onlooker> Onlooker for (A, B) {
+    fn after(&mut self, step: &Step<'_>) {
+        self.0.after(step);
+        self.1.after(step);
+    }
+
+    fn seen(&mut self, step: &mut Step<'_>, sight: &mut Sight<'_, '_>) {
+        self.0.seen(step, sight);
+        self.1.seen(step, sight);
+    }
+
+    fn between(&mut self, underway: &Underway<'_>) {
+        self.0.between(underway);
+        self.1.between(underway);
+    }
+}
+
+/// Somebody else's looks.
+impl<A: Onlooker> Onlooker for &mut A {
+    fn after(&mut self, step: &Step<'_>) {
+        (**self).after(step);
+    }
+
+    fn seen(&mut self, step: &mut Step<'_>, sight: &mut Sight<'_, '_>) {
+        (**self).seen(step, sight);
+    }
+
+    fn between(&mut self, underway: &Underway<'_>) {
+        (**self).between(underway);
+    }
+}
 
 /// Runs a scene to its end, or to the event that ends it.
 ///
@@ -420,6 +467,8 @@ impl Observer for Recorder<'_> {
                 return ControlFlow::Break(());
             }
         }
+        let sight = &mut Sight { new: &new, watch: &mut self.watch, is_stopped: self.is_stopped };
+        self.onlooker.seen(step, sight);
         if !self.is_stopped {
             let stop = new.iter().find(|happening| self.stops(happening)).map(|happening| happening.time);
             let until = stop.unwrap_or(self.scene.t_end);

@@ -43,6 +43,11 @@ pub trait Force: std::fmt::Debug + Send {
     /// Whether the force, the relaxation of one's own speed apart, depends on speeds.
     fn uses_speeds(&self) -> bool;
 
+    /// How the acceleration of a uniform flow answers to its speed, where the force does not depend on speeds otherwise.
+    fn relaxation(&self, _flow: Flow) -> f64 {
+        -1.0
+    }
+
     /// Where the force bends sharply, if it does.
     fn bend(&self) -> Option<Bend> {
         None

@@ -53,7 +53,10 @@ impl Memory {
     fn start(&mut self, order: usize, spacings: &[f64], speeds: &[f64]) {
         let n = spacings.len();
         let blocks = n.div_ceil(W);
-        self.histories.resize(blocks * OPERATIONS * ROWS * order, Cell::new([0.0; W]));
+        let histories = blocks * OPERATIONS * ROWS * order;
+        if self.histories.len() < histories {
+            self.histories.resize(histories, Cell::new([0.0; W]));
+        }
         self.spacings.resize(blocks * W, 0.0);
         // one more, for the neighbour ahead of the last lane
         self.speeds.resize(blocks * W + 1, 0.0);
@@ -106,7 +109,8 @@ impl<L: Law> Coefficients<'_, '_, L> {
         let size = OPERATIONS * ROWS * order;
         let (states, rates) = coefficients.split_at_mut(dimension);
         memory.start(order, &rates[..n], &rates[n..2 * n]);
-        for (block, histories) in memory.histories.chunks_exact(size).enumerate() {
+        let blocks = n.div_ceil(W);
+        for (block, histories) in memory.histories.chunks_exact(size).take(blocks).enumerate() {
             let (spacing, speed, ahead) = start(&states[..n], &states[n..2 * n], block * W);
             let place = Place::new(histories, order, 0);
             let [s, v, w] = [spacing + flow.net_gap, speed + flow.speed, ahead + flow.speed];
@@ -114,7 +118,7 @@ impl<L: Law> Coefficients<'_, '_, L> {
         }
         for k in 1..order {
             let share = unit / (k + 1) as f64;
-            for (block, histories) in memory.histories.chunks_exact(size).enumerate() {
+            for (block, histories) in memory.histories.chunks_exact(size).take(blocks).enumerate() {
                 let from = block * W;
                 let place = Place::new(histories, order, k);
                 let s = place.variable::<false>(Lanes::of(&memory.spacings[from..]));

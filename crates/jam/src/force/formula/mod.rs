@@ -185,6 +185,15 @@ impl Force for Interpreted {
         self.prepared.uses_speeds
     }
 
+    fn relaxation(&self, flow: Flow) -> f64 {
+        let Prepared { program, contact, .. } = &*self.prepared;
+        let along = |source| match source {
+            Source::Spacing { net, .. } => Dual::constant(flow.net_gap + if net { 0.0 } else { *contact }),
+            Source::Speed(_) | Source::Register(_) => Dual::variable(flow.speed),
+        };
+        program.carry_out(along).slope
+    }
+
     fn series(&self, motion: Motion<'_>) {
         let Prepared { program, reach, operations, contact, .. } = &*self.prepared;
         let memory = &mut self.scratch.borrow_mut().memory;

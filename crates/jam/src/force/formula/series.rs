@@ -53,7 +53,10 @@ impl Kernel for Coefficients<'_, '_> {
         let Motion { flow, pedestrians: n, order, unit, dimension, coefficients } = motion;
         let blocks = n.div_ceil(W);
         let Memory { histories, registers, neighbours, spacings, speeds } = memory;
-        histories.resize(operations * blocks * ROWS * order, Cell::new([0.0; W]));
+        let needed = operations * blocks * ROWS * order;
+        if histories.len() < needed {
+            histories.resize(needed, Cell::new([0.0; W]));
+        }
         registers.resize(program.registers, Vec::new());
         registers.iter_mut().for_each(|register| register.resize(blocks, [0.0; W]));
         for k in 0..order {
