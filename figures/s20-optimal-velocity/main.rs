@@ -15,18 +15,21 @@ fn main() -> ExitCode {
 
 /// The times of the profiles.
 const TIMES: [(&str, f64); 2] = [("early", 1000.0), ("late", 3000.0)];
+/// The runs: with widening, and that of figure 11.
+const PANELS: [&str; 2] = ["widened", "plain"];
 /// Every so many of the standard deviations.
 const EVERY: usize = 5;
 
 fn tables(job: &mut Job) -> Result<(), Failure> {
     job.write_rows("velocities", &velocities()?)?;
-    job.write_rows("events", &events()?)?;
+    job.write_rows("order", &events()?)?;
     job.write_rows("critical", &critical()?)?;
-    let std = job.run_table("main", "std")?;
-    let mut thinned = Table::new(&["t", "std"]);
-    std.rows().step_by(EVERY).for_each(|row| thinned.push(row));
-    job.write("std", &thinned)?;
-    let run = job.run_table("main", "trajectories")?;
+    for panel in PANELS {
+        let mut thinned = Table::new(&["t", "std"]);
+        job.run_table(panel, "std")?.rows().step_by(EVERY).for_each(|row| thinned.push(row));
+        job.write(&format!("{panel}_std"), &thinned)?;
+    }
+    let run = job.run_table(PANELS[0], "trajectories")?;
     for (name, time) in TIMES {
         let mut profile = Table::new(&["t", "n", "v"]);
         run.rows().filter(|row| row[0] == time).for_each(|row| profile.push(&[row[0], row[1], row[3]]));
@@ -44,8 +47,8 @@ fn picture(job: &Job) -> Result<Picture, Failure> {
         .columns(2)
         .titled("optimal velocity; thick: slope above 1/2", velocity(job)?)
         .titled("unstable runs with other desired speeds", order(job)?)
-        .titled("logarithmic law, $\\tilde a_v = 0.1$, $v_0' = 1.3$", std(job)?)
-        .titled("the same, speeds", profile(job)?))
+        .titled("logarithmic law, with and without widening", std(job)?)
+        .titled("$\\tilde a_v = 0.1$, $v_0' = 1.3$: speeds", profile(job)?))
 }
 
 const LAWS: [(&str, &str); 4] = [
@@ -69,25 +72,26 @@ fn velocity(job: &Job) -> Result<Lines, Failure> {
 }
 
 fn order(job: &Job) -> Result<Lines, Failure> {
-    let table = job.read_rows("events")?;
-    let axes = (Axis::linear("desired speed $v_0'$", 0.0, 6.0).steps(6), Axis::linear("time", 430.0, 490.0).steps(6));
+    let table = job.read_rows("order")?;
+    let axes = (Axis::linear("desired speed $v_0'$", 0.0, 6.0).steps(6), Axis::linear("time", 445.0, 465.0).steps(4));
     let mut panel = Lines::new(axes.0, axes.1).legend(Corner::BottomRight);
     for (column, name, marker) in
         [("stop_t", "overlap", Marker::Circle), ("negative_t", "first negative speed", Marker::Square)]
     {
-        let words = [("law", "exponential"), ("strength", "3")];
+        let words = [("law", "exponential"), ("varied", "speed")];
         let along = table.select(&words, &["v0", column])?;
         panel = panel.series(Series::line(name, points(&along, "v0", column)?).marker(marker));
     }
-    Ok(panel.note("exponential, $a = 3$", (0.3, 486.0)))
+    Ok(panel.note("exponential, $a = 3$", (0.3, 463.0)))
 }
 
 fn std(job: &Job) -> Result<Lines, Failure> {
     let axes = (Axis::linear("$t$", 0.0, 3000.0).steps(3), Axis::linear("speed", 0.0, 0.8).steps(4));
     Ok(Lines::new(axes.0, axes.1)
         .legend(Corner::TopRight)
-        .series(Series::line("standard deviation", points(&job.read("std")?, "t", "std")?))
-        .series(Series::line("least speed", points(&job.read("least")?, "t", "least")?)))
+        .series(Series::line("std, $\\tilde a_v = 0.1$, $v_0' = 1.3$", points(&job.read("widened_std")?, "t", "std")?))
+        .series(Series::line("least speed of it", points(&job.read("least")?, "t", "least")?))
+        .series(Series::line("std, $\\tilde a_v = 0$, $v_0' = 1$", points(&job.read("plain_std")?, "t", "std")?)))
 }
 
 fn profile(job: &Job) -> Result<Lines, Failure> {

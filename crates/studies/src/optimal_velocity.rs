@@ -2,14 +2,16 @@
 //! the desired speed does then, and from which desired speed on the logarithmic law is unstable in spite of a widening.
 
 use crate::hard::rows::{Rows, row};
-use crate::hard::run::{Case, Leg, Stop, two_methods};
+use crate::hard::run::two_methods;
 use crate::thresholds::critical::exponential;
 use figures::failure::Failure;
-use jam::events::{Event, Happening};
+use jam::events::{Event, Watch};
 use jam::laws::{Algebraic, Logarithmic, Model};
-use jam::ring::Ring;
+use jam::ring::{Ring, Start};
 use jam::states::FormKind;
 use jam::uniform::steady_speed;
+use ode::{Control, Method, Observer, Problem, Step, integrate};
+use std::ops::ControlFlow;
 
 /// The laws whose `V(s)` is tabled.
 fn laws() -> [(&'static str, Model); 5] {
@@ -56,64 +58,107 @@ pub fn velocities() -> Result<Rows, Failure> {
 }
 
 /// The unstable runs of figures 4 and 7 with other desired speeds and other strengths, and one with a force whose potential
-/// is finite at contact: when somebody first walks backwards, and what ends the run.
+/// is finite at contact: when somebody first walks backwards, and what ends the run. `velocity_at_contact` is `V` at
+/// `d = 0`, where the law has one. Beyond contact the exponential law goes on.
 ///
 /// # Errors
-/// Two methods disagree about what ended a run.
+/// A run failed, or two methods disagree about what ended it.
 pub fn events() -> Result<Rows, Failure> {
-    let mut rows =
-        Rows::new(&["law", "q", "strength", "v0", "negative_t", "negative_t_error", "stop", "stop_t", "stop_t_error"]);
+    let mut rows = Rows::new(&[
+        "law",
+        "varied",
+        "q",
+        "strength",
+        "v0",
+        "velocity_at_contact",
+        "negative_t",
+        "negative_t_error",
+        "stop",
+        "stop_t",
+        "stop_t_error",
+    ]);
     let speeds = [1.0, 2.0, 2.5, 3.0, 4.0, 5.0];
-    let mut cases: Vec<(Model, usize, [f64; 3])> = Vec::new();
-    cases.extend(speeds.map(|v0| (algebraic(0.55, 2.0, v0), 67, [2.0, 0.55, v0])));
-    cases.push((algebraic(1.2, 0.5, 3.0), 67, [0.5, 1.2, 3.0]));
-    cases.extend(speeds.map(|v0| (exponential_at(3.0, v0), 57, [f64::NAN, 3.0, v0])));
-    cases.extend([3.5, 4.0, 5.0].map(|a| (exponential_at(a, 3.0), 57, [f64::NAN, a, 3.0])));
-    for (model, pedestrians, [q, strength, v0]) in cases {
-        let case = Case { model, ring: Ring { pedestrians, length: 200.0 }, kind: FormKind::Gaps };
-        let [one, two] = two_methods(1e-12).map(|how| seen(&case, how));
-        let off = |pick: fn(&Seen) -> Option<f64>| pick(&one).zip(pick(&two)).map(|(a, b)| (a - b).abs());
-        let (Some(stop), Some(other)) = (&one.stop, &two.stop) else {
-            return Err(Failure::work(format!("{} with strength {strength}: no stop", case.model.name())));
-        };
-        if stop.name != other.name {
-            return Err(Failure::work(format!("stops differ: {} and {}", stop.name, other.name)));
+    let mut cases: Vec<(Model, &str, Option<f64>, f64, f64)> = Vec::new();
+    cases.extend(speeds.map(|v0| (algebraic(0.55, 2.0, v0), "speed", Some(2.0), 0.55, v0)));
+    cases.push((algebraic(1.2, 0.5, 3.0), "power", Some(0.5), 1.2, 3.0));
+    cases.extend(speeds.map(|v0| (exponential_at(3.0, v0), "speed", None, 3.0, v0)));
+    cases.extend([3.5, 4.0, 5.0].map(|a| (exponential_at(a, 3.0), "strength", None, a, 3.0)));
+    for (model, varied, q, strength, v0) in cases {
+        let [one, two] = two_methods(1e-12).map(|how| follow(&model, how));
+        let (one, two) = (one?, two?);
+        if one.stop.0 != two.stop.0 {
+            return Err(Failure::work(format!(
+                "{}: {} by one method, {} by the other",
+                model.name(),
+                one.stop.0,
+                two.stop.0
+            )));
         }
-        let q = Some(q).filter(|q| q.is_finite());
-        let (negative, stop_off) = (one.negative, (stop.time - other.time).abs());
-        let negative_off = off(|seen| seen.negative);
-        rows.push(row![case.model.name(), q, strength, v0, negative, negative_off, stop.name, stop.time, stop_off]);
+        let negative_off = one.negative.zip(two.negative).map(|(a, b)| (a - b).abs());
+        let at_contact = q.is_none().then(|| v0 - strength);
+        let (stop, time, off) = (one.stop.0, one.stop.1, (one.stop.1 - two.stop.1).abs());
+        rows.push(row![model.name(), varied, q, strength, v0, at_contact, one.negative, negative_off, stop, time, off]);
     }
     Ok(rows)
 }
 
-struct Seen {
-    /// When somebody first walks backwards, at the stop or up to [`AFTER`] later.
+/// What ended a run: contact, or speeds without bound.
+struct Followed {
     negative: Option<f64>,
-    stop: Option<Stop>,
+    stop: (&'static str, f64),
 }
 
-/// How long an exponential run goes on after its overlap.
-const AFTER: f64 = 60.0;
+/// Keeps the first negative speed and the first stop; goes on until both are there or no more can come.
+struct Following<'a> {
+    watch: Watch<'a>,
+    negative: Option<f64>,
+    stop: Option<(&'static str, f64)>,
+    /// Whether the force has a value beyond contact.
+    goes_on: bool,
+}
 
-fn seen(case: &Case, (method, control): (ode::Method, ode::Control)) -> Seen {
-    let ended = case.run(1e-4, Leg { method, control, begin: 0.0, end: 2000.0 });
-    let first = |events: &[Happening]| events.iter().find(|one| one.event == Event::NegativeSpeed).map(|one| one.time);
-    let mut negative = first(&ended.events);
-    let is_smooth = matches!(case.model, Model::Exponential(_));
-    if let (None, Some(stop), true) = (negative, &ended.stop, is_smooth) {
-        // on from the end of the step that went through contact: the force is defined there
-        let mut after = ended.state.clone();
-        let mut time = stop.time;
-        let end = time + AFTER;
-        while negative.is_none() && time < end {
-            let next = case.run_from(&after, Leg { method, control, begin: time, end });
-            negative = first(&next.events);
-            time = next.stop.as_ref().map_or(end, |stop| stop.time);
-            after = next.state;
+/// How far a run goes at most.
+const END: f64 = 2000.0;
+/// A room that counts as none, where the force of a finite barrier has no value beyond contact.
+const CLOSED: f64 = 1e-6;
+
+fn follow(model: &Model, (method, control): (Method, Control)) -> Result<Followed, Failure> {
+    let (goes_on, pedestrians) = match model {
+        Model::Exponential(_) => (true, 57),
+        _ => (false, 67),
+    };
+    let ring = Ring { pedestrians, length: 200.0 };
+    let form = FormKind::Gaps.build(model, ring);
+    let start = form.start(Start { shift: 1e-4 });
+    let watch = Watch::new(model.clone(), &*form, pedestrians);
+    let mut following = Following { watch, negative: None, stop: None, goes_on };
+    let problem = Problem { system: &*form, start: &start, begin: 0.0, end: END, method, control };
+    let ended = integrate(&problem, &mut following);
+    let least = following.watch.rooms().iter().copied().fold(f64::INFINITY, math::smaller);
+    let stop = match (following.stop, ended) {
+        (Some(stop), _) => stop,
+        // a square root of the room: the steps end where the room does
+        (None, Err(ode::Failure::StepTooSmall { time, .. } | ode::Failure::NotFinite { time, .. }))
+            if least < CLOSED =>
+        {
+            (Event::Overlap.name(), time)
         }
+        (None, Err(failure)) => return Err(Failure::work(failure)),
+        (None, Ok(_)) => return Err(Failure::work(format!("{}: no stop by t = {END}", model.name()))),
+    };
+    Ok(Followed { negative: following.negative, stop })
+}
+
+impl Observer for Following<'_> {
+    fn after(&mut self, step: &mut Step<'_>) -> ControlFlow<()> {
+        let new = self.watch.look(step);
+        let time = |event: Event| new.iter().find(|happening| happening.event == event).map(|happening| happening.time);
+        self.negative = self.negative.or(time(Event::NegativeSpeed));
+        let stop = new.iter().find(|happening| happening.event.is_stop());
+        self.stop = self.stop.or(stop.map(|happening| (happening.event.name(), happening.time)));
+        let is_over = self.stop.is_some() && (self.negative.is_some() || !self.goes_on);
+        if is_over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
-    Seen { negative, stop: ended.stop }
 }
 
 /// The desired speed from which on the logarithmic law is unstable, at the headway of its maps, for a widening.

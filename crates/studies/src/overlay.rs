@@ -122,30 +122,13 @@ pub fn scheme(name: &str, step: Option<f64>, run: &Sampled, published: &Publishe
 /// # Errors
 /// A run failed or lacks a sample.
 pub fn rivals(accurate: &Sampled, euler: &Sampled, published: &Published) -> Result<Rows, Failure> {
-    let mut rows = Rows::new(&[
-        "rival",
-        "v0",
-        "length",
-        "shift",
-        "std_largest",
-        "std_rms",
-        "speed_largest",
-        "speed_rms",
-    ]);
+    let mut rows =
+        Rows::new(&["rival", "v0", "length", "shift", "std_largest", "std_rms", "speed_largest", "speed_rms"]);
     let of = Run::default();
     let mut push = |name: &str, run: &Run, spread: &[f64], speeds: &[f64]| {
         let Start::One(shift) = run.start else { return };
         let ([std_largest, std_rms, _], [speed_largest, speed_rms, _]) = (sizes(spread), sizes(speeds));
-        rows.push(row![
-            name,
-            run.desired_speed,
-            run.length,
-            shift,
-            std_largest,
-            std_rms,
-            speed_largest,
-            speed_rms
-        ]);
+        rows.push(row![name, run.desired_speed, run.length, shift, std_largest, std_rms, speed_largest, speed_rms]);
     };
     let speeds = accurate.speed_differences(&published.speeds)?;
     push("none", &of, &accurate.spread_differences(&published.spread)?, &speeds);

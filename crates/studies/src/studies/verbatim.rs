@@ -20,7 +20,8 @@ pub fn tables(extent: Extent, solutions: &Path) -> Result<Tables, Failure> {
     let count = if extent == Extent::Full { 400 } else { 4 };
     let curves = [State::Form(FormKind::Positions), State::Wrapped].map(|state| move || curve(state, count));
     let [unwrapped, wrapped] = std::thread::scope(|scope| curves.map(|curve| scope.spawn(curve)).map(|one| one.join()));
-    let of = |curve: std::thread::Result<_>| curve.map_err(|_| Failure::work("a thread of the verbatim run panicked"))?;
+    let of =
+        |curve: std::thread::Result<_>| curve.map_err(|_| Failure::work("a thread of the verbatim run panicked"))?;
     let (unwrapped, wrapped): (Vec<f64>, Vec<f64>) = (of(unwrapped)?, of(wrapped)?);
     let mut rows = Rows::new(&["t", "std", "wrapped", "exact"]);
     for (index, (unwrapped, wrapped)) in unwrapped.into_iter().zip(wrapped).enumerate() {
