@@ -95,8 +95,8 @@ fn std(job: &Job) -> Result<Lines, Failure> {
 }
 
 fn profile(job: &Job) -> Result<Lines, Failure> {
-    let axes = (Axis::linear("pedestrian $n$", 0.0, 140.0).steps(4), Axis::linear("speed $v$", 0.0, 1.5).steps(3));
-    let mut panel = Lines::new(axes.0, axes.1).legend(Corner::BottomLeft);
+    let axes = (Axis::linear("pedestrian $n$", 0.0, 140.0).steps(4), Axis::linear("speed $v$", 0.0, 2.0).steps(4));
+    let mut panel = Lines::new(axes.0, axes.1).legend(Corner::TopRight);
     for (name, time) in TIMES {
         let label = format!("$t = {}$", figures::titles::number(time));
         panel = panel.series(Series::line(&label, points(&job.read(name)?, "n", "v")?));

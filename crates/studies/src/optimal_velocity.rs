@@ -48,7 +48,7 @@ pub fn velocities() -> Result<Rows, Failure> {
     let mut rows = Rows::new(&["law", "headway", "velocity", "slope"]);
     for (name, model) in laws() {
         let contact = model.contact();
-        for step in 1..=200 {
+        for step in 1..=250 {
             let headway = contact + 0.02 * f64::from(step);
             let velocity = steady_speed(&model, headway).map_err(Failure::work)?;
             rows.push(row![name, headway, velocity, model.linearise(headway, velocity).phi]);

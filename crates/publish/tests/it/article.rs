@@ -46,6 +46,28 @@ fn committed_numbers_are_those_of_the_tables() {
     assert!(numbers.by_name.len() > 500, "{}", numbers.by_name.len());
 }
 
+#[test]
+fn every_printed_bracket_holds_the_reference_solution() {
+    let text = fs::read_to_string(checkout().root.join(NUMBERS_JSON)).expect("the committed numbers");
+    let numbers: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let numbers = numbers["numbers"].as_object().expect("numbers by name");
+    let printed = |name: &str| numbers.get(name)?["mantissa"].as_str();
+    let mut compared = 0;
+    for name in numbers.keys() {
+        let Some(start) = name.strip_suffix(".reference") else { continue };
+        let Some(bracketed) = printed(&format!("{start}.t")) else { continue };
+        let (value, digit) = bracketed.split_once('(').expect("a bracket");
+        let decimals = value.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+        let digit: f64 = digit.trim_end_matches(')').parse().expect("a digit");
+        let bracket = digit * 10f64.powi(-i32::try_from(decimals).expect("few decimals"));
+        let reference: f64 = printed(name).and_then(|text| text.parse().ok()).expect("a number");
+        let off = (value.parse::<f64>().expect("a number") - reference).abs();
+        assert!(off <= bracket, "{start}: {bracketed} is {off:e} away from {reference}");
+        compared += 1;
+    }
+    assert_eq!(compared, 5, "events with a reference solution");
+}
+
 /// What the document is set from, copied to another place.
 fn copy_of_sources(paths: &Paths, name: &str) -> Paths {
     let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
