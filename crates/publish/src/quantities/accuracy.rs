@@ -113,6 +113,10 @@ fn growth_rates(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure
         let fastest = (0..rates.len()).fold(0, |best, at| if rates[at] > rates[best] { at } else { best });
         all.rounded(&format!("growth.{law}.fastest"), rates[fastest], 3, &sheet.name);
         all.exact(&format!("growth.{law}.fastest-l"), unstable.numbers("l")?[fastest], &sheet.name);
+        if law == "algebraic" {
+            // T* moves as the logarithm of the perturbation over the growth rate
+            all.rounded("blow-up.per-cent", 0.01 / rates[fastest], 1, &sheet.name);
+        }
     }
     Ok(())
 }
