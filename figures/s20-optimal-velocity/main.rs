@@ -47,7 +47,7 @@ fn picture(job: &Job) -> Result<Picture, Failure> {
         .columns(2)
         .titled("optimal velocity; thick: slope above 1/2", velocity(job)?)
         .titled("unstable runs with other desired speeds", order(job)?)
-        .titled("logarithmic law, with and without widening", std(job)?)
+        .titled("logarithmic law, with and without $\\tilde a_v$", std(job)?)
         .titled("$\\tilde a_v = 0.1$, $v_0' = 1.3$: speeds", profile(job)?))
 }
 

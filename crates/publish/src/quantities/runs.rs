@@ -21,6 +21,7 @@ pub fn collect(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure>
         growth(source, all, figure)?;
     }
     jams(source, all)?;
+    collisions(source, all)?;
     plateau(source, all)
 }
 
@@ -139,6 +140,19 @@ fn jams(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
     let moving = times.iter().zip(&speeds).filter(|(t, _)| **t >= 1.0).map(|(_, v)| *v);
     let least = moving.fold(f64::INFINITY, |a, b| if b < a { b } else { a });
     all.rounded("fig11.least", least, 3, &format!("{name}: v at t >= 1"));
+    Ok(())
+}
+
+/// From which desired speed on pedestrians collide under the logarithmic force, in runs to two times.
+fn collisions(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
+    let name = "data/s14/collision.csv";
+    let sheet = Sheet::read(source.paths, name)?.only(&[("pedestrians", "133"), ("shift", "0.1")])?;
+    for end in ["300", "3000"] {
+        let row = sheet.only(&[("t_end", end)])?;
+        // known to a thousandth
+        all.rounded(&format!("collision.{end}"), row.first("value")?, 4, name);
+    }
+    all.rounded("collision.a_0", sheet.only(&[("t_end", "3000")])?.first("a_0_in_m")?, 2, name);
     Ok(())
 }
 

@@ -1,5 +1,5 @@
 //! Studies of errors: what rounding does to Heun's scheme, growth rates of waves against the linear theory, and how far
-//! an error grows (`paper/rounding.md` tells what the tables say).
+//! an error grows (the numerical supplement of the report tells what the tables say).
 
 mod error_growth;
 mod heun;
