@@ -27,7 +27,7 @@ fn tables(job: &mut Job) -> Result<(), Failure> {
     for panel in PANELS {
         let mut thinned = Table::new(&["t", "std"]);
         job.run_table(panel, "std")?.rows().step_by(EVERY).for_each(|row| thinned.push(row));
-        job.write(&format!("{panel}_std"), &thinned)?;
+        job.write(panel, &thinned)?;
     }
     let run = job.run_table(PANELS[0], "trajectories")?;
     for (name, time) in TIMES {
@@ -89,9 +89,9 @@ fn std(job: &Job) -> Result<Lines, Failure> {
     let axes = (Axis::linear("$t$", 0.0, 3000.0).steps(3), Axis::linear("speed", 0.0, 0.8).steps(4));
     Ok(Lines::new(axes.0, axes.1)
         .legend(Corner::TopRight)
-        .series(Series::line("std, $\\tilde a_v = 0.1$, $v_0' = 1.3$", points(&job.read("widened_std")?, "t", "std")?))
+        .series(Series::line("std, $\\tilde a_v = 0.1$, $v_0' = 1.3$", points(&job.read("widened")?, "t", "std")?))
         .series(Series::line("least speed of it", points(&job.read("least")?, "t", "least")?))
-        .series(Series::line("std, $\\tilde a_v = 0$, $v_0' = 1$", points(&job.read("plain_std")?, "t", "std")?)))
+        .series(Series::line("std, $\\tilde a_v = 0$, $v_0' = 1$", points(&job.read("plain")?, "t", "std")?)))
 }
 
 fn profile(job: &Job) -> Result<Lines, Failure> {

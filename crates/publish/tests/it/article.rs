@@ -74,7 +74,9 @@ fn copy_of_sources(paths: &Paths, name: &str) -> Paths {
     let _ = fs::remove_dir_all(&root);
     let wanted = |path: &Path| {
         let text = path.to_string_lossy();
-        [".typ", ".toml", ".csv", ".bib", ".json", ".svg", ".otf", ".py", ".txt"].iter().any(|ending| text.ends_with(ending))
+        [".typ", ".toml", ".csv", ".bib", ".json", ".svg", ".otf", ".py", ".txt"]
+            .iter()
+            .any(|ending| text.ends_with(ending))
     };
     for folder in ["paper", "figures", "crates/plot/fonts", "data", "data/accuracy"] {
         // of data only what lies at its top
