@@ -95,7 +95,7 @@ pub fn events() -> Result<Rows, Failure> {
             )));
         }
         let negative_off = one.negative.zip(two.negative).map(|(a, b)| (a - b).abs());
-        let at_contact = q.is_none().then(|| v0 - strength);
+        let at_contact = q.is_none().then_some(v0 - strength);
         let (stop, time, off) = (one.stop.0, one.stop.1, (one.stop.1 - two.stop.1).abs());
         rows.push(row![model.name(), varied, q, strength, v0, at_contact, one.negative, negative_off, stop, time, off]);
     }

@@ -58,8 +58,7 @@ fn every_printed_bracket_holds_the_reference_solution() {
         let Some(bracketed) = printed(&format!("{start}.t")) else { continue };
         let (value, digit) = bracketed.split_once('(').expect("a bracket");
         let decimals = value.split_once('.').map_or(0, |(_, decimals)| decimals.len());
-        let digit: f64 = digit.trim_end_matches(')').parse().expect("a digit");
-        let bracket = digit * 10f64.powi(-i32::try_from(decimals).expect("few decimals"));
+        let bracket: f64 = format!("{}e-{decimals}", digit.trim_end_matches(')')).parse().expect("a number");
         let reference: f64 = printed(name).and_then(|text| text.parse().ok()).expect("a number");
         let off = (value.parse::<f64>().expect("a number") - reference).abs();
         assert!(off <= bracket, "{start}: {bracketed} is {off:e} away from {reference}");

@@ -76,36 +76,38 @@ pub struct Wrapped<'a> {
 impl Wrapped<'_> {
     /// Goes on for a time that is a multiple of the step `h`.
     pub fn advance(&self, sum: &mut Sum, h: f64, time: f64, adding: Adding) {
-        let (size, count) = (sum.state.len(), sum.state.len() / 2);
-        let mut inner = vec![0.0; self.gaps.dimension()];
-        let (mut stage, mut first, mut second) = (vec![0.0; size], vec![0.0; size], inner.clone());
-        let mut rates = |state: &[f64], rates: &mut [f64], of_gaps: &mut [f64]| {
-            for n in 0..count {
-                inner[n] = self.headway(state, n) - self.contact;
-            }
-            inner[count..2 * count].copy_from_slice(&state[count..]);
-            self.gaps.rates(&inner, of_gaps);
-            rates[..count].copy_from_slice(&state[count..]);
-            rates[count..].copy_from_slice(&of_gaps[count..2 * count]);
-        };
-        let mut last = vec![0.0; size];
+        let size = sum.state.len();
+        let (mut stage, mut first, mut second) = (vec![0.0; size], vec![0.0; size], vec![0.0; size]);
+        let mut inner = [vec![0.0; self.gaps.dimension()], vec![0.0; self.gaps.dimension()]];
         for _ in 0..(time / h).round() as u64 {
-            rates(&sum.state, &mut first, &mut second);
+            self.rates(&sum.state, &mut first, &mut inner);
             dispatch(Predict { state: &sum.state, rates: &first, h, stage: &mut stage });
-            rates(&stage, &mut last, &mut second);
+            self.rates(&stage, &mut second, &mut inner);
             match adding {
                 Adding::Plain => {
-                    for ((state, a), b) in sum.state.iter_mut().zip(&first).zip(&last) {
+                    for ((state, a), b) in sum.state.iter_mut().zip(&first).zip(&second) {
                         *state += 0.5 * h * (a + b);
                     }
                 }
-                Adding::Compensated => dispatch(Correct { sum, rates: [&first, &last], half: 0.5 * h }),
+                Adding::Compensated => dispatch(Correct { sum, rates: [&first, &second], half: 0.5 * h }),
             }
-            for place in &mut sum.state[..count] {
+            for place in &mut sum.state[..size / 2] {
                 // exact: both are within a factor of 2
                 *place = if *place >= self.length { *place - self.length } else { *place };
             }
         }
+    }
+
+    /// Speeds and accelerations; `inner` has room for a state in gaps and its rates.
+    fn rates(&self, state: &[f64], rates: &mut [f64], [gaps, of_gaps]: &mut [Vec<f64>; 2]) {
+        let count = state.len() / 2;
+        for (n, clearance) in gaps[..count].iter_mut().enumerate() {
+            *clearance = self.headway(state, n) - self.contact;
+        }
+        gaps[count..2 * count].copy_from_slice(&state[count..]);
+        self.gaps.rates(gaps, of_gaps);
+        rates[..count].copy_from_slice(&state[count..]);
+        rates[count..].copy_from_slice(&of_gaps[count..2 * count]);
     }
 
     /// The headway of a pedestrian.
