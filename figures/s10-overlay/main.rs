@@ -9,7 +9,7 @@ use plot::style::FULL_WIDTH;
 use plot::{Axis, Corner, Lines, Marker, Picture, Series};
 use std::process::ExitCode;
 use studies::hard::rows::Rows;
-use studies::overlay::{Published, SCHEMES, Sampled, distance, sampled, scheme};
+use studies::overlay::{Published, SCHEMES, Sampled, distance, rivals, sampled, scheme};
 
 fn main() -> ExitCode {
     figure(env!("CARGO_BIN_NAME"), tables, picture)
@@ -41,6 +41,7 @@ fn tables(job: &mut Job) -> Result<(), Failure> {
         schemes.push(scheme(method.name(), Some(STEP), &Sampled::by_steps(method, STEP)?, &published)?);
     }
     job.write_rows("schemes", &schemes)?;
+    job.write_rows("rivals", &rivals(&accurate, &euler, &published)?)?;
     let runs = [("accurate", &accurate), ("small_shift", &small_shift), ("euler", &euler)];
     job.write_rows("distance", &distance(&runs, &published)?)?;
     job.write("profile", &curves("n", 1, &accurate.speeds, &euler.speeds))?;

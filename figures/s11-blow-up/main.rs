@@ -31,15 +31,15 @@ fn picture(job: &Job) -> Result<Picture, Failure> {
     let cascade = job.read("cascade")?;
     Ok(Picture::new(COLUMN_WIDTH, 150.0)
         .columns(1)
-        .titled("each is thrown back twice as fast as the one before", speeds(&cascade)?)
+        .titled("speeds double from collision to collision", speeds(&cascade)?)
         .titled("the smallest gap closes as the square of the time left", rooms(job, &cascade)?)
-        .titled("fixed steps report an overlap before the blow-up", steps(job)?))
+        .titled("fixed steps report an overlap before $T^*$", steps(job)?))
 }
 
 /// Binary logarithm of the largest speed backwards against the order of the throws.
 fn speeds(cascade: &Table) -> Result<Lines, Failure> {
     let doublings = points(cascade, "k", "speed")?.into_iter().map(|(k, v)| (k, math::ln(v) / std::f64::consts::LN_2));
-    let axis = Axis::linear("throw $k$", 0.0, 36.0).steps(4);
+    let axis = Axis::linear("collision $k$", 0.0, 36.0).steps(4);
     Ok(Lines::new(axis, Axis::linear("$\\mathrm{log}_2 (-v)$", 0.0, 40.0).steps(4))
         .guide(&[(4.0, 4.0 + FIRST), (36.0, 36.0 + FIRST)])
         .note("doubling", (22.0, 16.0))
@@ -58,7 +58,7 @@ fn rooms(job: &Job, cascade: &Table) -> Result<Lines, Failure> {
         .guide(&[slope(1e-11), slope(1.0)])
         .note("slope 2", (1e-5, 1e-13))
         .series(Series::line("so far", along).look(0))
-        .series(Series::points("at the throws", Marker::Circle, throws).look(1)))
+        .series(Series::points("at the collisions", Marker::Circle, throws).look(1)))
 }
 
 /// The smallest gap of a throw over the square of the time left: `8 mu^2 / (speed * time)^2`.

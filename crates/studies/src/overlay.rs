@@ -1,7 +1,8 @@
-//! The published curves of figures 12 (left) and 13 beside runs by fixed steps: how far each run is from them.
+//! The published curves of figures 12 (left) and 13 beside runs by fixed steps and with other parameters: how far each run
+//! is from them.
 
 use crate::hard::rows::{Cell, Rows, row};
-use crate::parameters::jammed::{Run, snapshots};
+use crate::parameters::jammed::{Run, Start, snapshots};
 use figures::failure::Failure;
 use files::table::Table;
 use ode::{Control, Method};
@@ -33,10 +34,17 @@ impl Sampled {
     /// # Errors
     /// The integration failed.
     pub fn by_steps(method: Method, step: f64) -> Result<Sampled, Failure> {
-        let run = Run::default();
+        Sampled::of(&Run::default(), (method, Control::Fixed { step }))
+    }
+
+    /// A run like that of the figures.
+    ///
+    /// # Errors
+    /// The integration failed.
+    pub fn of(run: &Run, how: (Method, Control)) -> Result<Sampled, Failure> {
         // the start, at rest, is no sample
         let mut sampled = Sampled { spread: vec![0.0], speeds: Vec::new() };
-        for snapshot in snapshots(&run, (method, Control::Fixed { step }))? {
+        for snapshot in snapshots(run, how)? {
             sampled.spread.push(snapshot.spread);
             if (snapshot.time - EARLY).abs() < 0.5 * run.sample {
                 sampled.speeds = snapshot.speeds;
@@ -106,6 +114,68 @@ pub fn scheme(name: &str, step: Option<f64>, run: &Sampled, published: &Publishe
     let [std_largest, std_rms, std_median] = sizes(&run.spread_differences(&published.spread)?);
     let [speed_largest, speed_rms, speed_median] = sizes(&run.speed_differences(&published.speeds)?);
     Ok(row![name, step, std_largest, std_rms, std_median, speed_largest, speed_rms, speed_median])
+}
+
+/// What else than Euler's scheme may explain the distance of the published standard deviations from the accurate run: other
+/// parameters, or axes that were read off wrongly. Each number is that of the run of the figures unless it is named.
+///
+/// # Errors
+/// A run failed or lacks a sample.
+pub fn rivals(accurate: &Sampled, euler: &Sampled, published: &Published) -> Result<Rows, Failure> {
+    let mut rows =
+        Rows::new(&["rival", "v0", "length", "shift", "std_largest", "std_rms", "speed_largest", "speed_rms"]);
+    let of = Run::default();
+    let mut push = |name: &str, run: &Run, spread: &[f64], speeds: &[f64]| {
+        let Start::One(shift) = run.start else { return };
+        let ([std_largest, std_rms, _], [speed_largest, speed_rms, _]) = (sizes(spread), sizes(speeds));
+        rows.push(row![name, run.desired_speed, run.length, shift, std_largest, std_rms, speed_largest, speed_rms]);
+    };
+    let speeds = accurate.speed_differences(&published.speeds)?;
+    push("none", &of, &accurate.spread_differences(&published.spread)?, &speeds);
+    push("axes", &of, &registered(&accurate.spread, &published.spread)?, &speeds);
+    push("euler", &of, &euler.spread_differences(&published.spread)?, &euler.speed_differences(&published.speeds)?);
+    let others = [
+        ("desired_speed", Run { desired_speed: 1.0005, ..of }),
+        ("length", Run { length: 200.1, ..of }),
+        ("both", Run { desired_speed: 1.0004, length: 200.05, ..of }),
+        ("shift", Run { start: Start::One(0.102), ..of }),
+    ];
+    for (name, run) in others {
+        let made = Sampled::of(&run, (Method::Taylor, Control::Adaptive { tolerance: 1e-10 }))?;
+        let spread = made.spread_differences(&published.spread)?;
+        push(name, &run, &spread, &made.speed_differences(&published.speeds)?);
+    }
+    Ok(rows)
+}
+
+/// The differences that are left once both axes are shifted and stretched so that the squares are least:
+/// `published - (a + (1 + b) std + (c + d t) std')`, to first order in the four numbers.
+fn registered(spread: &[f64], published: &[(f64, f64)]) -> Result<Vec<f64>, Failure> {
+    let run = sampled("std", "t", spread);
+    let mut left = Vec::new();
+    let mut shapes: [Vec<f64>; 4] = Default::default();
+    for &(t, value) in published {
+        let (std, slope) = (run(t)?, 0.5 * (run(t + 1.0).or_else(|_| run(t))? - run(math::larger(t - 1.0, 0.0))?));
+        left.push(value - std);
+        for (shape, number) in shapes.iter_mut().zip([1.0, std, slope, t * slope]) {
+            shape.push(number);
+        }
+    }
+    // one shape after the other, each made orthogonal to those before
+    for at in 0..shapes.len() {
+        let (before, rest) = shapes.split_at_mut(at);
+        let shape = &mut rest[0];
+        before.iter().for_each(|other| without(shape, other));
+        without(&mut left, shape);
+    }
+    Ok(left)
+}
+
+/// Takes from a row its part along another.
+fn without(row: &mut [f64], along: &[f64]) {
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let part = dot(row, along) / dot(along, along);
+    row.iter_mut().zip(along).for_each(|(value, along)| *value -= part * along);
 }
 
 /// The columns of the table of schemes.

@@ -109,10 +109,10 @@ fn error_words(source: &Source<'_>, figure: &Figure) -> String {
         return String::new();
     }
     match errors.into_iter().collect::<Option<Vec<f64>>>() {
-        None => "Error: unknown for a column.".to_owned(),
+        None => "A column has no second computation.".to_owned(),
         Some(errors) => {
             let largest = errors.into_iter().max_by(f64::total_cmp).unwrap_or(0.0);
-            format!("Error: at most {} of the drawn range.", number(largest, 2))
+            format!("Two computations differ by at most {} of the range of the data.", number(largest, 2))
         }
     }
 }
@@ -187,7 +187,7 @@ fn outputs_table(source: &Source<'_>, figure: &Figure, name: &str) -> String {
         ]
     };
     let rows: Vec<Vec<String>> = tables(source, figure).chain(pictures).map(row).collect();
-    let head = ["output", "method", "tolerance", "steps", "error, of the drawn range", "SHA-256"];
+    let head = ["output", "method", "tolerance", "steps", "difference, of the range", "SHA-256"];
     table(&format!("Outputs of {name}"), &head, &rows)
 }
 

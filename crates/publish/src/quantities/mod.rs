@@ -8,6 +8,7 @@ mod published;
 mod runs;
 mod scenes;
 pub mod sheet;
+mod units;
 
 use checkout::failure::Failure;
 use checkout::figure::Figure;
@@ -59,6 +60,7 @@ impl Quantities {
         runs::collect(&source, &mut all)?;
         published::collect(&source, &mut all)?;
         accuracy::collect(&source, &mut all)?;
+        units::collect(&source, &mut all)?;
         ledger::collect(&source, &mut all)?;
         Ok(all)
     }

@@ -2,6 +2,7 @@
 
 use super::sheet::Sheet;
 use super::{Quantities, Source};
+use checkout::disk;
 use checkout::failure::Failure;
 use checkout::paths::EVENTS;
 use serde_json::Value;
@@ -20,6 +21,7 @@ pub fn collect(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure>
         growth(source, all, figure)?;
     }
     jams(source, all)?;
+    collisions(source, all)?;
     plateau(source, all)
 }
 
@@ -56,17 +58,46 @@ fn errors(source: &Source<'_>, all: &mut Quantities) {
     }
 }
 
-/// The time and the pedestrian of each event.
+/// Events of the reference solutions, by name.
+const REFERENCE_EVENTS: &str = "data/reference/solutions/events.csv";
+/// The scenes of figures whose events a reference solution has, with their names there.
+const REFERENCES: [(&str, &str); 2] =
+    [("fig04-unstable", "algebraic_unstable"), ("fig07-unstable", "exponential_unstable")];
+
+/// The time and the pedestrian of each event. The uncertainty is the larger of the difference between two methods and the
+/// distance from the reference solution, so that the bracket holds the latter.
 fn events(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
+    let text = disk::read_text(&source.paths.root.join(REFERENCE_EVENTS))?.unwrap_or_default();
+    let references = checkout::events::parse_all(REFERENCE_EVENTS, &text)?;
     let sheet = Sheet::read(source.paths, EVENTS)?;
     for (scene, event) in sheet.words("scene")?.into_iter().zip(sheet.words("event")?) {
         let row = sheet.only(&[("scene", &*scene), ("event", &*event)])?;
-        let from = format!("{EVENTS}: {scene}, {event}");
-        all.uncertain(&format!("{scene}.{event}.t"), row.first("t")?, row.first("uncertainty")?, &from);
-        all.rounded(&format!("{scene}.{event}.short"), row.first("t")?, 6, &from);
-        all.exact(&format!("{scene}.{event}.n"), row.first("n")?, &from);
+        let (start, from) = (format!("{scene}.{event}"), format!("{EVENTS}: {scene}, {event}"));
+        let (time, mut error) = (row.first("t")?, row.first("uncertainty")?);
+        all.rounded(&format!("{start}.spread"), error, 1, &from);
+        let named = REFERENCES.iter().find(|(figure, _)| *figure == scene).and_then(|(_, name)| references.get(*name));
+        if let Some(reference) = named.and_then(|events| events.iter().find(|one| one.event == event)) {
+            let digits = written_out(&reference.t_text)
+                .ok_or_else(|| Failure::Usage(format!("{REFERENCE_EVENTS}: t of {event} is not of the form 1.2e3")))?;
+            // more digits than a double has: the table's own text
+            all.word(&format!("{start}.reference"), &digits, REFERENCE_EVENTS);
+            let off = (time - reference.t).abs();
+            all.rounded(&format!("{start}.off"), off, 1, &format!("{from} and {REFERENCE_EVENTS}"));
+            error = if off > error { off } else { error };
+        }
+        all.uncertain(&format!("{start}.t"), time, error, &from);
+        all.rounded(&format!("{start}.short"), time, 5, &from);
+        all.exact(&format!("{start}.n"), row.first("n")?, &from);
     }
     Ok(())
+}
+
+/// `1.2345e2` as `123.45`, digit by digit; `None` when the text has another form or too few digits.
+fn written_out(text: &str) -> Option<String> {
+    let (mantissa, exponent) = text.split_once('e')?;
+    let (whole, rest) = mantissa.split_once('.')?;
+    let (moved, left) = rest.split_at_checked(exponent.parse().ok()?)?;
+    Some(format!("{whole}{moved}.{left}"))
 }
 
 /// A stable run: its largest deviation, and what is left at the end.
@@ -109,6 +140,19 @@ fn jams(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
     let moving = times.iter().zip(&speeds).filter(|(t, _)| **t >= 1.0).map(|(_, v)| *v);
     let least = moving.fold(f64::INFINITY, |a, b| if b < a { b } else { a });
     all.rounded("fig11.least", least, 3, &format!("{name}: v at t >= 1"));
+    Ok(())
+}
+
+/// From which desired speed on pedestrians collide under the logarithmic force, in runs to two times.
+fn collisions(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
+    let name = "data/s14/collision.csv";
+    let sheet = Sheet::read(source.paths, name)?.only(&[("pedestrians", "133"), ("shift", "0.1")])?;
+    for end in ["300", "3000"] {
+        let row = sheet.only(&[("t_end", end)])?;
+        // known to a thousandth
+        all.rounded(&format!("collision.{end}"), row.first("value")?, 4, name);
+    }
+    all.rounded("collision.a_0", sheet.only(&[("t_end", "3000")])?.first("a_0_in_m")?, 2, name);
     Ok(())
 }
 

@@ -36,10 +36,10 @@ fn arithmetic(figure: &Figure, panels: &BTreeMap<String, BTreeMap<String, f64>>,
     let from = format!("{}: arithmetic", Paths::scene(&figure.slug));
     let (headway, room) = (length / pedestrians, length / pedestrians - 2.0);
     all.rounded(&format!("{}.headway", figure.id), headway, 5, &from);
-    all.rounded(&format!("{}.room", figure.id), room, 4, &from);
+    all.rounded(&format!("{}.room", figure.id), room, 3, &from);
     if numbers.get("law.q") == Some(&2.0) {
         // mu_cr = sqrt(d'^3 / 4), from 2 phi = 1 with phi = q mu^2 / d'^(q+1)
-        all.rounded(&format!("{}.critical", figure.id), (room * room * room / 4.0).sqrt(), 4, &from);
+        all.rounded(&format!("{}.critical", figure.id), (room * room * room / 4.0).sqrt(), 3, &from);
     }
 }
 

@@ -46,15 +46,38 @@ fn committed_numbers_are_those_of_the_tables() {
     assert!(numbers.by_name.len() > 500, "{}", numbers.by_name.len());
 }
 
+#[test]
+fn every_printed_bracket_holds_the_reference_solution() {
+    let text = fs::read_to_string(checkout().root.join(NUMBERS_JSON)).expect("the committed numbers");
+    let numbers: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let numbers = numbers["numbers"].as_object().expect("numbers by name");
+    let printed = |name: &str| numbers.get(name)?["mantissa"].as_str();
+    let mut compared = 0;
+    for name in numbers.keys() {
+        let Some(start) = name.strip_suffix(".reference") else { continue };
+        let Some(bracketed) = printed(&format!("{start}.t")) else { continue };
+        let (value, digit) = bracketed.split_once('(').expect("a bracket");
+        let decimals = value.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+        let bracket: f64 = format!("{}e-{decimals}", digit.trim_end_matches(')')).parse().expect("a number");
+        let reference: f64 = printed(name).and_then(|text| text.parse().ok()).expect("a number");
+        let off = (value.parse::<f64>().expect("a number") - reference).abs();
+        assert!(off <= bracket, "{start}: {bracketed} is {off:e} away from {reference}");
+        compared += 1;
+    }
+    assert_eq!(compared, 5, "events with a reference solution");
+}
+
 /// What the document is set from, copied to another place.
 fn copy_of_sources(paths: &Paths, name: &str) -> Paths {
     let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = fs::remove_dir_all(&root);
     let wanted = |path: &Path| {
         let text = path.to_string_lossy();
-        [".typ", ".bib", ".json", ".svg", ".otf", ".py", ".txt"].iter().any(|ending| text.ends_with(ending))
+        [".typ", ".toml", ".csv", ".bib", ".json", ".svg", ".otf", ".py", ".txt"]
+            .iter()
+            .any(|ending| text.ends_with(ending))
     };
-    for folder in ["paper", "figures", "crates/plot/fonts", "data"] {
+    for folder in ["paper", "figures", "crates/plot/fonts", "data", "data/accuracy"] {
         // of data only what lies at its top
         let files = checkout::disk::walk(&paths.root.join(folder), &|_| folder != "data").expect("a folder");
         for file in files.into_iter().filter(|file| wanted(file)) {
@@ -97,7 +120,7 @@ fn a_picture_without_words_is_refused_by_the_typesetter() {
     let copy = copy_of_sources(&paths, "paper-mute");
     let file = copy.root.join("paper/pictures.typ");
     let text = fs::read_to_string(&file).expect("a source");
-    fs::write(&file, text.replace("image(path, alt: picture.alt, ", "image(path, ")).expect("a source");
+    fs::write(&file, text.replace("image(path, alt: alternatives.at(id), ", "image(path, ")).expect("a source");
     let failure = typesetter.set(&copy, DOCUMENT, &copy.root.join("x.pdf"), &[]).expect_err("no words");
     assert!(failure.text().contains("alt"), "{}", failure.text());
 }

@@ -1,4 +1,5 @@
-//! Heun's scheme three times: as the other runs have it, with compensated sums, and in numbers of 106 bits.
+//! Heun's scheme four times: as the other runs have it, with compensated sums, in positions that are wrapped into the ring,
+//! and in numbers of 106 bits.
 
 use figures::failure::Failure;
 use jam::states::Form;
@@ -58,6 +59,62 @@ impl Sum {
             form.rates(&stage, &mut second);
             dispatch(Correct { sum: self, rates: [&first, &second], half: 0.5 * h });
         }
+    }
+}
+
+/// Positions in `[0, L)` and speeds, as a program writes them that puts each pedestrian back by `L` once it has gone
+/// round.
+pub struct Wrapped<'a> {
+    /// The equations in gaps; positions are turned into these for each evaluation.
+    pub gaps: &'a dyn Form,
+    /// The headway at contact, which a clearance lacks.
+    pub contact: f64,
+    /// `L`.
+    pub length: f64,
+}
+
+impl Wrapped<'_> {
+    /// Goes on for a time that is a multiple of the step `h`.
+    pub fn advance(&self, sum: &mut Sum, h: f64, time: f64, adding: Adding) {
+        let size = sum.state.len();
+        let (mut stage, mut first, mut second) = (vec![0.0; size], vec![0.0; size], vec![0.0; size]);
+        let mut inner = [vec![0.0; self.gaps.dimension()], vec![0.0; self.gaps.dimension()]];
+        for _ in 0..(time / h).round() as u64 {
+            self.rates(&sum.state, &mut first, &mut inner);
+            dispatch(Predict { state: &sum.state, rates: &first, h, stage: &mut stage });
+            self.rates(&stage, &mut second, &mut inner);
+            match adding {
+                Adding::Plain => {
+                    for ((state, a), b) in sum.state.iter_mut().zip(&first).zip(&second) {
+                        *state += 0.5 * h * (a + b);
+                    }
+                }
+                Adding::Compensated => dispatch(Correct { sum, rates: [&first, &second], half: 0.5 * h }),
+            }
+            for place in &mut sum.state[..size / 2] {
+                // exact: both are within a factor of 2
+                *place = if *place >= self.length { *place - self.length } else { *place };
+            }
+        }
+    }
+
+    /// Speeds and accelerations; `inner` has room for a state in gaps and its rates.
+    fn rates(&self, state: &[f64], rates: &mut [f64], [gaps, of_gaps]: &mut [Vec<f64>; 2]) {
+        let count = state.len() / 2;
+        for (n, clearance) in gaps[..count].iter_mut().enumerate() {
+            *clearance = self.headway(state, n) - self.contact;
+        }
+        gaps[count..2 * count].copy_from_slice(&state[count..]);
+        self.gaps.rates(gaps, of_gaps);
+        rates[..count].copy_from_slice(&state[count..]);
+        rates[count..].copy_from_slice(&of_gaps[count..2 * count]);
+    }
+
+    /// The headway of a pedestrian.
+    fn headway(&self, state: &[f64], n: usize) -> f64 {
+        let ahead = if n + 1 < state.len() / 2 { state[n + 1] } else { state[0] };
+        let apart = ahead - state[n];
+        if apart < 0.0 { apart + self.length } else { apart }
     }
 }
 

@@ -1,5 +1,5 @@
 //! Studies of errors: what rounding does to Heun's scheme, growth rates of waves against the linear theory, and how far
-//! an error grows (`paper/rounding.md` tells what the tables say).
+//! an error grows (the numerical supplement of the report tells what the tables say).
 
 mod error_growth;
 mod heun;
@@ -14,9 +14,10 @@ use crate::hard::run::figure_4;
 use figures::failure::{Failure, print};
 use figures::job::finite_csv;
 use files::write::{atomic, with_path};
+use heun::{Adding, Sum};
 use jam::laws::Model;
-use jam::ring::Ring;
-use jam::states::FormKind;
+use jam::ring::{Ring, Start};
+use jam::states::{Form, FormKind};
 use std::path::PathBuf;
 
 /// What the command line asks for.
@@ -89,6 +90,65 @@ fn figure_4_stable() -> (Model, Ring) {
 /// Its shift of the first pedestrian.
 const SHIFT: f64 = 1e-4;
 
-/// The forms in which rounding is studied, with their names.
-const FORMS: [(FormKind, &str); 3] =
-    [(FormKind::Positions, "positions"), (FormKind::Gaps, "gaps"), (FormKind::Deviations, "deviations")];
+/// A state in which rounding is studied.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum State {
+    /// One of the forms that every run can have.
+    Form(FormKind),
+    /// Positions in `[0, L)` ([`heun::Wrapped`]).
+    Wrapped,
+}
+
+/// The states, with their names.
+const STATES: [(State, &str); 4] = [
+    (State::Form(FormKind::Positions), "positions"),
+    (State::Wrapped, "wrapped"),
+    (State::Form(FormKind::Gaps), "gaps"),
+    (State::Form(FormKind::Deviations), "deviations"),
+];
+
+/// A run of figure 4's stable scene by Heun's scheme, in one of these states.
+struct Run {
+    state: State,
+    form: Box<dyn Form>,
+    /// What the form is built from.
+    model: Model,
+    ring: Ring,
+    sum: Sum,
+}
+
+impl Run {
+    /// At the start. Wrapped positions start as unwrapped ones do.
+    fn new(state: State) -> Run {
+        let (model, ring) = figure_4_stable();
+        let start = |kind: FormKind| kind.build(&model, ring).start(Start { shift: SHIFT });
+        let (kind, begin) = match state {
+            State::Form(kind) => (kind, start(kind)),
+            State::Wrapped => (FormKind::Gaps, start(FormKind::Positions)),
+        };
+        Run { state, form: kind.build(&model, ring), model, ring, sum: Sum::new(begin) }
+    }
+
+    /// Goes on for a time that is a multiple of the step `h`.
+    fn advance(&mut self, h: f64, time: f64, adding: Adding) -> Result<(), Failure> {
+        match self.state {
+            State::Form(_) => self.sum.advance(&*self.form, h, time, adding),
+            State::Wrapped => {
+                let (contact, length) = (self.model.contact(), self.ring.length);
+                heun::Wrapped { gaps: &*self.form, contact, length }.advance(&mut self.sum, h, time, adding);
+                Ok(())
+            }
+        }
+    }
+
+    /// The standard deviation of the speeds.
+    fn speed_deviation(&self) -> f64 {
+        match self.state {
+            State::Form(_) => self.form.speed_deviation(&self.sum.state),
+            State::Wrapped => {
+                let positions = FormKind::Positions.build(&self.model, self.ring);
+                positions.speed_deviation(&self.sum.state)
+            }
+        }
+    }
+}

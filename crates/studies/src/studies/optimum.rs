@@ -1,6 +1,6 @@
 //! The step with the smallest error, found in the table of rounding and predicted from its longest step.
 
-use super::FORMS;
+use super::STATES;
 use crate::hard::rows::{Rows, row};
 use figures::failure::Failure;
 
@@ -13,7 +13,7 @@ use figures::failure::Failure;
 /// The table lacks a column or has no row.
 pub fn table(rounding: &Rows) -> Result<Rows, Failure> {
     let mut rows = Rows::new(&["state", "sum", "t", "dt_best", "error_gap", "dt_predicted"]);
-    for (_, state) in FORMS {
+    for (_, state) in STATES {
         for sum in ["plain", "compensated"] {
             let columns = ["t", "dt", "error_gap", "truncation_gap", "rounding_gap"];
             let all = rounding.select(&[("state", state), ("sum", sum)], &columns)?;

@@ -1,14 +1,12 @@
-//! Truncation against rounding of Heun's scheme on the stable run of figure 4, in every form of the state, with plain and
-//! compensated sums.
+//! Truncation against rounding of Heun's scheme on the stable run of figure 4, in every form of the state and in wrapped
+//! positions, with plain and compensated sums.
 
-use super::heun::{Adding, Sum, without_rounding};
+use super::heun::{Adding, without_rounding};
 use super::solution::{Distances, distances, exact_scene, state_at, written};
-use super::{Extent, FORMS, SHIFT, figure_4_stable, optimum};
+use super::{Extent, Run, STATES, State, optimum};
 use crate::hard::Tables;
 use crate::hard::rows::{Rows, row};
 use figures::failure::Failure;
-use jam::ring::Start;
-use jam::states::FormKind;
 use math::twofold::Twofold;
 use reference::scenes::LENGTH;
 use std::path::Path;
@@ -38,7 +36,7 @@ pub fn tables(extent: Extent, solutions: &Path) -> Result<Tables, Failure> {
     };
     let (steps, times) = (&PER_UNIT[..steps], &TIMES[..times]);
     let exact = Exact::new(steps, times, solutions)?;
-    let ways = FORMS.into_iter().flat_map(|form| [(form, Adding::Plain), (form, Adding::Compensated)]);
+    let ways = STATES.into_iter().flat_map(|state| [(state, Adding::Plain), (state, Adding::Compensated)]);
     // one thread a way; the order of the rows is that of the ways
     let found = std::thread::scope(|scope| {
         let exact = &exact;
@@ -87,17 +85,16 @@ struct Line {
     rounding: Distances,
 }
 
-fn errors(kind: FormKind, adding: Adding, steps: &[f64], times: &[f64], exact: &Exact) -> Result<Vec<Line>, Failure> {
-    let ((model, ring), exact_ring) = (figure_4_stable(), exact_scene()?.ring);
-    let form = kind.build(&model, ring);
+fn errors(state: State, adding: Adding, steps: &[f64], times: &[f64], exact: &Exact) -> Result<Vec<Line>, Failure> {
+    let exact_ring = exact_scene()?.ring;
     let mut lines = Vec::new();
     for (&per_unit, truncation) in steps.iter().zip(&exact.truncation) {
-        let mut sum = Sum::new(form.start(Start { shift: SHIFT }));
+        let mut run = Run::new(state);
         let mut before = 0.0;
         for ((&time, solution), truncation) in times.iter().zip(&exact.solution).zip(truncation) {
-            sum.advance(&*form, 1.0 / per_unit, time - before, adding)?;
+            run.advance(1.0 / per_unit, time - before, adding)?;
             before = time;
-            let state = written(kind, &exact_ring, &sum);
+            let state = written(&exact_ring, &run);
             let truncated: Vec<Twofold> = solution.iter().zip(truncation).map(|(a, b)| *a + *b).collect();
             lines.push(Line {
                 per_unit,

@@ -1,7 +1,6 @@
 //! The reference solution of figure 4's stable run, and states of all forms as it writes them.
 
-use super::figure_4_stable;
-use super::heun::Sum;
+use super::{Run, State};
 use figures::failure::Failure;
 use files::write::with_path;
 use jam::states::FormKind;
@@ -60,21 +59,25 @@ fn rows(file: &Path) -> Result<Vec<Vec<Twofold>>, Failure> {
     text.lines().skip(1).map(|line| numbers(line).ok_or_else(damaged)).collect()
 }
 
-/// A state of any form as the reference writes it, with its carries and without rounding: clearances, speeds, 0.
-pub fn written(kind: FormKind, ring: &ExactRing, sum: &Sum) -> Vec<Twofold> {
-    let n = ring.pedestrians;
+/// The state of a run as the reference writes it, with its carries and without rounding: clearances, speeds, 0.
+pub fn written(ring: &ExactRing, run: &Run) -> Vec<Twofold> {
+    let (n, sum) = (ring.pedestrians, &run.sum);
     let at = |index: usize| Twofold::sum(sum.state[index], sum.carry[index]);
-    let length = Twofold::from(figure_4_stable().1.length);
+    let length = Twofold::from(run.ring.length);
     let contact = ring.law.contact();
-    let clearance = |index: usize| match kind {
-        FormKind::Positions if index + 1 < n => at(index + 1) - at(index) - contact,
-        FormKind::Positions => at(0) + length - at(index) - contact,
-        FormKind::Gaps => at(index),
-        FormKind::Deviations => length / n as f64 - contact + at(index),
+    let clearance = |index: usize| match run.state {
+        State::Form(FormKind::Positions) if index + 1 < n => at(index + 1) - at(index) - contact,
+        State::Form(FormKind::Positions) => at(0) + length - at(index) - contact,
+        State::Wrapped => {
+            let apart = at((index + 1) % n) - at(index);
+            if apart.hi < 0.0 { apart + length - contact } else { apart - contact }
+        }
+        State::Form(FormKind::Gaps) => at(index),
+        State::Form(FormKind::Deviations) => length / n as f64 - contact + at(index),
     };
-    let speed = |index: usize| match kind {
-        FormKind::Positions | FormKind::Gaps => at(n + index),
-        FormKind::Deviations => at(2 * n + 2) + at(n + index),
+    let speed = |index: usize| match run.state {
+        State::Form(FormKind::Deviations) => at(2 * n + 2) + at(n + index),
+        State::Form(_) | State::Wrapped => at(n + index),
     };
     (0..n).map(clearance).chain((0..n).map(speed)).chain([Twofold::ZERO]).collect()
 }

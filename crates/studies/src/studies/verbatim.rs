@@ -1,11 +1,11 @@
-//! The standard deviation of figure 4, stable panel, as the scheme of the paper gives it, beside the true one.
+//! The standard deviation of figure 4, stable panel, by the scheme of the paper in positions, unwrapped and wrapped into the
+//! ring, beside the true one.
 
-use super::heun::{Adding, Sum};
-use super::{Extent, SHIFT, figure_4_stable, solution};
+use super::heun::Adding;
+use super::{Extent, Run, State, solution};
 use crate::hard::Tables;
 use crate::hard::rows::{Rows, row};
 use figures::failure::Failure;
-use jam::ring::Start;
 use jam::states::FormKind;
 use std::path::Path;
 
@@ -16,18 +16,28 @@ const SAMPLE: f64 = 5.0;
 
 /// Positions and speeds, plain sums, steps of 1e-5; the true curve from the reference solution.
 pub fn tables(extent: Extent, solutions: &Path) -> Result<Tables, Failure> {
-    let mut rows = Rows::new(&["t", "std", "exact"]);
     let exact = solution::spreads(solutions)?;
-    let (model, ring) = figure_4_stable();
-    let form = FormKind::Positions.build(&model, ring);
-    let mut sum = Sum::new(form.start(Start { shift: SHIFT }));
     let count = if extent == Extent::Full { 400 } else { 4 };
-    for index in 0..=count {
-        if index > 0 {
-            sum.advance(&*form, STEP, SAMPLE, Adding::Plain)?;
-        }
-        let time = f64::from(index) * SAMPLE;
-        rows.push(row![time, form.speed_deviation(&sum.state), exact.get(time as usize).copied()]);
+    let curves = [State::Form(FormKind::Positions), State::Wrapped].map(|state| move || curve(state, count));
+    let [unwrapped, wrapped] = std::thread::scope(|scope| curves.map(|curve| scope.spawn(curve)).map(|one| one.join()));
+    let of =
+        |curve: std::thread::Result<_>| curve.map_err(|_| Failure::work("a thread of the verbatim run panicked"))?;
+    let (unwrapped, wrapped): (Vec<f64>, Vec<f64>) = (of(unwrapped)?, of(wrapped)?);
+    let mut rows = Rows::new(&["t", "std", "wrapped", "exact"]);
+    for (index, (unwrapped, wrapped)) in unwrapped.into_iter().zip(wrapped).enumerate() {
+        let time = index as f64 * SAMPLE;
+        rows.push(row![time, unwrapped, wrapped, exact.get(time as usize).copied()]);
     }
     Ok(vec![("verbatim_fig04_stable", rows)])
+}
+
+/// The standard deviations at multiples of [`SAMPLE`], from 0.
+fn curve(state: State, count: usize) -> Result<Vec<f64>, Failure> {
+    let mut run = Run::new(state);
+    let mut found = vec![run.speed_deviation()];
+    for _ in 0..count {
+        run.advance(STEP, SAMPLE, Adding::Plain)?;
+        found.push(run.speed_deviation());
+    }
+    Ok(found)
 }

@@ -1,4 +1,4 @@
-//! The studies of errors: a quick run gives rows of the committed tables, and the tables say what `paper/rounding.md` says.
+//! The studies of errors: a quick run gives rows of the committed tables, and the tables say what the numerical supplement of the report says.
 
 use crate::{root, succeed};
 use files::table::Table;
