@@ -169,7 +169,11 @@ pub(crate) fn fitting(
 ) -> FormKind {
     let form = wanted.unwrap_or(FormKind::Deviations);
     let has_no_series = wanted.is_none() && !method.suits(&*form.build(model, ring));
-    if form == FormKind::Deviations && (!has_deviations(model, ring, speed) || has_no_series) { FormKind::Gaps } else { form }
+    if form == FormKind::Deviations && (!has_deviations(model, ring, speed) || has_no_series) {
+        FormKind::Gaps
+    } else {
+        form
+    }
 }
 
 /// Whether a ring has a uniform flow that its state can deviate from.
