@@ -24,6 +24,8 @@ use plotters_backend::text_anchor::{HPos, VPos};
 const NAME_MARGIN: f64 = 0.5;
 /// At least so many places along each axis are tried for a name.
 const PLACES: usize = 120;
+/// At least so many pixels along each axis: some viewers of SVG blur the borders of pixels.
+const PIXELS: usize = 480;
 /// Width of a line with its white rim, relative to that without.
 const RIM: f64 = 2.4;
 /// Length of the teeth of a border, in millimetres; each stands in the middle of a dash.
@@ -117,8 +119,11 @@ impl Plane {
     /// The cells in their colours, the first row on top.
     fn raster(&self) -> Raster {
         let palette = self.looks.iter().map(|(fill, _)| fill.color).collect();
-        let class = |column: usize, row: usize| self.classes[(self.rows - 1 - row) * self.columns + column] as u8;
-        Raster::from_fn(self.columns, self.rows, palette, class)
+        let [across, down] = [self.columns, self.rows].map(|count| PIXELS.div_ceil(count));
+        let class = |column: usize, row: usize| {
+            self.classes[(self.rows - 1 - row / down) * self.columns + column / across] as u8
+        };
+        Raster::from_fn(self.columns * across, self.rows * down, palette, class)
     }
 
     /// Where the name of a class so many millimetres wide goes, in millimetres right of and above the lower left corner:
@@ -280,8 +285,8 @@ mod tests {
     #[test]
     fn cells_keep_their_colours_and_the_first_row_is_lowest() {
         let raster = plane(vec![0, 1, 1, 1, 0, 0], 3, 2).raster();
-        let lower = [0, 1, 2].map(|column| raster.color(column, 1));
-        let upper = [0, 1, 2].map(|column| raster.color(column, 0));
+        let middle = |column: usize, row: usize| raster.color(column * 160 + 80, row * 240 + 120);
+        let (lower, upper) = ([0, 1, 2].map(|column| middle(column, 1)), [0, 1, 2].map(|column| middle(column, 0)));
         let (pale, blue) = (Fill::PALE.color, Fill::BLUE.color);
         assert_eq!((lower, upper), ([pale, blue, blue], [blue, pale, pale]));
     }
