@@ -133,8 +133,10 @@ def outcomes(made: Sweep, ax: Axes | None) -> Axes:
     (x, y), logs = made.columns[:2], made.logarithmic
     ax.set(xlabel=f"${symbol(x)}$", ylabel=f"${symbol(y)}$", xlim=made.x_range, ylim=made.y_range)
     ax.set(xscale="log" if logs[0] else "linear", yscale="log" if logs[1] else "linear")
-    looks = [{"facecolor": FLAT.get(name, PAPER), "hatch": HATCHED.get(name)} for name in present]
-    patches = [Patch(**look, edgecolor=GREY, label=made.words[name]) for name, look in zip(present, looks)]
+    patches = [
+        Patch(facecolor=FLAT.get(name, PAPER), hatch=HATCHED.get(name), edgecolor=GREY, label=made.words[name])
+        for name in present
+    ]
     ax.legend(handles=patches, loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
     return ax
 

@@ -118,8 +118,6 @@ def sweep(
     ...     "sweep": {"x": {"parameter": "headway", "from": 1.0, "to": 3.0, "cells": 5},
     ...               "y": {"parameter": "kappa", "from": 0.25, "to": 2.75, "cells": 5}},
     ... })
-    >>> plane
-    <Sweep: headway and kappa, 5 x 5 cells: 5 contact, 12 decays, 6 waves, 2 undecided>
     >>> plane.outcome[:, 2].tolist()                      # at headway 2 waves grow where kappa < 2 V'(2) = 2
     ['contact', 'waves', 'waves', 'decays', 'decays']
     """
