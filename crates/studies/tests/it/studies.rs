@@ -107,14 +107,16 @@ fn the_best_steps_are_those_of_the_table_and_near_the_predicted_ones() {
 }
 
 #[test]
-fn the_verbatim_curve_leaves_the_true_one() {
-    let rows = numbers("verbatim_fig04_stable", &[], &["t", "std", "exact"]);
-    let off = |time: f64| {
+fn the_verbatim_curve_leaves_the_true_one_unless_positions_are_wrapped() {
+    let rows = numbers("verbatim_fig04_stable", &[], &["t", "std", "wrapped", "exact"]);
+    let off = |time: f64, column: usize| {
         let row = rows.iter().find(|row| row[0] == time).expect("a row");
-        (row[1] / row[2] - 1.0).abs()
+        (row[column] / row[3] - 1.0).abs()
     };
+    let (unwrapped, wrapped) = (|time| off(time, 1), |time| off(time, 2));
     assert_eq!(rows.len(), 401);
-    assert!(off(20.0) < 1e-4 && off(500.0) < 0.05 && off(1000.0) > 0.4 && off(1200.0) > 0.8);
+    assert!(unwrapped(20.0) < 1e-4 && unwrapped(500.0) < 0.05 && unwrapped(1000.0) > 0.4 && unwrapped(1200.0) > 0.8);
+    assert!(wrapped(500.0) < 2e-3 && wrapped(1000.0) < 6e-3 && wrapped(2000.0) < 0.03);
 }
 
 #[test]
