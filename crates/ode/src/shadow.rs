@@ -61,7 +61,7 @@ impl Shadow {
     }
 
     /// The error at the end of the step looked at last, component by component.
-    pub fn error(&self) -> &[f64] {
+    pub fn now(&self) -> &[f64] {
         &self.now
     }
 

@@ -27,23 +27,23 @@ impl Onlooker for Propagated {
         }
         let (n, dimension) = (self.pedestrians, step.after().len());
         let shadow = self.shadow.get_or_insert_with(|| Shadow::new(of_start(step.before(), n)));
-        if shadow.error().len() != dimension {
-            *shadow = Shadow::new(in_gaps(shadow.error(), n));
+        if shadow.now().len() != dimension {
+            *shadow = Shadow::new(in_gaps(shadow.now(), n));
         }
-        let before = if sight.new.is_empty() { Vec::new() } else { shadow.error().to_vec() };
+        let before = if sight.new.is_empty() { Vec::new() } else { shadow.now().to_vec() };
         self.is_blind = !shadow.follow(step);
         if self.is_blind {
             return;
         }
         if !sight.is_stopped {
-            let error = std_error(&step.after()[n..2 * n], &shadow.error()[n..2 * n]);
+            let error = std_error(&step.after()[n..2 * n], &shadow.now()[n..2 * n]);
             self.std = if error <= self.std { self.std } else { error };
         }
         for happening in sight.new {
             let mut change = |direction: &[f64]| {
                 sight.watch.change(happening.event, happening.pedestrian, step.after(), direction).abs()
             };
-            let by_error = math::larger(change(&before), change(shadow.error()));
+            let by_error = math::larger(change(&before), change(shadow.now()));
             let place = (happening.time - step.start) / step.length();
             let rate = (1.0 - place) * change(step.rates_before()) + place * change(step.rates_after());
             self.events.push(if by_error == 0.0 { 0.0 } else { by_error / rate });
@@ -60,7 +60,7 @@ impl Propagated {
 
     /// The errors of the run that it has seen; `None` where steps did not tell theirs.
     pub fn errors(&self, scene: &Scene, outcome: &Outcome) -> Option<Errors> {
-        let error = self.shadow.as_ref().filter(|_| !self.is_blind)?.error();
+        let error = self.shadow.as_ref().filter(|_| !self.is_blind)?.now();
         let n = self.pedestrians;
         // deviations have the speed of the uniform flow, too
         let (spacings, flow) = (&error[..n], error.get(2 * n + 2).copied().unwrap_or(0.0));

@@ -51,8 +51,7 @@ const BLOCK: f64 = 50.0;
 /// Windows are at least so long.
 const SHORTEST_WINDOW: f64 = 200.0;
 
-/// And a third of the run, so that waves which grow or merge slowly are not taken for lasting, nor irregular ones for
-/// waves that change: their least gap is another one in each short window.
+/// Irregular waves, whose least gap is another one in each short window, are judged by windows of this part of the run.
 const THIRD: f64 = 1.0 / 3.0;
 
 /// Windows are looked at first at this time, then whenever it has doubled. The jams of a logarithmic ring stand long before
@@ -260,12 +259,12 @@ impl Judge {
         (is_weak && late.mean_std() < (1.0 - AGREEMENT) * early.mean_std()).then_some(flow.margin)
     }
 
-    /// The last two thirds of the run, if waves last through both and they agree.
+    /// The last two windows, or the last two thirds of the run, if waves last through both and they agree.
     fn agreeing(&self) -> Result<[Stretch; 2], String> {
         let least = self.window().unwrap_or(SHORTEST_WINDOW);
         let third = THIRD * self.seen;
-        let windows = if third > least { self.windows(third) } else { None };
-        let Some(windows) = windows else {
+        let thirds = if third > least { self.windows(third) } else { None };
+        let (Some(windows), Some(thirds)) = (self.windows(least), thirds) else {
             return Err(format!("a longer t_end: three windows of at least {least:.0} must fit in"));
         };
         let contrast = lowest(&[windows[0].contrast, windows[1].contrast]);
@@ -273,14 +272,16 @@ impl Judge {
             return Err(self.too_weak(contrast));
         }
         let [std, gap] = changes(&windows);
-        if std < AGREEMENT && gap < AGREEMENT {
-            return Ok(windows);
-        }
-        Err(format!(
-            "a longer t_end: between the last two thirds of the run the standard deviation changes by {:.1} %, the least gap by {:.1} %",
+        let missing = format!(
+            "a longer t_end: between the last two windows of {least:.0} the standard deviation changes by {:.1} %, the least gap by {:.1} %",
             100.0 * std,
             100.0 * gap
-        ))
+        );
+        let agree = |pair: &[Stretch; 2]| {
+            let contrast = lowest(&[pair[0].contrast, pair[1].contrast]);
+            is_above(contrast, CONTRAST * self.scale) && changes(pair).iter().all(|change| *change < AGREEMENT)
+        };
+        [windows, thirds].into_iter().find(agree).ok_or(missing)
     }
 
     /// Why a run without strong waves is not one that decays.

@@ -4,6 +4,7 @@
 mod accuracy;
 pub mod form;
 mod ledger;
+mod outcomes;
 mod published;
 mod runs;
 mod scenes;
@@ -61,6 +62,7 @@ impl Quantities {
         published::collect(&source, &mut all)?;
         accuracy::collect(&source, &mut all)?;
         units::collect(&source, &mut all)?;
+        outcomes::collect(&source, &mut all)?;
         ledger::collect(&source, &mut all)?;
         Ok(all)
     }

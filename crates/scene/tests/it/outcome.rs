@@ -90,7 +90,7 @@ fn what_is_not_certain_says_what_would_decide_it() {
     let growing = verdict(&scene(&law, (20, 30.0), 1e-7, TAYLOR));
     let changing = verdict(&scene(&law, (20, 30.0), 0.1, TAYLOR));
     let short = verdict(&scene(&law, (20, 30.0), 0.1, &TAYLOR.replace("900", "90")));
-    let cases = [(growing, "growing at a rate of"), (changing, "between the last two thirds"), (short, "t_end")];
+    let cases = [(growing, "growing at a rate of"), (changing, "between the last two windows"), (short, "t_end")];
     for (found, words) in cases {
         assert_eq!((found.class, found.distance), (Class::Undecided, 0.0), "{found:?}");
         let Decision::Missing(missing) = &found.decision else { panic!("{found:?}") };
