@@ -19,7 +19,7 @@ length      = 15.0
 [start]
 shift = 0.1
 [run]
-t_end     = 400.0
+t_end     = 300.0
 method    = "dop853"
 tolerance = 1e-6
 [sweep]
@@ -29,7 +29,7 @@ y = { parameter = "v0", from = 0.5, to = 3.0, cells = 30 }
 
 /// A smaller one, for what needs no more.
 fn small() -> String {
-    replace(&replace(PLANE, "cells = 60", "cells = 30"), "t_end     = 400.0", "t_end     = 60.0")
+    replace(&replace(PLANE, "cells = 60", "cells = 30"), "t_end     = 300.0", "t_end     = 60.0")
 }
 
 fn replace(text: &str, from: &str, to: &str) -> String {
@@ -157,7 +157,7 @@ fn every_split_order_and_number_of_threads_gives_the_same_bytes() {
     assert!(classes["run"].as_u64().is_some_and(|run| run > 500 && run < 1700), "{classes}");
     place.succeed("two", &["--jobs", "2"]);
     assert_eq!(place.results("two"), expected);
-    for (count, order) in [(1, vec![1]), (2, vec![2, 1]), (3, vec![3, 1, 2]), (6, vec![4, 6, 5, 1, 3, 2])] {
+    for (count, order) in [(2, vec![2, 1]), (3, vec![3, 1, 2]), (6, vec![4, 6, 5, 1, 3, 2])] {
         let out = format!("split-{count}");
         for (index, shard) in order.iter().enumerate() {
             let jobs = if index % 2 == 0 { "2" } else { "1" };
@@ -187,7 +187,8 @@ fn a_shard_is_the_same_wherever_and_however_often_it_is_computed() {
     let mut children: Vec<_> =
         (0..2).map(|_| place.command("both", &["--shard", "1/2"]).spawn().expect("it starts")).collect();
     let codes: Vec<_> = children.iter_mut().map(|child| child.wait().expect("it ends").code()).collect();
-    assert_eq!((codes, place.read("both/shards/1-of-2.csv")), (vec![Some(0); 2], shard));
+    assert_eq!(codes, [Some(0); 2]);
+    assert!(place.read("both/shards/1-of-2.csv") == shard);
     assert!(!place.path("both/shards/1-of-2.part").exists());
 }
 
@@ -369,14 +370,14 @@ fn shards_that_disagree_are_not_merged() {
     for shard in ["1/2", "2/2"] {
         place.succeed("out", &["--shard", shard]);
     }
-    // cell (25, 3) lies on the border of two tiles
-    let line = |text: &str| text.lines().find(|line| line.starts_with("25,3,")).expect("a cell").to_owned();
+    // cell (3, 25) lies on the border of two tiles
+    let line = |text: &str| text.lines().find(|line| line.starts_with("3,25,")).expect("a cell").to_owned();
     place.edit("out/shards/2-of-2.csv", |text| {
         let line = line(text);
         let (start, _) = line.rsplit_once(',').expect("a number");
         text.replacen(&line, &format!("{start},0.125"), 1)
     });
-    place.fail("out", &["--gather"], 1, &["[25, 3]", ".csv"]);
+    place.fail("out", &["--gather"], 1, &["[3, 25]", ".csv"]);
     assert!(!place.has_results("out"));
 }
 
@@ -431,7 +432,7 @@ fn axes_that_are_no_parameters_are_named_with_what_is_valid() {
 
 #[test]
 fn filled_cells_have_the_outcome_that_their_run_has() {
-    let place = Place::new(PLANE);
+    let place = Place::new(&replace(PLANE, "cells = 60", "cells = 30"));
     place.succeed("refined", &[]);
     place.edit("scene.toml", |text| format!("{text}refine = false\n"));
     place.succeed("every", &[]);
@@ -450,7 +451,7 @@ fn filled_cells_have_the_outcome_that_their_run_has() {
         }
     }
     assert_eq!(refined.lines().count(), every.lines().count());
-    assert!(filled > 200, "{filled}");
+    assert!(filled > 100, "{filled}");
     assert!(differ.is_empty(), "{} of {filled}: {differ:#?}", differ.len());
 }
 
