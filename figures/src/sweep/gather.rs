@@ -1,14 +1,14 @@
 //! Putting shards together: the table of the plane, its picture, their sums.
 
-use super::journal::{Shard, read};
+use super::journal::Shard;
 use super::{Arguments, Task};
 use crate::failure::{Failure, print};
 use files::write::{atomic_all, sha256, with_path};
 use jam::outcome::Class;
-use scene::sweep::tiles::{of_shard, tiles};
 use scene::sweep::{Cell, DecidedBy, table};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
+use std::io::ErrorKind;
 use std::path::PathBuf;
 
 /// Gathers the shards in the folder.
@@ -67,40 +67,24 @@ fn summary(task: &Task, cells: &[Cell]) -> Value {
 /// All cells of the plane, column by column.
 fn cells(task: &Task) -> Result<Vec<Cell>, Failure> {
     let count = split(task)?;
-    let all = tiles(&task.sweep);
     let rows = task.sweep.y.cells;
     let mut found: Vec<Option<Cell>> = vec![None; task.sweep.cells()];
     let mut missing = Vec::new();
     for index in 1..=count {
         let shard = Shard { index, count };
-        let path = shard.file(task);
-        let Some(read) = read(&path, &shard.line(task))? else {
+        let Some(cells) = shard.read(task)? else {
             missing.push(index);
             continue;
         };
-        let expected: usize = {
-            let mut cells: Vec<[usize; 2]> =
-                of_shard(&all, index - 1, count).iter().flat_map(|tile| tile.all()).collect();
-            cells.sort_unstable();
-            cells.dedup();
-            cells.len()
-        };
-        if read.cells.len() != expected {
-            let problem = format!("{} cells; there must be {expected}: remove the file", read.cells.len());
-            return Err(Failure::input(format!("{}: {problem}", path.display())));
-        }
-        for (cell, new) in read.cells {
-            let place = found.get_mut(cell[0] * rows + cell[1]).filter(|_| cell[1] < rows);
-            let Some(place) = place else {
-                return Err(Failure::input(format!("{}: no cell {cell:?} in this plane", path.display())));
-            };
-            match place {
+        for (cell, new) in cells {
+            match &mut found[cell[0] * rows + cell[1]] {
                 Some(old) if !agree(old, &new) => {
+                    let path = shard.file(task);
                     let problem = format!("cell {cell:?} is another one in another shard: the machines differ");
                     return Err(Failure { message: format!("{}: {problem}", path.display()), code: 1 });
                 }
                 Some(_) => (),
-                None => *place = Some(new),
+                place => *place = Some(new),
             }
         }
     }
@@ -126,7 +110,11 @@ fn agree(one: &Cell, other: &Cell) -> bool {
 /// Into how many shards the plane was split, by the names of the files.
 fn split(task: &Task) -> Result<usize, Failure> {
     let folder = task.out.join("shards");
-    let entries = std::fs::read_dir(&folder).map_err(|error| with_path(error, &folder))?;
+    let none = || Failure { message: format!("{}: no shard yet", folder.display()), code: 3 };
+    let entries = match std::fs::read_dir(&folder) {
+        Err(error) if error.kind() == ErrorKind::NotFound => return Err(none()),
+        entries => entries.map_err(|error| with_path(error, &folder))?,
+    };
     let mut counts: Vec<usize> = Vec::new();
     for entry in entries {
         let name = entry?.file_name().to_string_lossy().into_owned();
@@ -141,7 +129,7 @@ fn split(task: &Task) -> Result<usize, Failure> {
     counts.dedup();
     match counts[..] {
         [count] => Ok(count),
-        [] => Err(Failure { message: format!("{}: no shard yet", folder.display()), code: 3 }),
+        [] => Err(none()),
         _ => Err(Failure::input(format!("{}: shards of several splits: {counts:?}; must be of one", folder.display()))),
     }
 }

@@ -3,11 +3,11 @@
 use super::Task;
 use crate::failure::Failure;
 use files::write::{atomic, with_path};
-use scene::sweep::tiles::Found;
+use scene::sweep::tiles::{Found, Tile, of_shard, tiles};
 use scene::sweep::{Cell, table};
 use std::fs::File;
 use std::io::{ErrorKind, Write as _};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// Which shard, from 1.
@@ -24,6 +24,34 @@ impl Shard {
 
     pub(super) fn file(&self, task: &Task) -> PathBuf {
         task.out.join("shards").join(format!("{}-of-{}.csv", self.index, self.count))
+    }
+
+    /// Its tiles.
+    pub(super) fn tiles(&self, task: &Task) -> Vec<Tile> {
+        of_shard(&tiles(&task.sweep), self.index - 1, self.count)
+    }
+
+    /// Its cells, all of them and in order; `None` if it was not computed yet.
+    ///
+    /// # Errors
+    /// The file belongs to another scene, program or split, or is damaged: with the line.
+    pub(super) fn read(&self, task: &Task) -> Result<Option<Vec<Found>>, Failure> {
+        let path = self.file(task);
+        let Some(text) = bytes(&path)? else { return Ok(None) };
+        let cells = parse(&path, &text, &self.line(task))?;
+        let mut expected: Vec<[usize; 2]> = self.tiles(task).iter().flat_map(Tile::all).collect();
+        expected.sort_unstable();
+        expected.dedup();
+        let count = expected.len();
+        let differs = expected.iter().zip(&cells).position(|(expected, (cell, _))| expected != cell);
+        let problem = match differs {
+            Some(index) => format!("{}: cell {:?}; must be {:?}", index + 3, cells[index].0, expected[index]),
+            None if cells.len() != count || !text.ends_with('\n') => {
+                format!("{}: {} cells; there must be {count}, each a line", cells.len() + 2, cells.len())
+            }
+            None => return Ok(Some(cells)),
+        };
+        Err(Failure::input(format!("{}:{problem}; {REMEDY}", path.display())))
     }
 }
 
@@ -45,12 +73,12 @@ impl Journal {
     /// # Errors
     /// It belongs to another scene or program: nothing is touched.
     pub(super) fn open(task: &Task, shard: &Shard) -> Result<(Option<Journal>, Vec<Found>), Failure> {
-        let (path, head) = (shard.file(task), shard.line(task));
-        if let Some(found) = read(&path, &head)? {
-            return Ok((None, found.cells.into_iter().filter(|(_, cell)| is_run(cell)).collect()));
+        if let Some(cells) = shard.read(task)? {
+            return Ok((None, cells.into_iter().filter(|(_, cell)| is_run(cell)).collect()));
         }
+        let (path, head) = (shard.file(task), shard.line(task));
         let beside = path.with_extension("part");
-        let known = read(&beside, &head)?.map_or(Vec::new(), |found| found.cells);
+        let known = read_journal(&beside, &head)?;
         // written anew: without what a kill has cut off
         let text = text(&head, &known);
         atomic(&beside, text.as_bytes())?;
@@ -74,8 +102,11 @@ impl Journal {
         found.sort_by_key(|(cell, _)| *cell);
         found.dedup_by_key(|(cell, _)| *cell);
         atomic(&self.shard, text(&self.head, &found).as_bytes())?;
-        std::fs::remove_file(&self.path).map_err(|error| with_path(error, &self.path))?;
-        Ok(())
+        match std::fs::remove_file(&self.path) {
+            // somebody else has computed the same shard at the same time, and was faster
+            Err(error) if error.kind() == ErrorKind::NotFound => Ok(()),
+            removed => Ok(removed.map_err(|error| with_path(error, &self.path))?),
+        }
     }
 }
 
@@ -92,23 +123,35 @@ fn text(head: &str, cells: &[Found]) -> String {
     text
 }
 
-/// The cells of a file.
-pub(super) struct Read {
-    pub(super) cells: Vec<Found>,
-}
-
-/// Reads a shard or a journal; `None` if there is none. A last line that was cut off does not count.
+/// The cells of a journal: none if there is no journal. What a kill has cut off at its end does not count.
 ///
 /// # Errors
-/// It begins with another line than `head`, or is damaged.
-pub(super) fn read(path: &PathBuf, head: &str) -> Result<Option<Read>, Failure> {
-    let bytes = match std::fs::read(path) {
-        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
-        read => read.map_err(|error| with_path(error, path))?,
-    };
-    let text = String::from_utf8_lossy(&bytes);
-    let whole = text.rfind('\n').map_or("", |end| &text[..end]);
-    let mut lines = whole.lines();
+/// It belongs to something else, or is damaged.
+fn read_journal(path: &Path, head: &str) -> Result<Vec<Found>, Failure> {
+    let Some(text) = bytes(path)? else { return Ok(Vec::new()) };
+    let begin = format!("{head}\n{}\n", table::shard_header());
+    if begin.starts_with(&text) {
+        return Ok(Vec::new());
+    }
+    let whole = text.rfind('\n').map_or(text.as_str(), |end| &text[..end]);
+    parse(path, whole, head)
+}
+
+/// A file in whole; `None` if there is none.
+fn bytes(path: &Path) -> Result<Option<String>, Failure> {
+    match std::fs::read(path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(with_path(error, path).into()),
+        // a byte that is no text is found as a word that is none
+        Ok(bytes) => {
+            Ok(Some(String::from_utf8(bytes).unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into())))
+        }
+    }
+}
+
+/// The cells that follow the two first lines.
+fn parse(path: &Path, text: &str, head: &str) -> Result<Vec<Found>, Failure> {
+    let mut lines = text.lines();
     let shown = path.display();
     let first = lines.next().unwrap_or("");
     if first != head {
@@ -119,13 +162,17 @@ pub(super) fn read(path: &PathBuf, head: &str) -> Result<Option<Read>, Failure> 
         };
         return Err(Failure::input(format!("{shown}:1: {first:?}: {problem}; must be {head:?}")));
     }
-    if lines.next() != Some(&table::shard_header()) {
-        return Ok(None);
+    let header = table::shard_header();
+    let second = lines.next().unwrap_or("");
+    if second != header {
+        return Err(Failure::input(format!("{shown}:2: {second:?}: must be {header:?}; {REMEDY}")));
     }
-    let parse = |(index, line): (usize, &str)| {
-        table::parse(line).ok_or_else(|| {
-            Failure::input(format!("{shown}:{}: {line:?}: not a cell of a sweep; remove the file", index + 3))
-        })
+    let cell = |(index, line): (usize, &str)| {
+        table::parse(line)
+            .ok_or_else(|| Failure::input(format!("{shown}:{}: {line:?}: not a cell of a sweep; {REMEDY}", index + 3)))
     };
-    Ok(Some(Read { cells: lines.enumerate().map(parse).collect::<Result<Vec<Found>, Failure>>()? }))
+    lines.enumerate().map(cell).collect()
 }
+
+/// What to do about a damaged file.
+const REMEDY: &str = "the file is damaged: remove it, and compute the shard again";

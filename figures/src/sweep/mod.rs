@@ -7,7 +7,8 @@ mod work;
 use crate::failure::{Failure, print};
 use files::recipe::{self, Kind, Recipe};
 use files::write::{sha256, sha256_file, with_path};
-use scene::sweep::tiles::{of_shard, tiles};
+use journal::Shard;
+use scene::sweep::tiles::tiles;
 use scene::sweep::{self, Sweep};
 use serde_json::json;
 use std::path::PathBuf;
@@ -73,22 +74,22 @@ pub(crate) struct Task {
 pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     let task = read(arguments)?;
     let jobs = arguments.jobs.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
-    let all = tiles(&task.sweep);
     if arguments.dry_run {
         return dry_run(&task, arguments, jobs);
     }
     if arguments.gather {
         return gather::gather(&task, arguments);
     }
-    std::fs::create_dir_all(task.out.join("shards")).map_err(|error| with_path(error, &task.out))?;
     let (index, count) = arguments.shard.unwrap_or((1, 1));
-    if count > all.len() {
-        let problem =
-            format!("--shard {index}/{count}: the plane has {} tiles; there must be no more shards", all.len());
+    let tiles = tiles(&task.sweep).len();
+    if count > tiles {
+        let problem = format!("--shard {index}/{count}: the plane has {tiles} tiles; there must be no more shards");
         return Err(Failure::input(problem));
     }
-    let shard = of_shard(&all, index - 1, count);
-    let computed = Work::new(&task, shard, jobs).run(&journal::Shard { index, count })?;
+    let shard = Shard { index, count };
+    let shards = task.out.join("shards");
+    std::fs::create_dir_all(&shards).map_err(|error| with_path(error, &shards))?;
+    let computed = Work::new(&task, shard.tiles(&task), jobs).run(&shard)?;
     match arguments.shard {
         None => gather::gather(&task, arguments),
         Some(_) if arguments.json => {
@@ -122,14 +123,18 @@ fn read(arguments: &Arguments) -> Result<Task, Failure> {
     Ok(Task { recipe, sweep, hash, out })
 }
 
+/// Seconds of a shard, at most and of one thread: what an engine adds to each is small beside it.
+const OF_A_SHARD: f64 = 600.0;
+
 /// Cells and seconds before anything is computed: some cells are, spread over the plane, and timed.
 fn dry_run(task: &Task, arguments: &Arguments, jobs: usize) -> Result<(), Failure> {
     let sweep = &task.sweep;
     let (cells, tiles) = (sweep.cells(), tiles(sweep));
     let borders = work::least_cells(sweep)?;
     let seconds = work::seconds_of_a_cell(sweep)?;
-    let count = arguments.shard.map_or_else(|| tiles.len().min(64), |(_, count)| count);
     let [least, most] = [borders, cells].map(|cells| seconds * cells as f64 / jobs as f64);
+    let minutes = (most * jobs as f64 / OF_A_SHARD).ceil() as usize;
+    let count = arguments.shard.map_or_else(|| minutes.clamp(1, tiles.len()), |(_, count)| count);
     if arguments.json {
         let range = [if sweep.refine { least } else { most }, most];
         let words = json!({ "schema_version": 1, "cells": cells, "computed_at_least": borders, "tiles": tiles.len(), "seconds": range });

@@ -29,9 +29,10 @@ const SCRIPTS: [Script; 5] = [
 ];
 
 /// Tried by `ci --full` alone.
-const SLOW: [Script; 6] = [
+const SLOW: [Script; 7] = [
     Script { what: "random scenes by SciPy", command: &["checks/hunt.sh"] },
     Script { what: "other machines", command: &["checks/other-machines.sh"] },
+    Script { what: "a sweep by every engine", command: &["checks/sweep-engines.sh"] },
     Script { what: "instruction counts", command: &["checks/cost.sh"] },
     Script { what: "licences and sources of crates", command: &["checks/deny.sh"] },
     Script { what: "kept inputs of the fuzzer", command: &["checks/fuzz.sh", "--regress"] },

@@ -42,12 +42,17 @@ pub fn read(file: &str, tables: &Section) -> Result<Sweep, RecipeError> {
                 place.complaint("parameter", "headway and d_gap determine each other: one of them must be an axis")
             );
         }
+        if let Some(law) = built_in(&tables) {
+            fits(&law, axis).map_err(|problem| place.complaint("parameter", &problem))?;
+        }
         hold_place(file, &mut tables, axis, section)?;
     }
     let mut held = Reader::new(file, "scene", &tables);
     let model = law::read(file, held.section("law")?)?;
-    for (name, section, axis) in [("sweep.x", x_section, &x), ("sweep.y", y_section, &y)] {
-        fits(&model, axis).map_err(|problem| Reader::new(file, name, section).complaint("parameter", &problem))?;
+    if matches!(model, Model::Formula(_)) {
+        for (name, section, axis) in [("sweep.x", x_section, &x), ("sweep.y", y_section, &y)] {
+            fits(&model, axis).map_err(|problem| Reader::new(file, name, section).complaint("parameter", &problem))?;
+        }
     }
     if let Model::Formula(formula) = &model
         && formula.speed_scale().is_none()
@@ -122,14 +127,21 @@ fn hold_place(file: &str, tables: &mut Section, axis: &Axis, section: &Section) 
     Ok(())
 }
 
+/// The law of a scene, with any values, if it is one of the paper; what its parameters are is known before it is read.
+fn built_in(tables: &Section) -> Option<Model> {
+    let Value::Section(law) = &tables.entries.get("law")?.value else { return None };
+    let Value::Text(kind) = &law.entries.get("kind")?.value else { return None };
+    match kind.as_str() {
+        "algebraic" => Some(Model::Algebraic(Algebraic::default())),
+        "exponential" => Some(Model::Exponential(Exponential::default())),
+        "logarithmic" => Some(Model::Logarithmic(Logarithmic::default())),
+        _ => None,
+    }
+}
+
 /// Whether an axis is a parameter of this law.
 fn fits(model: &Model, axis: &Axis) -> Result<(), String> {
-    let own = match model {
-        Model::Algebraic(_) => Model::Algebraic(Algebraic::default()).parameters(),
-        Model::Exponential(_) => Model::Exponential(Exponential::default()).parameters(),
-        Model::Logarithmic(_) => Model::Logarithmic(Logarithmic::default()).parameters(),
-        Model::Formula(_) => model.parameters(),
-    };
+    let own = model.parameters();
     let name = axis.parameter.as_str();
     if name == "d_gap" && !model.has_effective_gap() {
         return Err(format!("the {} law needs the headway, not d_gap: must be headway", model.name()));
