@@ -101,8 +101,8 @@ pub struct Sight<'a, 'w> {
     pub new: &'a [Happening],
     /// The watch that found them.
     pub watch: &'a mut Watch<'w>,
-    /// Whether the tables have ended before.
-    pub is_stopped: bool,
+    /// Whether a sample is taken in it.
+    pub has_sample: bool,
 }
 
 /// Nobody looks on.
@@ -430,10 +430,11 @@ impl Observer for Recorder<'_> {
     fn after(&mut self, step: &mut Step<'_>) -> ControlFlow<()> {
         self.onlooker.after(step);
         let new = self.watch.look(step);
-        let sight = &mut Sight { new: &new, watch: &mut self.watch, is_stopped: self.is_stopped };
-        self.onlooker.seen(step, sight);
+        let stop = new.iter().find(|happening| self.stops(happening)).map(|happening| happening.time);
+        let until = stop.unwrap_or(step.end);
+        let has_sample = !self.is_stopped && self.sampler.next() <= until;
+        self.onlooker.seen(step, &mut Sight { new: &new, watch: &mut self.watch, has_sample });
         if !self.is_stopped {
-            let stop = new.iter().find(|happening| self.stops(happening)).map(|happening| happening.time);
             let until = stop.unwrap_or(self.scene.t_end);
             let record = &mut self.record;
             self.sampler.within(step, until, &mut |t, state| record.take(t, state));
