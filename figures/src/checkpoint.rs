@@ -7,9 +7,11 @@
 use crate::failure::Failure;
 use cpu_time::ProcessTime;
 use files::write::{atomic, sha256, sha256_file};
+use ode::Step;
 use scene::checkpoint::{Checkpoint, Underway};
+use scene::propagated::Propagated;
 use scene::run::Scene;
-use scene::simulation::{Judging, Onlooker, run_from};
+use scene::simulation::{Judging, Onlooker, Sight, run_from};
 use scene::summary::Ended;
 use std::io::{IsTerminal as _, Write as _};
 use std::path::PathBuf;
@@ -37,29 +39,49 @@ fn seconds(text: &str) -> Result<Duration, String> {
     Duration::try_from_secs_f64(seconds).map_err(|error| error.to_string())
 }
 
+/// Errors that are carried along, and the time that this takes.
+struct Timed {
+    propagated: Option<Propagated>,
+    spent: Duration,
+}
+
+impl Onlooker for Timed {
+    fn seen(&mut self, step: &mut Step<'_>, sight: &mut Sight<'_, '_>) {
+        if let Some(propagated) = &mut self.propagated {
+            let begin = Instant::now();
+            propagated.seen(step, sight);
+            self.spent += begin.elapsed();
+        }
+    }
+}
+
 /// Writings take less than this part of the time.
 const WRITING: u32 = 100;
 /// Between two words about progress.
 const SILENCE: Duration = Duration::from_secs(1);
 
 impl Care {
-    /// Runs the scene, from the checkpoint if there is one.
+    /// Runs the scene, from the checkpoint if there is one; if it is to be checked, its steps are asked for their errors.
     ///
     /// # Errors
     /// The program cannot be read, which a checkpoint has to tell from others.
-    pub fn run(&self, scene: &Scene) -> Result<Ended, Failure> {
+    pub fn run(&self, scene: &Scene, is_checked: bool) -> Result<Ended, Failure> {
         let clock = ProcessTime::now();
         let mut keeper = Keeper::new(self, scene)?;
         let (from, before) = keeper.load(scene).unzip();
         let (steps, done) = from.as_ref().map_or((0, 0.0), |from| (from.steps(), from.fraction(scene)));
         keeper.start(done, before.unwrap_or(0.0));
-        let (outcome, broken) = match run_from(scene, from, &mut keeper) {
+        let has_errors = is_checked && from.is_none() && scene.method.needs_series();
+        let propagated = has_errors.then(|| Propagated::new(scene));
+        let mut timed = Timed { propagated, spent: Duration::ZERO };
+        let (outcome, broken) = match run_from(scene, from, &mut (&mut keeper, &mut timed)) {
             Ok(outcome) => (outcome, None),
             Err(broken) => (*broken.outcome.clone(), Some(broken)),
         };
         keeper.end();
-        let seconds = before.unwrap_or(0.0) + clock.elapsed().as_secs_f64();
-        Ok(Ended { outcome, broken, seconds, resumed_steps: steps })
+        let own = clock.elapsed().saturating_sub(timed.spent).as_secs_f64();
+        let (seconds, propagated) = (before.unwrap_or(0.0) + own, timed.propagated);
+        Ok(Ended { outcome, broken, seconds, resumed_steps: steps, propagated })
     }
 
     /// Removes the checkpoint of a run whose results are safe.

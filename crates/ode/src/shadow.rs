@@ -6,6 +6,7 @@
 
 use crate::dense::Step;
 use crate::system::{Measure, System};
+use crate::vector::largest;
 
 /// The error of a solution, step by step.
 #[derive(Clone, Debug)]
@@ -16,6 +17,8 @@ pub struct Shadow {
     added: Vec<f64>,
     /// The orders of the shadow's difference from the solution, as series in time since then; none before the first error.
     rows: Vec<f64>,
+    /// How many orders.
+    orders: usize,
     /// How much larger the difference is than the error.
     scale: f64,
     /// The unit of time of the series.
@@ -28,11 +31,12 @@ pub struct Shadow {
     own: Vec<f64>,
 }
 
-/// Orders of the series of the difference.
+/// Orders of the series of the difference at first, and how many more where these do not reach over a step.
 const ORDERS: usize = 6;
+const MORE: usize = 4;
 
 /// So many steps an expansion lasts at most: what they add is carried on from the next one only.
-const LASTS: f64 = 4.0;
+const LASTS: f64 = 6.0;
 
 /// The part of the difference that may be lost.
 const REST: f64 = 0.05;
@@ -53,6 +57,7 @@ impl Shadow {
             own: zeros,
             error,
             rows: Vec::new(),
+            orders: ORDERS,
             scale: 0.0,
             unit: 1.0,
             elapsed: 0.0,
@@ -76,10 +81,10 @@ impl Shadow {
             self.elapsed = 0.0;
         }
         self.elapsed += h;
-        for (i, (added, own)) in self.added.iter_mut().zip(&self.own).enumerate() {
-            let change = step.ends.after[i] - step.ends.before[i];
-            let rounding = ROUNDING * change.abs();
-            *added += own + if self.error[i] < 0.0 { -rounding } else { rounding };
+        let states = step.ends.before.iter().zip(step.ends.after);
+        let errors = self.error.iter().zip(&self.own);
+        for ((added, (error, own)), (before, after)) in self.added.iter_mut().zip(errors).zip(states) {
+            *added += own + (ROUNDING * (after - before).abs()).copysign(*error);
         }
         self.evaluate();
         true
@@ -99,14 +104,20 @@ impl Shadow {
         self.scale = DISTANCE / size;
         let near: Vec<f64> =
             step.ends.before.iter().zip(&self.error).map(|(state, error)| state + self.scale * error).collect();
-        self.unit = step.stepper.difference(step.system, &near, ORDERS, &mut self.rows);
-        let reach = self.convergent(step);
-        if reach < h {
-            // a stiff system: the step itself is as long as all its orders allow
-            self.unit = step.stepper.difference(step.system, &near, usize::MAX, &mut self.rows);
-            self.reach = h;
-        } else if reach < self.reach {
-            self.reach = reach;
+        loop {
+            self.unit = step.stepper.difference(step.system, &near, self.orders, &mut self.rows);
+            let is_whole = self.rows.len() / self.error.len() < self.orders;
+            let reach = self.convergent(step);
+            if reach < h && !is_whole {
+                // a stiff system: the step itself is nearly as long as all its orders allow
+                self.orders += MORE;
+                continue;
+            }
+            self.orders -= if reach > 2.0 * h && self.orders > ORDERS { MORE } else { 0 };
+            // of all orders the step itself is made
+            let reach = if reach > h { reach } else { h };
+            self.reach = if reach < self.reach { reach } else { self.reach };
+            return;
         }
     }
 
@@ -146,16 +157,13 @@ impl Shadow {
 
 /// The largest error in units of what the tolerance is compared with.
 fn relative(system: &dyn System, state: &[f64], error: &[f64]) -> f64 {
-    let size = |values: &[f64]| {
-        values.iter().fold(0.0, |size: f64, value| if value.abs() <= size { size } else { value.abs() })
-    };
-    let mut largest = 0.0;
+    let mut all = 0.0;
     for group in system.groups() {
         let (states, errors) = (&state[group.range.clone()], &error[group.range]);
         let part = match group.measure {
             Measure::Largest => {
-                let states = size(states);
-                size(errors) / if states > group.floor { states } else { group.floor }
+                let states = largest(states);
+                largest(errors) / if states > group.floor { states } else { group.floor }
             }
             Measure::Smallest => states.iter().zip(errors).fold(0.0, |part, (state, error)| {
                 let size = if state.abs() > group.floor { state.abs() } else { group.floor };
@@ -163,7 +171,7 @@ fn relative(system: &dyn System, state: &[f64], error: &[f64]) -> f64 {
                 if own <= part { part } else { own }
             }),
         };
-        largest = if part <= largest { largest } else { part };
+        all = if part <= all { all } else { part };
     }
-    largest
+    all
 }

@@ -40,7 +40,7 @@ pub fn simulate<'py>(
             Ok(outcome) => (outcome, None),
             Err(broken) => (*broken.outcome.clone(), Some(broken)),
         };
-        let ended = Ended { outcome, broken, seconds: clock.elapsed().as_secs_f64(), resumed_steps: 0 };
+        let ended = Ended { outcome, broken, seconds: clock.elapsed().as_secs_f64(), resumed_steps: 0, propagated: None };
         watch.judging = Judging::No;
         watch.turn_to(ended.outcome.statistics.time, share, 1.0 - share);
         let errors = check.then(|| check::errors_seen(&scene, &ended.outcome, &mut watch));

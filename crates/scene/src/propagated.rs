@@ -35,7 +35,7 @@ impl Onlooker for Propagated {
         if self.is_blind {
             return;
         }
-        if !sight.is_stopped {
+        if sight.has_sample {
             let error = std_error(&step.after()[n..2 * n], &shadow.now()[n..2 * n]);
             self.std = if error <= self.std { self.std } else { error };
         }

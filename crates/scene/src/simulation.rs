@@ -120,8 +120,8 @@ pub struct Sight<'a, 'w> {
     pub new: &'a [Happening],
     /// The watch that found them.
     pub watch: &'a mut Watch<'w>,
-    /// Whether the tables have ended before.
-    pub is_stopped: bool,
+    /// Whether a sample is taken in it.
+    pub has_sample: bool,
 }
 
 /// Nobody looks on.
@@ -467,10 +467,11 @@ impl Observer for Recorder<'_> {
                 return ControlFlow::Break(());
             }
         }
-        let sight = &mut Sight { new: &new, watch: &mut self.watch, is_stopped: self.is_stopped };
-        self.onlooker.seen(step, sight);
+        let stop = new.iter().find(|happening| self.stops(happening)).map(|happening| happening.time);
+        let until = stop.unwrap_or(step.end);
+        let has_sample = !self.is_stopped && self.sampler.next() <= until;
+        self.onlooker.seen(step, &mut Sight { new: &new, watch: &mut self.watch, has_sample });
         if !self.is_stopped {
-            let stop = new.iter().find(|happening| self.stops(happening)).map(|happening| happening.time);
             let until = stop.unwrap_or(self.scene.t_end);
             let record = &mut self.record;
             self.sampler.within(step, until, &mut |t, state| record.take(t, state));

@@ -2,6 +2,7 @@
 
 use crate::check::Errors;
 use crate::map::{Computed, Map};
+use crate::propagated::Propagated;
 use crate::run::Scene;
 use crate::simulation::{Broken, Outcome};
 use crate::uniform::Stability;
@@ -20,6 +21,8 @@ pub struct Ended {
     pub seconds: f64,
     /// Steps that were taken from the checkpoint.
     pub resumed_steps: u64,
+    /// The errors that its steps told, if they were asked, from the start.
+    pub propagated: Option<Propagated>,
 }
 
 /// Of a run: what `summary.json` says.
