@@ -20,6 +20,9 @@ pub struct Propagated {
     events: Vec<f64>,
 }
 
+/// The first order left out is not all that a step leaves out.
+const CAUTION: f64 = 2.0;
+
 impl Onlooker for Propagated {
     fn seen(&mut self, step: &mut Step<'_>, sight: &mut Sight<'_, '_>) {
         if self.is_blind {
@@ -81,9 +84,10 @@ impl Propagated {
         };
         // at a blow-up a rounding of the time is a large part of the state
         let is_blow_up = outcome.events.iter().any(|happening| happening.event == Event::BlowUp);
-        let end = |errors: &[f64], numbers: &[f64]| (!is_blow_up).then(|| largest(errors) + rounding(numbers));
+        let end =
+            |errors: &[f64], numbers: &[f64]| (!is_blow_up).then(|| CAUTION * largest(errors) + rounding(numbers));
         Some(Errors {
-            std: Some(self.std + of_std + f64::MIN_POSITIVE),
+            std: Some(CAUTION * self.std + of_std + f64::MIN_POSITIVE),
             positions: end(&positions, &outcome.positions).map(|error| error + 2.0 * rounding(&outcome.positions)),
             speeds: end(&speeds, &outcome.speeds).map(|error| error + ROUNDINGS * scene.model.desired_speed().abs()),
             events: self.of_events(&outcome.events),
@@ -96,7 +100,7 @@ impl Propagated {
         let mut of_steps = self.events.iter();
         let error = |happening: &Happening| match happening.time {
             0.0 => Some(0.0),
-            time => of_steps.next().map(|error| error + ROUNDINGS * time),
+            time => of_steps.next().map(|error| CAUTION * error + ROUNDINGS * time),
         };
         events.iter().map(error).collect()
     }
