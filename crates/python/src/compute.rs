@@ -11,6 +11,7 @@ use jam::uniform;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use scene::propagated::Propagated;
 use scene::simulation::{Judging, run_from};
 use scene::summary::{self, Ended};
 use scene::{check, uniform::stability};
@@ -36,14 +37,23 @@ pub fn simulate<'py>(
         watch.turn_to(scene.t_end, 0.0, share);
         watch.judging = if outcome { Judging::Along } else { Judging::No };
         let clock = ThreadTime::now();
-        let (outcome, broken) = match run_from(&scene, None, &mut watch) {
+        let has_errors = check && scene.method.needs_series();
+        let mut propagated = has_errors.then(|| Propagated::new(&scene));
+        let made = match &mut propagated {
+            Some(propagated) => run_from(&scene, None, &mut (&mut watch, propagated)),
+            None => run_from(&scene, None, &mut watch),
+        };
+        let (outcome, broken) = match made {
             Ok(outcome) => (outcome, None),
             Err(broken) => (*broken.outcome.clone(), Some(broken)),
         };
-        let ended = Ended { outcome, broken, seconds: clock.elapsed().as_secs_f64(), resumed_steps: 0, propagated: None };
+        let ended = Ended { outcome, broken, seconds: clock.elapsed().as_secs_f64(), resumed_steps: 0, propagated };
         watch.judging = Judging::No;
         watch.turn_to(ended.outcome.statistics.time, share, 1.0 - share);
-        let errors = check.then(|| check::errors_seen(&scene, &ended.outcome, &mut watch));
+        let errors = check.then(|| match &ended.propagated {
+            Some(propagated) => check::errors_of(&scene, &ended.outcome, propagated),
+            None => check::errors_seen(&scene, &ended.outcome, &mut watch),
+        });
         watch.tell(1.0);
         (ended, stability(&scene), errors)
     })?;

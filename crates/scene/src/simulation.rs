@@ -143,6 +143,11 @@ impl<A: Onlooker, B: Onlooker> Onlooker for (A, B) {
         self.0.between(underway);
         self.1.between(underway);
     }
+
+    /// As the first of them wants it.
+    fn judging(&self) -> Judging {
+        self.0.judging()
+    }
 }
 
 /// Somebody else's looks.
@@ -157,6 +162,10 @@ impl<A: Onlooker> Onlooker for &mut A {
 
     fn between(&mut self, underway: &Underway<'_>) {
         (**self).between(underway);
+    }
+
+    fn judging(&self) -> Judging {
+        (**self).judging()
     }
 }
 
