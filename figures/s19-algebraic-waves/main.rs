@@ -3,9 +3,14 @@
 
 use figures::panels::{points, trajectories};
 use figures::{Failure, Job, figure};
-use files::table::Table;
+use files::table::{Cell, Sheet, Table};
+use jam::ring::{Ring, Start};
+use jam::states::FormKind;
+use ode::{Control, Method};
 use plot::style::COLUMN_WIDTH;
 use plot::{Axis, ColorScale, Lines, Picture, Series, SpaceTime};
+use scene::run::Scene;
+use scene::simulation::{Judging, Onlooker, run_from};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -25,7 +30,69 @@ fn tables(job: &mut Job) -> Result<(), Failure> {
     let mut last = Table::new(&["n", "x", "v"]);
     let end = run.rows().map(|row| row[0]).fold(0.0, |end, t| if t > end { t } else { end });
     run.rows().filter(|row| row[0] == end).for_each(|row| last.push(&row[1..]));
-    job.write("last", &last)
+    job.write("last", &last)?;
+    let scene = scene::run::read(&job.recipe.file, &job.panel("main")?.tables)?;
+    job.write_own_rows("varied", &varied(&scene)?)
+}
+
+/// The outcome of the run, with one thing changed at a time: method, start, number of pedestrians at the same headway, width
+/// of the ramp, strength.
+fn varied(scene: &Scene) -> Result<Sheet, Failure> {
+    let mut sheet = Sheet::new(&[
+        "varied",
+        "value",
+        "method",
+        "outcome",
+        "t_decided",
+        "least_gap",
+        "least_speed",
+        "std",
+        "wave_speed",
+    ]);
+    let control = Control::Adaptive { tolerance: 1e-10 };
+    let base = Scene { t_end: 20_000.0, sample: 20_000.0, keeps_trajectories: false, control, ..scene.clone() };
+    let mut add = |varied: &str, value: Cell, scene: Scene| {
+        let outcome = run_from(&scene, None, &mut Judged).map_err(Failure::work)?;
+        let verdict = outcome.verdict.ok_or_else(|| Failure::work("a run without an outcome"))?;
+        let speed = verdict.wave_speed.map_or(Cell::Empty, Cell::Number);
+        let [time, gap, slowest, std] =
+            [verdict.time, verdict.least_gap, verdict.least_speed, verdict.std].map(Cell::Number);
+        let method = Cell::from(scene.method.name());
+        let row = [Cell::from(varied), value, method, Cell::from(verdict.class.name()), time, gap, slowest, std, speed];
+        sheet.push(&row[..]);
+        Ok::<(), Failure>(())
+    };
+    for (method, form) in [(Method::Dop853, base.form), (Method::Verner87, base.form), (Method::Taylor, FormKind::Gaps)]
+    {
+        add("method", Cell::Empty, Scene { method, form, ..base.clone() })?;
+    }
+    for shift in [1e-3, 0.1, 0.3] {
+        add("shift", Cell::Number(shift), Scene { start: Start { shift }, ..base.clone() })?;
+    }
+    for pedestrians in [67, 134, 268] {
+        let ring = Ring { pedestrians, length: scene.ring.headway() * pedestrians as f64 };
+        add("pedestrians", Cell::Number(pedestrians as f64), Scene { ring, ..base.clone() })?;
+    }
+    for (parameter, values) in
+        [("epsilon", &[0.2, 0.1, 0.05, 0.02, 0.01][..]), ("mu", &[0.28, 0.285, 0.29, 0.3, 0.32, 0.34, 0.36])]
+    {
+        for value in values {
+            let model = base.model.with(parameter, *value).map_err(Failure::input)?;
+            let speed = jam::uniform::steady_speed(&model, base.ring.headway()).map_err(Failure::work)?;
+            let steady_speed = Some(speed);
+            add(parameter, Cell::Number(*value), Scene { model, steady_speed, ..base.clone() })?;
+        }
+    }
+    Ok(sheet)
+}
+
+/// Runs end where their outcome is certain.
+struct Judged;
+
+impl Onlooker for Judged {
+    fn judging(&self) -> Judging {
+        Judging::UntilCertain
+    }
 }
 
 fn picture(job: &Job) -> Result<Picture, Failure> {

@@ -124,6 +124,15 @@ impl Job {
         Ok(atomic(&self.arguments.tables.join(format!("{name}.csv")), &finite_csv(name, rows)?)?)
     }
 
+    /// The same, of a figure with one run, for a table that is not made from it.
+    ///
+    /// # Errors
+    /// As [`Job::write_rows`].
+    pub fn write_own_rows(&mut self, name: &str, rows: &Sheet) -> Result<(), Failure> {
+        self.report.insert(name.to_owned(), json!({ "run": "", "error": {} }));
+        self.write_rows(name, rows)
+    }
+
     /// Reads a table of this figure that has words.
     ///
     /// # Errors

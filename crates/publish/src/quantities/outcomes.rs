@@ -18,11 +18,31 @@ pub fn collect(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure>
             all.rounded(&name, 100.0 * share, 2, &shares.name);
         }
     }
-    let window = Sheet::read(source.paths, "data/s19/window.csv")?;
-    all.rounded("waves.least-speed", window.least("v")?, 3, &window.name);
-    all.rounded("waves.largest-speed", window.largest("v")?, 3, &window.name);
-    let std = Sheet::read(source.paths, "data/s19/std.csv")?;
-    let last = std.numbers("std")?.last().copied().unwrap_or(f64::NAN);
-    all.rounded("waves.std", last, 6, &std.name);
+    let varied = Sheet::read(source.paths, "data/s19/varied.csv")?;
+    let name = &varied.name;
+    let run = |what: &str, value: &str| varied.only(&[("varied", what), ("value", value)]);
+    let base = run("shift", "0.1")?;
+    all.rounded("waves.std", base.first("std")?, 4, name);
+    all.rounded("waves.speed", base.first("wave_speed")?, 4, name);
+    all.rounded("waves.slowest", base.first("least_speed")?, 3, name);
+    let spread = |what: &str, column: &str| -> Result<f64, Failure> {
+        let rows = varied.only(&[("varied", what)])?;
+        Ok(rows.largest(column)? - rows.least(column)?)
+    };
+    for what in ["method", "shift"] {
+        all.rounded(&format!("waves.{what}.std-differs"), spread(what, "std")?, 1, name);
+        all.rounded(&format!("waves.{what}.speed-differs"), spread(what, "wave_speed")?, 1, name);
+    }
+    for count in ["134", "268"] {
+        let row = run("pedestrians", count)?;
+        all.rounded(&format!("waves.{count}.speed"), row.first("wave_speed")?, 3, name);
+        all.rounded(&format!("waves.{count}.slowest"), row.first("least_speed")?, 2, name);
+    }
+    for mu in ["0.28", "0.3", "0.34", "0.36"] {
+        let row = run("mu", mu)?;
+        let of = format!("waves.mu-{}", mu.replace('.', "-"));
+        all.rounded(&format!("{of}.std"), row.first("std")?, 2, name);
+        all.rounded(&format!("{of}.slowest"), row.first("least_speed")?, 2, name);
+    }
     Ok(())
 }
