@@ -29,8 +29,9 @@ const SCRIPTS: [Script; 5] = [
 ];
 
 /// Tried by `ci --full` alone.
-const SLOW: [Script; 7] = [
+const SLOW: [Script; 8] = [
     Script { what: "random scenes by SciPy", command: &["checks/hunt.sh"] },
+    Script { what: "a plane of outcomes", command: &["checks/outcomes.sh"] },
     Script { what: "other machines", command: &["checks/other-machines.sh"] },
     Script { what: "a sweep by every engine", command: &["checks/sweep-engines.sh"] },
     Script { what: "instruction counts", command: &["checks/cost.sh"] },
