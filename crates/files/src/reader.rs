@@ -408,7 +408,7 @@ fn shown(value: &Value) -> String {
         Value::Number(number) => format!("{number:?}"),
         Value::Text(text) => format!("{text:?}"),
         Value::Section(_) => "a table".to_owned(),
-        Value::Flag(flag) => format!("{flag}"),
+        Value::Flag(_) => "a value of type boolean".to_owned(),
         Value::Other(kind) => format!("a value of type {kind}"),
     }
 }
