@@ -95,7 +95,7 @@ fn cargo() -> io::Result<()> {
     let slugs = fs::read_dir("figures")?.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
     for name in slugs
         .filter(|slug| slug.contains('-'))
-        .chain(["simulate", "map", "precision", "hard", "studies", "export", "verify", "publish"].map(str::to_owned))
+        .chain(["simulate", "map", "sweep", "precision", "hard", "studies", "export", "verify", "publish"].map(str::to_owned))
     {
         let binary = release.join(name);
         if !binary.exists() {

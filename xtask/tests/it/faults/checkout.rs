@@ -93,7 +93,7 @@ impl Checkout {
         fs::create_dir_all(&release).expect("a folder");
         let names = fs::read_dir(self.root.join("figures")).expect("figures").flatten();
         let slugs = names.filter_map(|entry| entry.file_name().into_string().ok()).filter(|name| name.contains('-'));
-        for name in slugs.chain(["simulate", "map"].map(str::to_owned)) {
+        for name in slugs.chain(["simulate", "map", "sweep"].map(str::to_owned)) {
             link(&built.join(&name), &release.join(&name));
         }
         let cargo = self.root.join("cargo");
