@@ -93,10 +93,9 @@ fn cargo() -> io::Result<()> {
     let release = PathBuf::from(env::var("CARGO_TARGET_DIR").unwrap_or_default()).join("release");
     fs::create_dir_all(&release)?;
     let slugs = fs::read_dir("figures")?.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
-    for name in slugs
-        .filter(|slug| slug.contains('-'))
-        .chain(["simulate", "map", "sweep", "precision", "hard", "studies", "export", "verify", "publish"].map(str::to_owned))
-    {
+    for name in slugs.filter(|slug| slug.contains('-')).chain(
+        ["simulate", "map", "sweep", "precision", "hard", "studies", "export", "verify", "publish"].map(str::to_owned),
+    ) {
         let binary = release.join(name);
         if !binary.exists() {
             fs::hard_link(env::current_exe()?, binary)?;
