@@ -6,7 +6,7 @@ use crate::shop::{Shop, blessed};
 fn shop(name: &str, first: &str) -> Shop {
     let shop = blessed(name);
     shop.write("checks/spot.sh", first);
-    for script in ["pedpy/run.sh", "article.sh", "browser/run.sh"] {
+    for script in ["pedpy/run.sh", "python-door.sh", "article.sh", "browser/run.sh"] {
         shop.write(&format!("checks/{script}"), "echo \"install: ${CHECKS_INSTALL:-no}\"\n");
     }
     shop
