@@ -40,6 +40,10 @@ simulate *args:
 map *args:
     cargo xtask map {{args}}
 
+# what became of the runs of a plane
+sweep *args:
+    cargo xtask sweep {{args}}
+
 # write trajectories for other programs
 export *args:
     cargo xtask export {{args}}

@@ -7,11 +7,16 @@ async function pictures(harness, tables) {
   const opened = await harness.open();
   const { page } = opened;
   const slugs = readdirSync(join(tables.root, 'figures')).filter((slug) => existsSync(join(tables.root, 'figures', slug, 'scene.toml')));
-  const found = await page.evaluate(() => Promise.all([...document.images].map(async (image) => {
-    const decoded = await image.decode().then(() => true, () => false);
-    const { id } = image.closest('article');
-    return { id, decoded, width: image.naturalWidth, address: image.src.slice(0, 30), words: image.alt.length };
-  })));
+  // one after the other: what all of them take at once is more than a browser gives to pictures out of sight
+  const found = await page.evaluate(async () => {
+    const all = [];
+    for (const image of document.images) {
+      const decoded = await image.decode().then(() => true, () => false);
+      const { id } = image.closest('article');
+      all.push({ id, decoded, width: image.naturalWidth, address: image.src.slice(0, 30), words: image.alt.length });
+    }
+    return all;
+  });
   harness.equal('a picture for every figure', found.map((one) => one.id).sort().join(' '), slugs.map((slug) => slug.split('-')[0]).join(' '));
   for (const { id, decoded, width, address, words } of found) {
     harness.check(`the picture of ${id} loads`, decoded && width > 0, `naturalWidth ${width}`);
