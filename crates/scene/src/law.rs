@@ -3,7 +3,7 @@
 use files::reader::{About, Entry, NOT_NEGATIVE, POSITIVE, Reader, RecipeError, Section, Value};
 use formula::{Definition, Given, Place};
 use jam::laws::presets::PRESETS;
-use jam::laws::{Algebraic, Formula, Law, Model, Range};
+use jam::laws::{Algebraic, Exponential, Formula, Law, Logarithmic, Model, Range};
 
 /// Reads `[law]`.
 ///
@@ -38,6 +38,17 @@ const KINDS: [(&str, Kind); 4] = [
     ("logarithmic", Kind::Logarithmic),
     ("formula", Kind::Formula),
 ];
+
+/// The law of `[law]` with any values, if it is one of the paper: what its parameters are is known before it is read.
+pub(crate) fn built_in(section: &Section) -> Option<Model> {
+    let Value::Text(kind) = &section.entries.get("kind")?.value else { return None };
+    match KINDS.iter().find(|(name, _)| name == kind)?.1 {
+        Kind::Algebraic => Some(Model::Algebraic(Algebraic::default())),
+        Kind::Exponential => Some(Model::Exponential(Exponential::default())),
+        Kind::Logarithmic => Some(Model::Logarithmic(Logarithmic::default())),
+        Kind::Formula => None,
+    }
+}
 
 /// The parameters of a law, as its file lists them. Those that are `fixed` to a value must not be given, those fixed to
 /// none must.

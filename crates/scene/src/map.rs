@@ -4,7 +4,7 @@ use crate::law;
 use files::reader::{FINITE, POSITIVE, Reader, RecipeError, Section};
 use files::table::{Table, push_number};
 use jam::criteria;
-use jam::laws::{Algebraic, Exponential, Formula, Logarithmic, Model};
+use jam::laws::{Formula, Model};
 use jam::precise::Precise;
 use jam::stability::{Linear, Waves};
 use jam::uniform::{self, steady_speed};
@@ -201,14 +201,8 @@ fn axis(file: &str, name: &'static str, section: &Section) -> Result<Axis, Recip
 
 /// Which key of this axis does not fit the law, and why, if one does not. Of a formula every name is a parameter, if the formulas use it.
 fn unfit(law: &Section, axis: &Axis) -> Option<(&'static str, String)> {
-    use files::reader::Value;
-    let Value::Text(kind) = &law.entries.get("kind")?.value else { return None };
-    let own = match kind.as_str() {
-        "algebraic" => Model::Algebraic(Algebraic::default()).parameters(),
-        "exponential" => Model::Exponential(Exponential::default()).parameters(),
-        "logarithmic" => Model::Logarithmic(Logarithmic::default()).parameters(),
-        _ => return None,
-    };
+    let law = law::built_in(law)?;
+    let (kind, own) = (law.name(), law.parameters());
     let name = axis.parameter.as_str();
     if !OF_THE_FLOW.contains(&name) && !own.iter().any(|parameter| parameter == name) {
         let valid = [own.join(", "), OF_THE_FLOW.join(", ")].join(", ");

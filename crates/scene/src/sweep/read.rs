@@ -5,7 +5,7 @@ use super::{Settings, Sweep};
 use crate::law;
 use crate::run::{self, AtOverlap, FORMS};
 use files::reader::{Entry, FINITE, POSITIVE, Reader, RecipeError, Section, Value};
-use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
+use jam::laws::Model;
 use jam::ring::{Ring, Start};
 use ode::Control;
 
@@ -42,7 +42,7 @@ pub fn read(file: &str, tables: &Section) -> Result<Sweep, RecipeError> {
                 place.complaint("parameter", "headway and d_gap determine each other: one of them must be an axis")
             );
         }
-        if let Some(law) = built_in(&tables) {
+        if let Some(law) = tables.section("law").and_then(law::built_in) {
             fits(&law, axis).map_err(|problem| place.complaint("parameter", &problem))?;
         }
         hold_place(file, &mut tables, axis, section)?;
@@ -125,18 +125,6 @@ fn hold_place(file: &str, tables: &mut Section, axis: &Axis, section: &Section) 
     }
     below.entries.insert(key.to_owned(), Entry::new(line, Value::Number(axis.centre(0))));
     Ok(())
-}
-
-/// The law of a scene, with any values, if it is one of the paper; what its parameters are is known before it is read.
-fn built_in(tables: &Section) -> Option<Model> {
-    let Value::Section(law) = &tables.entries.get("law")?.value else { return None };
-    let Value::Text(kind) = &law.entries.get("kind")?.value else { return None };
-    match kind.as_str() {
-        "algebraic" => Some(Model::Algebraic(Algebraic::default())),
-        "exponential" => Some(Model::Exponential(Exponential::default())),
-        "logarithmic" => Some(Model::Logarithmic(Logarithmic::default())),
-        _ => None,
-    }
 }
 
 /// Whether an axis is a parameter of this law.
