@@ -91,10 +91,7 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     let scene = read_scene(arguments)?;
     let is_checked = !(arguments.no_check || arguments.check);
     let ended = arguments.care.run(&scene, is_checked)?;
-    let errors = is_checked.then(|| match &ended.propagated {
-        Some(propagated) => check::errors_of(&scene, &ended.outcome, propagated),
-        None => check::errors(&scene, &ended.outcome),
-    });
+    let errors = is_checked.then(|| check::errors_of(&scene, &ended.outcome, ended.propagated.as_ref(), &mut ()));
     let errors = errors.as_ref();
     let flow = stability(&scene);
     let summary = summary::of_run(&scene, &ended, flow, errors);

@@ -80,7 +80,7 @@ const FINEST: f64 = 1e-17;
 
 /// What a run states; of the table of trajectories, of which it states nothing, what [`difference`] finds.
 pub fn of(scene: &Scene, outcome: &Outcome, propagated: &Propagated) -> Stated {
-    let errors = check::errors_of(scene, outcome, propagated);
+    let errors = check::errors_of(scene, outcome, Some(propagated), &mut ());
     let or_none = |error: Option<f64>| error.unwrap_or(f64::INFINITY);
     Stated {
         std: or_none(errors.std),

@@ -50,10 +50,8 @@ pub fn simulate<'py>(
         let ended = Ended { outcome, broken, seconds: clock.elapsed().as_secs_f64(), resumed_steps: 0, propagated };
         watch.judging = Judging::No;
         watch.turn_to(ended.outcome.statistics.time, share, 1.0 - share);
-        let errors = check.then(|| match &ended.propagated {
-            Some(propagated) => check::errors_of(&scene, &ended.outcome, propagated),
-            None => check::errors_seen(&scene, &ended.outcome, &mut watch),
-        });
+        let propagated = ended.propagated.as_ref();
+        let errors = check.then(|| check::errors_of(&scene, &ended.outcome, propagated, &mut watch));
         watch.tell(1.0);
         (ended, stability(&scene), errors)
     })?;

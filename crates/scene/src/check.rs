@@ -45,9 +45,15 @@ const SAME_TIME: f64 = 1e-9;
 /// No number is known better than to so many roundings of the largest of its kind.
 pub(crate) const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
-/// The errors that the steps of the run have told, if they have; else those by a second run.
-pub fn errors_of(scene: &Scene, outcome: &Outcome, propagated: &Propagated) -> Errors {
-    propagated.errors(scene, outcome).unwrap_or_else(|| errors(scene, outcome))
+/// The errors that the steps of the run have told, if they have; else those by a second run, at which somebody may look on.
+pub fn errors_of(
+    scene: &Scene,
+    outcome: &Outcome,
+    propagated: Option<&Propagated>,
+    onlooker: &mut dyn Onlooker,
+) -> Errors {
+    let told = propagated.and_then(|propagated| propagated.errors(scene, outcome));
+    told.unwrap_or_else(|| errors_seen(scene, outcome, onlooker))
 }
 
 /// Runs the scene once more and compares.
@@ -56,7 +62,7 @@ pub fn errors(scene: &Scene, outcome: &Outcome) -> Errors {
 }
 
 /// The same, with somebody who looks on while the scene runs once more.
-pub fn errors_seen(scene: &Scene, outcome: &Outcome, onlooker: &mut dyn Onlooker) -> Errors {
+fn errors_seen(scene: &Scene, outcome: &Outcome, onlooker: &mut dyn Onlooker) -> Errors {
     let Second { scene: second, factor } = second(scene, outcome);
     let other = run_from(&second, None, onlooker).unwrap_or_else(|broken| *broken.outcome);
     let difference = |numbers: &[f64], others: &[f64]| factor * difference(numbers, others);
