@@ -10,12 +10,12 @@ use crate::simulation::Counts;
 use files::table::Table;
 use jam::events::{Event, Happening};
 use jam::jams::{Drift, Jam};
-use jam::outcome::Memory;
+use jam::outcome::{Judge, Memory};
 use jam::states::FormKind;
 use ode::{Control, Mark, Pace, Place, Statistics};
 
 /// A run between two of its steps.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Underway<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) mark: &'a Mark<'a>,
@@ -28,8 +28,8 @@ pub struct Underway<'a> {
     /// When the leg near the walls began, if it has.
     pub(crate) near_walls: Option<f64>,
     pub(crate) earlier: Counts,
-    /// What the judge of its outcome has seen, if there is one.
-    pub(crate) memory: Option<Memory>,
+    /// The judge of its outcome, if there is one.
+    pub(crate) judge: Option<&'a Judge>,
 }
 
 impl Underway<'_> {
@@ -73,7 +73,7 @@ impl Underway<'_> {
             words.count(jam.pedestrians);
             words.numbers(&[jam.extent, jam.centre]);
         }
-        let memory = self.memory.as_ref().map_or(Vec::new(), Memory::to_numbers);
+        let memory = self.judge.map_or(Vec::new(), |judge| judge.remember().to_numbers());
         words.count(memory.len());
         words.numbers(&memory);
         words.0

@@ -526,8 +526,8 @@ impl Observer for Recorder<'_> {
         let (found, earlier, followed) = (self.watch.found(), self.earlier, *followed);
         let near_walls = self.is_near_walls.then_some(*begin);
         let scene = self.scene;
-        let memory = self.judge.as_ref().map(Judge::remember);
-        let underway = Underway { scene, mark, found, std, trajectories, drift, followed, near_walls, earlier, memory };
+        let judge = self.judge.as_ref();
+        let underway = Underway { scene, mark, found, std, trajectories, drift, followed, near_walls, earlier, judge };
         self.onlooker.between(&underway);
     }
 }
