@@ -133,7 +133,8 @@ fn bisected(mut low: f64, mut high: f64, value: impl Fn(f64) -> f64) -> f64 {
 pub fn headway_of_gap(model: &Model, gap: f64) -> Result<f64, NoUniformFlow> {
     let room = |headway: f64| steady_speed(model, headway).map(|speed| model.room(headway, speed, speed));
     let (mut low, mut high) = (model.contact(), model.contact() + gap);
-    while room(high).is_ok_and(|room| room < gap) || room(high).is_err() {
+    let is_enough = |headway: f64| room(headway).is_ok_and(|room| room >= gap);
+    while !is_enough(high) {
         high = model.contact() + 2.0 * (high - model.contact());
         if high > 1e6 * (gap + model.contact()) {
             return Err(none(high));
@@ -144,6 +145,6 @@ pub fn headway_of_gap(model: &Model, gap: f64) -> Result<f64, NoUniformFlow> {
         if middle <= low || middle >= high {
             return Ok(high);
         }
-        if room(middle).is_ok_and(|room| room >= gap) { high = middle } else { low = middle }
+        if is_enough(middle) { high = middle } else { low = middle }
     }
 }

@@ -176,23 +176,23 @@ impl Judge {
         let gaps = Ends { before: (&before.rooms, &before.room_rates), after: (&after.rooms, &after.room_rates), h };
         let speeds =
             Ends { before: (&before.speeds, &before.speed_rates), after: (&after.speeds, &after.speed_rates), h };
-        let lower = |a: f64, b: f64| if b < a { b } else { a };
-        let dips = [gaps.dip(lower(gap, self.block.least_gap)), speeds.dip(lower(speed, self.block.least_speed))];
+        let dips =
+            [gaps.dip(lowest(&[gap, self.block.least_gap])), speeds.dip(lowest(&[speed, self.block.least_speed]))];
         for theta in dips.into_iter().flatten() {
             let within = watch.within(step, theta);
-            (gap, speed) = (lower(gap, lowest(&within.rooms)), lower(speed, lowest(&within.speeds)));
+            (gap, speed) = (lowest(&[gap, lowest(&within.rooms)]), lowest(&[speed, lowest(&within.speeds)]));
         }
         let now = watch.after();
         (self.std, self.contrast) = (spread(&now.speeds), contrast);
         let mean = now.speeds.iter().sum::<f64>() / now.speeds.len() as f64;
         self.block.add(since, self.std, mean, drift(&now.speeds, &now.speed_rates));
-        self.block.contrast = lower(self.block.contrast, contrast);
-        self.block.least_gap = lower(self.block.least_gap, gap);
-        self.block.least_speed = lower(self.block.least_speed, speed);
-        self.least_gap = lower(self.least_gap, gap);
-        self.least_of_all = lower(self.least_of_all, speed);
+        self.block.contrast = lowest(&[self.block.contrast, contrast]);
+        self.block.least_gap = lowest(&[self.block.least_gap, gap]);
+        self.block.least_speed = lowest(&[self.block.least_speed, speed]);
+        self.least_gap = lowest(&[self.least_gap, gap]);
+        self.least_of_all = lowest(&[self.least_of_all, speed]);
         if step.start >= START {
-            self.least_speed = lower(self.least_speed, speed);
+            self.least_speed = lowest(&[self.least_speed, speed]);
         }
         if self.block.duration >= BLOCK {
             self.close_block();
@@ -240,7 +240,7 @@ impl Judge {
     fn window(&self) -> Option<f64> {
         let (recent, _) = last(&self.blocks, 0.0, SHORTEST_WINDOW)?;
         let around = ROUNDS * self.ring.pedestrians as f64 / recent.label_speed().abs();
-        around.is_finite().then_some(if around > SHORTEST_WINDOW { around } else { SHORTEST_WINDOW })
+        around.is_finite().then_some(math::larger(around, SHORTEST_WINDOW))
     }
 
     /// The last two windows of this length, the later first.
@@ -267,9 +267,10 @@ impl Judge {
         let (Some(windows), Some(thirds)) = (self.windows(least), thirds) else {
             return Err(format!("a longer t_end: three windows of at least {least:.0} must fit in"));
         };
-        let contrast = lowest(&[windows[0].contrast, windows[1].contrast]);
-        if !is_above(contrast, CONTRAST * self.scale) {
-            return Err(self.too_weak(contrast));
+        let contrast = |pair: &[Stretch; 2]| lowest(&[pair[0].contrast, pair[1].contrast]);
+        let last_contrast = contrast(&windows);
+        if !is_above(last_contrast, CONTRAST * self.scale) {
+            return Err(self.too_weak(last_contrast));
         }
         let [std, gap] = changes(&windows);
         let missing = format!(
@@ -278,8 +279,7 @@ impl Judge {
             100.0 * gap
         );
         let agree = |pair: &[Stretch; 2]| {
-            let contrast = lowest(&[pair[0].contrast, pair[1].contrast]);
-            is_above(contrast, CONTRAST * self.scale) && changes(pair).iter().all(|change| *change < AGREEMENT)
+            is_above(contrast(pair), CONTRAST * self.scale) && changes(pair).iter().all(|change| *change < AGREEMENT)
         };
         [windows, thirds].into_iter().find(agree).ok_or(missing)
     }

@@ -65,7 +65,7 @@ impl Repeats {
             self.reference = Some(Reference::at_end(watch, step.end));
             return None;
         }
-        let bound = if SAME * scale < SAME_OF_CONTRAST * contrast { SAME * scale } else { SAME_OF_CONTRAST * contrast };
+        let bound = math::smaller(SAME * scale, SAME_OF_CONTRAST * contrast);
         let repetition = reference.again(watch, step, contrast, bound)?;
         self.times += 1;
         self.reference = Some(Reference::at_end(watch, step.end));

@@ -1,5 +1,7 @@
 //! Statistics of a run over blocks of time, and over windows made of them.
 
+use super::least::lowest;
+
 /// What happened in a stretch of time.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Stretch {
@@ -53,11 +55,10 @@ impl Stretch {
 
     /// Adds the next stretch.
     fn join(&mut self, next: &Stretch) {
-        let lower = |a: f64, b: f64| if b < a { b } else { a };
         self.duration += next.duration;
-        self.contrast = lower(self.contrast, next.contrast);
-        self.least_gap = lower(self.least_gap, next.least_gap);
-        self.least_speed = lower(self.least_speed, next.least_speed);
+        self.contrast = lowest(&[self.contrast, next.contrast]);
+        self.least_gap = lowest(&[self.least_gap, next.least_gap]);
+        self.least_speed = lowest(&[self.least_speed, next.least_speed]);
         self.std += next.std;
         self.speed += next.speed;
         self.drift = (self.drift.0 + next.drift.0, self.drift.1 + next.drift.1);
