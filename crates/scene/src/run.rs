@@ -232,13 +232,15 @@ pub(crate) fn uniform_speed(file: &str, section: &Section) -> Result<Option<f64>
 
 /// A formula looks no further than once around the ring.
 fn stencil_fits(ring_reader: &Reader<'_>, law: &Formula, ring: Ring) -> Result<(), RecipeError> {
+    too_wide(law, ring).map_or(Ok(()), |problem| Err(ring_reader.complaint("pedestrians", &problem)))
+}
+
+/// The complaint that a formula looks further than once around the ring.
+pub(crate) fn too_wide(law: &Formula, ring: Ring) -> Option<String> {
     let (behind, ahead) = law.reach();
-    let reach = if behind > ahead { behind } else { ahead };
-    if reach < ring.pedestrians {
-        return Ok(());
-    }
-    let problem = format!("the formulas look {reach} pedestrians away; there must be at least {}", reach + 1);
-    Err(ring_reader.complaint("pedestrians", &problem))
+    let reach = behind.max(ahead);
+    let problem = || format!("the formulas look {reach} pedestrians away; there must be at least {}", reach + 1);
+    (reach >= ring.pedestrians).then(problem)
 }
 
 fn ring(file: &str, ring: &Section, start: &Section, model: &Model) -> Result<(Ring, Start), RecipeError> {

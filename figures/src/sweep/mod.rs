@@ -12,7 +12,6 @@ use scene::sweep::tiles::tiles;
 use scene::sweep::{self, Sweep};
 use serde_json::json;
 use std::path::PathBuf;
-use work::Work;
 
 /// What the command line asks for.
 #[derive(Debug, clap::Parser)]
@@ -89,7 +88,7 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     let shard = Shard { index, count };
     let shards = task.out.join("shards");
     std::fs::create_dir_all(&shards).map_err(|error| with_path(error, &shards))?;
-    let computed = Work::new(&task, shard.tiles(&task), jobs).run(&shard)?;
+    let computed = work::run(&task, shard.tiles(&task), jobs, &shard)?;
     match arguments.shard {
         None => gather::gather(&task, arguments),
         Some(_) if arguments.json => {

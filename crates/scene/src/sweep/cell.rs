@@ -1,7 +1,7 @@
 //! A cell of a sweep: its scene, and what becomes of it.
 
 use super::Sweep;
-use crate::run::{Scene, fitting, flow, without_value};
+use crate::run::{Scene, fitting, flow, too_wide, without_value};
 use crate::simulation::{Judging, Onlooker, run_from};
 use jam::laws::Model;
 use jam::outcome::{Class, Verdict};
@@ -92,12 +92,20 @@ impl Sweep {
     /// The scene of a cell; or the outcome that its start decides.
     ///
     /// # Errors
-    /// A formula without a value: which, and what would be valid.
+    /// A formula without a value: where, which, and what would be valid.
     fn scene(&self, cell: [usize; 2]) -> Result<Result<Scene, Class>, String> {
         self.scene_at(self.at(cell))
     }
 
-    fn scene_at(&self, [x, y]: [f64; 2]) -> Result<Result<Scene, Class>, String> {
+    /// The same at any values of the axes.
+    fn scene_at(&self, at: [f64; 2]) -> Result<Result<Scene, Class>, String> {
+        self.scene_of(at).map_err(|problem| {
+            let ([x, y], [across, up]) = (at, [&self.x.parameter, &self.y.parameter]);
+            format!("at {across} = {x:?}, {up} = {y:?}: {problem}")
+        })
+    }
+
+    fn scene_of(&self, [x, y]: [f64; 2]) -> Result<Result<Scene, Class>, String> {
         let axes = [(self.x.parameter.as_str(), x), (self.y.parameter.as_str(), y)];
         let value = |name: &str| axes.iter().find(|(parameter, _)| *parameter == name).map(|(_, value)| *value);
         let mut model = self.model.clone();
@@ -120,15 +128,10 @@ impl Sweep {
         if room <= 0.0 || start.shift.abs() >= room {
             return Ok(Err(Class::Closed));
         }
-        if let Model::Formula(law) = &model {
-            let (behind, ahead) = law.reach();
-            let reach = if behind > ahead { behind } else { ahead };
-            if reach >= ring.pedestrians {
-                return Err(format!(
-                    "the formulas look {reach} pedestrians away; there must be at least {}",
-                    reach + 1
-                ));
-            }
+        if let Model::Formula(law) = &model
+            && let Some(problem) = too_wide(law, ring)
+        {
+            return Err(problem);
         }
         let steady_speed = match flow(&model, ring, self.speed) {
             Ok(Some(speed)) => speed,
@@ -203,7 +206,7 @@ impl Sweep {
         let other = judged(&Scene { control: looser(scene.control), ..scene });
         let difference = |number: fn(&Verdict) -> f64| (number(&verdict) - number(&other)).abs();
         let errors = [difference(|verdict| verdict.least_gap), difference(|verdict| verdict.least_speed)];
-        let error = if errors[0] > errors[1] { errors[0] } else { errors[1] };
+        let error = math::larger(errors[0], errors[1]);
         let class = if verdict.class == other.class { verdict.class } else { Class::Undecided };
         let numbers = [
             verdict.time,
@@ -244,9 +247,8 @@ fn looser(control: Control) -> Control {
     match control {
         Control::Fixed { step } => Control::Fixed { step: 2.0 * step },
         Control::Adaptive { tolerance } => {
-            let looser = LOOSER * tolerance;
             let most = if tolerance > LOOSEST { 2.0 * tolerance } else { LOOSEST };
-            Control::Adaptive { tolerance: if looser < most { looser } else { most } }
+            Control::Adaptive { tolerance: math::smaller(LOOSER * tolerance, most) }
         }
     }
 }

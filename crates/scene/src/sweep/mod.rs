@@ -5,12 +5,14 @@
 
 mod axis;
 mod cell;
+mod pool;
 mod read;
 pub mod table;
 pub mod tiles;
 
 pub use axis::Axis;
 pub use cell::{Cell, DecidedBy, Exact, NUMBERS, Place};
+pub use pool::Pool;
 pub use read::read;
 
 use crate::run::AtOverlap;

@@ -14,6 +14,7 @@ mod hard;
 mod maps;
 mod outcome;
 mod overrides;
+mod pool;
 mod project;
 mod properties;
 mod published;

@@ -1,0 +1,58 @@
+//! Several tiles at a time: each cell once, the same cells with any number of threads, and an end when it is asked for.
+
+use files::recipe;
+use scene::sweep::tiles::{Found, tiles};
+use scene::sweep::{Pool, Sweep, read};
+use std::sync::Mutex;
+
+/// 30 x 28 cells in four tiles, each cell a run of a moment.
+fn sweep() -> Sweep {
+    let text = "[law]\nkind = \"logarithmic\"\nepsilon = 0.01\n[ring]\npedestrians = 6\nlength = 9.0\n[start]\nshift = 0.1\n[run]\nt_end = 20.0\nmethod = \"dop853\"\ntolerance = 1e-4\n[sweep]\nx = { parameter = \"a_v\", from = 0.0, to = 0.6, cells = 30 }\ny = { parameter = \"v0\", from = 0.5, to = 3.0, cells = 28 }\n";
+    let recipe = recipe::parse("own.toml", text).expect("TOML");
+    read("own.toml", &recipe.panels[0].tables).expect("a sweep")
+}
+
+/// All cells as text, which shows a NaN equal to another; and those that were heard of.
+fn computed(sweep: &Sweep, known: Vec<Found>, jobs: usize) -> (Vec<String>, Vec<Found>) {
+    let heard = Mutex::new(Vec::new());
+    let pool = Pool::new(sweep, tiles(sweep), known);
+    let found = pool.compute(jobs, &|found| {
+        heard.lock().expect("no panic").push(*found);
+        Ok::<(), String>(())
+    });
+    assert_eq!(pool.done(), pool.tiles());
+    let text = found.expect("no error").expect("not stopped").iter().map(|found| format!("{found:?}")).collect();
+    (text, heard.into_inner().expect("no panic"))
+}
+
+#[test]
+fn any_number_of_threads_finds_the_same_and_runs_each_cell_once() {
+    let sweep = sweep();
+    let (one, heard) = computed(&sweep, Vec::new(), 1);
+    let (three, again) = computed(&sweep, Vec::new(), 3);
+    assert_eq!(one, three);
+    let places = |mut heard: Vec<Found>| {
+        heard.sort_by_key(|(cell, _)| *cell);
+        heard.into_iter().map(|(cell, _)| cell).collect::<Vec<_>>()
+    };
+    let (first, second) = (places(heard.clone()), places(again));
+    assert_eq!(first, second);
+    assert!(first.windows(2).all(|pair| pair[0] != pair[1]), "a cell was run twice");
+    let (known, none) = computed(&sweep, heard, 2);
+    assert_eq!((known, none.len()), (one, 0));
+}
+
+#[test]
+fn it_ends_when_it_is_stopped_and_when_who_hears_of_a_cell_cannot_go_on() {
+    let sweep = sweep();
+    let pool = Pool::new(&sweep, tiles(&sweep), Vec::new());
+    let stopped = pool.compute(2, &|_| {
+        pool.stop();
+        Ok::<(), String>(())
+    });
+    assert!(stopped.expect("no error").is_none());
+    assert!(pool.done() < pool.tiles());
+    let pool = Pool::new(&sweep, tiles(&sweep), Vec::new());
+    let failed = pool.compute(2, &|([i, j], _)| Err(format!("no room for {i}, {j}")));
+    assert!(failed.expect_err("it cannot go on").starts_with("no room for "));
+}
