@@ -9,7 +9,7 @@ elif ! command -v typst >/dev/null; then
 fi
 status=0
 "$XTASK" paper || status=$?
-[ $status != 3 ] || { echo "the figures are not made (cargo xtask figures)" >&2; exit 5; }
+[ $status != 3 ] || { echo "the figures are not made (cargo xtask figures --all)" >&2; exit 5; }
 [ $status = 0 ] || exit $status
 installed=--installed
 [ -z "${CHECKS_INSTALL:-}" ] || installed=

@@ -60,9 +60,8 @@ pub fn test(paths: &Paths) -> Result<(), Failure> {
 pub fn ci(paths: &Paths, arguments: &CiArgs) -> Result<(), Failure> {
     cargo(paths, &["fmt", "--all", "--check"])?;
     cargo(paths, &["clippy", "--locked", "--workspace", "--all-targets", "--", "-D", "warnings"])?;
-    // the tables first: the scripts read them
-    eprintln!("ci: figures");
-    figures::run(paths, &FiguresArgs::default())?;
+    // the tables first, those of the supplements among them: the scripts and the article read them
+    every_figure(paths)?;
     let mut untried = tests(paths, true)?;
     eprintln!("ci: verify");
     verify::run(paths, &VerifyArgs::default())?;
@@ -136,11 +135,15 @@ fn archive(paths: &Paths) -> Result<Option<Untried>, Failure> {
     if gate::modified(paths)?.is_none_or(|names| !names.is_empty()) {
         return Ok(Some(("bundle --check", "it needs a commit, and no tracked file that differs from it".to_owned())));
     }
-    eprintln!("ci: figures --all");
-    let selection = Selection { all: true, ..Selection::default() };
-    figures::run(paths, &FiguresArgs { selection, ..FiguresArgs::default() })?;
+    every_figure(paths)?;
     eprintln!("ci: bundle --check");
     publish::bundle(paths, &BundleArgs { out: None, check: true }).map(|()| None)
+}
+
+fn every_figure(paths: &Paths) -> Result<(), Failure> {
+    eprintln!("ci: figures --all");
+    let selection = Selection { all: true, ..Selection::default() };
+    figures::run(paths, &FiguresArgs { selection, ..FiguresArgs::default() })
 }
 
 fn cargo(paths: &Paths, arguments: &[&str]) -> Result<(), Failure> {

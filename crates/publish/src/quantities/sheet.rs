@@ -20,7 +20,7 @@ impl Sheet {
     pub fn read(paths: &Paths, name: &str) -> Result<Sheet, Failure> {
         let path = paths.root.join(name);
         if !path.is_file() {
-            return Err(Failure::Stale(format!("{name}: no such table; cargo xtask figures")));
+            return Err(Failure::Stale(format!("{name}: no such table; cargo xtask figures --all")));
         }
         Ok(Sheet { name: name.to_owned(), cells: table::Sheet::read(&path).map_err(Failure::failed)? })
     }
