@@ -1,6 +1,6 @@
 //! What must be true before a document about the figures is made: they are up to date, and they are the committed ones.
 
-use crate::record::{self, Records};
+use crate::record::{self, Records, Survey};
 use crate::sources::Sources;
 use checkout::failure::Failure;
 use checkout::figure::{self, Figure};
@@ -45,17 +45,25 @@ pub fn figures_verify(paths: &Paths, all: &[Figure]) -> Result<(), Failure> {
 pub fn everything_verifies(paths: &Paths, all: &[Figure]) -> Result<(), Failure> {
     let figures: Vec<&Figure> = all.iter().collect();
     let surveys = record::survey(paths, &figures, &Sources::read(paths)?, &Records::read(paths)?)?;
-    let stale = surveys.iter().filter(|survey| !survey.reasons.is_empty()).map(|survey| survey.figure.id.as_str());
-    let stale: Vec<&str> = stale.collect();
-    if !stale.is_empty() {
-        return Err(Failure::Stale(format!("stale: {}; run cargo xtask figures --all first", stale.join(" "))));
-    }
+    fresh(&surveys)?;
     let committed = Committed::read(paths)?;
     let states = surveys.iter().flat_map(|survey| committed.judge(paths, survey.figure, &survey.outputs));
     let wrong: Vec<String> = states.filter(|(_, state)| *state != State::Same).map(|(name, _)| name).collect();
     match wrong.is_empty() {
         true => Ok(()),
         false => Err(Failure::Differs(format!("not as committed: {}", wrong.join(" ")))),
+    }
+}
+
+/// Checks that nothing is older than what it is made from.
+///
+/// # Errors
+/// Stale: with the figures that are.
+pub fn fresh(surveys: &[Survey<'_>]) -> Result<(), Failure> {
+    let stale = surveys.iter().filter(|survey| !survey.reasons.is_empty()).map(|survey| survey.figure.id.as_str());
+    match stale.collect::<Vec<&str>>() {
+        stale if stale.is_empty() => Ok(()),
+        stale => Err(Failure::Stale(format!("stale: {}; run cargo xtask figures --all first", stale.join(" ")))),
     }
 }
 

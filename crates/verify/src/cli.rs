@@ -142,7 +142,7 @@ fn judge(paths: &Paths, arguments: &JudgeArgs) -> Result<(), Failure> {
         claims::write(paths, &findings.claims.ledger)?;
         eprintln!("{LEDGER} is written as it was found: commit it");
     }
-    conclude(&findings, arguments, &request)
+    conclude(paths, &findings, arguments, &request)
 }
 
 fn findings(
@@ -168,9 +168,11 @@ fn findings(
     })
 }
 
-fn conclude(findings: &Findings, arguments: &JudgeArgs, request: &Request) -> Result<(), Failure> {
+fn conclude(paths: &Paths, findings: &Findings, arguments: &JudgeArgs, request: &Request) -> Result<(), Failure> {
     if findings.are_same() {
-        return disk::remove(&request.base);
+        // what was made in the checkout itself stays
+        let scratch = paths.scratch().base;
+        return if request.base == scratch { disk::remove(&scratch) } else { Ok(()) };
     }
     let mut wrong: Vec<&str> = findings.figures.iter().filter(|one| !one.is_same()).map(|one| &*one.id).collect();
     wrong.extend((!findings.claims.is_same()).then_some("claims"));

@@ -1,7 +1,7 @@
 //! `test` and `ci`: what is run, in which order, and what was not tried here.
 
 use super::{figures, publish, verify};
-use crate::cli::{BundleArgs, CiArgs, FiguresArgs, Selection, VerifyArgs};
+use crate::cli::{BundleArgs, CiArgs, FiguresArgs, Selection};
 use crate::gate;
 use checkout::failure::Failure;
 use checkout::paths::Paths;
@@ -61,10 +61,10 @@ pub fn ci(paths: &Paths, arguments: &CiArgs) -> Result<(), Failure> {
     cargo(paths, &["fmt", "--all", "--check"])?;
     cargo(paths, &["clippy", "--locked", "--workspace", "--all-targets", "--", "-D", "warnings"])?;
     // the tables first, those of the supplements among them: the scripts and the article read them
-    every_figure(paths)?;
+    every_figure(paths, true)?;
     let mut untried = tests(paths, true)?;
     eprintln!("ci: verify");
-    verify::run(paths, &VerifyArgs::default())?;
+    verify::made(paths)?;
     if arguments.full {
         cargo(paths, &["test", "--release", "--locked", "--workspace", "--", "--ignored"])?;
         for script in &SLOW {
@@ -135,15 +135,15 @@ fn archive(paths: &Paths) -> Result<Option<Untried>, Failure> {
     if gate::modified(paths)?.is_none_or(|names| !names.is_empty()) {
         return Ok(Some(("bundle --check", "it needs a commit, and no tracked file that differs from it".to_owned())));
     }
-    every_figure(paths)?;
+    every_figure(paths, false)?;
     eprintln!("ci: bundle --check");
     publish::bundle(paths, &BundleArgs { out: None, check: true }).map(|()| None)
 }
 
-fn every_figure(paths: &Paths) -> Result<(), Failure> {
-    eprintln!("ci: figures --all");
+fn every_figure(paths: &Paths, force: bool) -> Result<(), Failure> {
+    eprintln!("ci: figures --all{}", if force { " --force" } else { "" });
     let selection = Selection { all: true, ..Selection::default() };
-    figures::run(paths, &FiguresArgs { selection, ..FiguresArgs::default() })
+    figures::run(paths, &FiguresArgs { selection, force, ..FiguresArgs::default() })
 }
 
 fn cargo(paths: &Paths, arguments: &[&str]) -> Result<(), Failure> {

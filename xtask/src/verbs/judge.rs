@@ -20,6 +20,16 @@ pub fn program(paths: &Paths) -> Result<Command, Failure> {
     compile::program(paths, "verify", "verify")
 }
 
+/// The program, asked to judge what was made.
+///
+/// # Errors
+/// It cannot be built, or the request cannot be written.
+pub fn about_request(paths: &Paths, request: &Request) -> Result<Command, Failure> {
+    let mut program = program(paths)?;
+    program.arg("judge").arg("--request").arg(self::request(paths, request)?);
+    Ok(program)
+}
+
 /// Starts it; its words are ours.
 ///
 /// # Errors

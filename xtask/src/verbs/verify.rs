@@ -5,6 +5,7 @@ use super::judge;
 use crate::cli::VerifyArgs;
 use crate::compile::{self, Package};
 use crate::costs;
+use crate::gate;
 use crate::lock::Lock;
 use crate::plan::{self, Node, Wish};
 use crate::record::{self, Records, Survey};
@@ -52,14 +53,27 @@ pub fn run(paths: &Paths, arguments: &VerifyArgs) -> Result<(), Failure> {
         jobs: arguments.effort.threads(),
         ..judge::about(&scratch, &all, &sources, &surveys)
     };
-    let mut verify = judge::program(paths)?;
-    verify.arg("judge").arg("--request").arg(judge::request(paths, &request)?);
+    let mut verify = judge::about_request(paths, &request)?;
     let options = [("--tolerant", arguments.tolerant), ("--attest", arguments.attest), ("--json", arguments.json)];
     verify.args(options.iter().filter(|(_, is_given)| *is_given).map(|(name, _)| name));
     if let Some(file) = &arguments.report {
         verify.arg("--report").arg(file);
     }
     judge::run(&mut verify)
+}
+
+/// Judges what `figures --all` has made, where it stands: `ci` has just computed all of it.
+///
+/// # Errors
+/// Stale: something is older than what it is made from. Otherwise as [`run`].
+pub fn made(paths: &Paths) -> Result<(), Failure> {
+    let all = figure::discover(paths)?;
+    let _lock = Lock::take(paths)?;
+    let sources = Sources::read(paths)?;
+    let surveys = record::survey(paths, &figure::select(&all, &[], true)?, &sources, &Records::read(paths)?)?;
+    gate::fresh(&surveys)?;
+    let request = Request { whole: true, all: true, jobs: 1, ..judge::about(paths, &all, &sources, &surveys) };
+    judge::run(&mut judge::about_request(paths, &request)?)
 }
 
 /// The figures meant; without one those of the paper and the supplements that the ledger reads.

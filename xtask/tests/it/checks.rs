@@ -5,6 +5,8 @@ use crate::shop::{Shop, blessed};
 /// A checkout whose scripts all end well, but for the first.
 fn shop(name: &str, first: &str) -> Shop {
     let shop = blessed(name);
+    shop.xtask(&["figures", "--all"]).expect(1);
+    shop.xtask(&["bless", "--all"]).expect(0);
     shop.write("checks/spot.sh", first);
     for script in ["pedpy/run.sh", "python-door.sh", "article.sh", "browser/run.sh"] {
         shop.write(&format!("checks/{script}"), "echo \"install: ${CHECKS_INSTALL:-no}\"\n");
