@@ -178,7 +178,7 @@ pub struct ListArgs {
     /// Which figures.
     #[command(flatten)]
     pub selection: Selection,
-    /// What each figure and each claim costs, as measured by verify --costs; put into REPRODUCING.md as well
+    /// What each figure and each claim costs, as measured by verify --costs; written to data/COSTS.md too
     #[arg(long)]
     pub costs: bool,
     /// The claims with their verdicts in place of the figures

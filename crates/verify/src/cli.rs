@@ -43,7 +43,7 @@ enum Verb {
     Claims(JsonArgs),
     /// A claim, an erratum or a parameter with its tests
     Explain(ExplainArgs),
-    /// What each figure and each claim costs; put into REPRODUCING.md as well
+    /// What each figure and each claim costs; written to data/COSTS.md too
     Costs,
 }
 

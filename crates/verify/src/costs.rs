@@ -1,4 +1,4 @@
-//! The committed costs of figures and claims as tables of a document.
+//! The committed costs of figures and claims as a document.
 
 use checkout::costs::{Cost, Costs, read};
 use checkout::disk;
@@ -10,22 +10,26 @@ use claims::source::Sources;
 use claims::tables::figure_of;
 use std::collections::BTreeSet;
 
-/// The document that shows the costs, by name.
-const REPRODUCING: &str = "REPRODUCING.md";
+/// The document, by name.
+const DOCUMENT: &str = "data/COSTS.md";
 
-/// What stands in the document before the tables.
-const FROM: &str = "<!-- from here on: cargo xtask list --costs -->\n";
+/// What stands before the tables.
+const PREFACE: &str = "# What each figure and each claim costs
 
-/// And behind them.
-const TO: &str = "<!-- up to here -->\n";
+Written by `cargo xtask list --costs` from `data/costs.csv`, which `cargo xtask verify --all --costs` measures: seconds of one
+processor, the largest resident memory, and what lies on the disk afterwards. A run that several figures share counts at the first.
+The second runs that estimate errors are not included. A claim is judged in well below a second once its tables are there; its costs
+are those of the figures that it reads.
 
-/// Puts the tables into the document and prints them.
+";
+
+/// Writes the document and prints the tables.
 ///
 /// # Errors
-/// Usage: the costs or the ledger are malformed. Otherwise the document cannot be read or written.
+/// Usage: the costs or the ledger are malformed. Otherwise the document cannot be written.
 pub fn tell(paths: &Paths) -> Result<(), Failure> {
     let text = markdown(paths, &figure::discover(paths)?)?;
-    put_in_document(paths, &text)?;
+    disk::write_if_changed(&paths.root.join(DOCUMENT), format!("{PREFACE}{text}").as_bytes())?;
     print::out(&text)
 }
 
@@ -87,23 +91,4 @@ fn claims(paths: &Paths, costs: &[(&Figure, Cost)]) -> Result<String, Failure> {
         rows.push_str(&format!("| `cargo xtask explain {id}` | {from} | {cpu:.2} | {memory:.0} | {disk:.1} |\n"));
     }
     Ok(rows)
-}
-
-/// Puts the tables between the two marks of the document; one without marks is left alone.
-///
-/// # Errors
-/// The document cannot be read or written.
-pub fn put_in_document(paths: &Paths, tables: &str) -> Result<(), Failure> {
-    let path = paths.root.join(REPRODUCING);
-    let text = disk::read_text(&path)?.unwrap_or_default();
-    match parts(&text) {
-        Some((before, _, after)) => disk::write_if_changed(&path, format!("{before}{tables}{after}").as_bytes()),
-        None => Ok(()),
-    }
-}
-
-/// What stands before, between and after the marks of the document.
-pub fn parts(text: &str) -> Option<(&str, &str, &str)> {
-    let (start, end) = (text.find(FROM)? + FROM.len(), text.find(TO)?);
-    Some((&text[..start], text.get(start..end)?, &text[end..]))
 }
