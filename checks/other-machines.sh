@@ -2,7 +2,7 @@
 # Makes tables and pictures of the figures on other machines and compares their sums with those of data/SHA256SUMS:
 #   checks/other-machines.sh [--only PART]... [SUMS]       PART: here, environment, nehalem, arm64, wasm
 # What a part needs is installed when this is Debian and the user is root; where that is not possible the part is
-# skipped aloud. Everything is written under target/other-machines. Exit code 1 when a sum differs.
+# reported as skipped. Everything is written under target/other-machines. Exit code 1 when a sum differs.
 set -u -o pipefail
 cd "$(dirname "$0")/.." || exit 2
 root=$PWD

@@ -24,7 +24,7 @@ pub enum Verb {
     Figures(FiguresArgs),
     /// Recompute into a scratch folder and judge against the committed reference: bytes, numbers, pixels, claims
     Verify(VerifyArgs),
-    /// Say what is stale and why, without running anything
+    /// Show what is stale and why; run nothing
     Status(StatusArgs),
     /// Show every input of a figure, which one changed, and the command to rebuild; or a claim with its tests
     Explain(ExplainArgs),
@@ -32,14 +32,14 @@ pub enum Verb {
     List(ListArgs),
     /// Accept new sums after showing what changes
     Bless(BlessArgs),
-    /// Make the tables of accuracy again, compare them with the committed ones, say which method buys which error
+    /// Compute the tables of error against work again and compare them with the committed ones
     Accuracy(AccuracyArgs),
-    /// Measure seconds and instructions of the laws, of steps and of whole runs; against another commit, their ratios
+    /// Measure time and instructions of laws, steps and whole runs; with --against COMMIT, ratios
     #[command(disable_help_flag = true)]
     Bench(ForwardArgs),
-    /// Write the page: one HTML file with everything in it, which opens without a network
+    /// Write the page: one HTML file that needs no network
     Report(ReportArgs),
-    /// Set the report as PDF, with its pictures and its numbers
+    /// Set the article as PDF, with its pictures and numbers
     Paper(PaperArgs),
     /// Write one deterministic archive: sources, crates, tables, pictures, descriptions
     Bundle(BundleArgs),
@@ -49,30 +49,30 @@ pub enum Verb {
     /// Compute a stability map: cargo xtask map SCENE.toml [options]; --help shows the options
     #[command(disable_help_flag = true)]
     Map(ForwardArgs),
-    /// Say what became of the runs of a plane: cargo xtask sweep SCENE.toml --out DIR [options]; --help shows the options
+    /// Classify the runs of a plane by outcome: cargo xtask sweep SCENE.toml --out DIR [options]; --help shows the options
     #[command(disable_help_flag = true)]
     Sweep(ForwardArgs),
     /// Run a scene or a figure and write its trajectories in metres, as PedPy and JuPedSim read them
     #[command(disable_help_flag = true)]
     Export(ForwardArgs),
-    /// Describe the machine and the toolchain
+    /// Describe machine and toolchain
     Describe(JsonArgs),
-    /// Say what is missing and how to get it
+    /// List what is missing and how to get it
     Doctor(JsonArgs),
-    /// Run the tests; those whose tools are missing are listed at the end
+    /// Run the tests; list those whose tools are missing
     Test,
-    /// Run what continuous integration runs
+    /// Run all checks of continuous integration
     Ci(CiArgs),
-    /// Remove what can be made again
+    /// Remove everything that can be made again
     Clean,
 }
 
 /// Which figures are meant.
 #[derive(Clone, Debug, Default, Args)]
 pub struct Selection {
-    /// fig04, 4, a label (fig:stdv_rec) or a prefix of the slug; without one the figures of the paper
+    /// fig04, 4, a label (fig:stdv_rec) or a prefix of the slug [default: all figures of the paper]
     pub ids: Vec<String>,
-    /// The supplements too
+    /// Include the supplements
     #[arg(long, conflicts_with = "ids")]
     pub all: bool,
 }
@@ -80,16 +80,16 @@ pub struct Selection {
 /// How work is spread.
 #[derive(Clone, Debug, Default, Args)]
 pub struct Effort {
-    /// Programs at a time; without it as many as the machine has processors
+    /// Number of programs run in parallel [default: number of processors]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub jobs: Option<u16>,
-    /// Do what can be done after a failure
+    /// Continue with independent figures after a failure
     #[arg(long)]
     pub keep_going: bool,
 }
 
 impl Effort {
-    /// Programs at a time.
+    /// The number of programs run in parallel.
     pub fn threads(&self) -> usize {
         let machine = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
         self.jobs.map_or_else(machine, usize::from)
@@ -105,13 +105,13 @@ pub struct FiguresArgs {
     /// How work is spread.
     #[command(flatten)]
     pub effort: Effort,
-    /// The scene's own method, or the paper's word for word (tables and pictures in a folder of their own)
+    /// The method of the scene, or that of the paper, operation by operation (its tables and pictures have a folder of their own)
     #[arg(long, value_enum, default_value_t)]
     pub scheme: Scheme,
-    /// Do everything again, from the start: runs that were killed do not go on
+    /// Compute everything again from the start; ignore stored results and checkpoints
     #[arg(long)]
     pub force: bool,
-    /// Show the plan and how long it takes, and run nothing
+    /// Show the plan and the time it takes; run nothing
     #[arg(long)]
     pub dry_run: bool,
     /// Print JSON
@@ -128,16 +128,16 @@ pub struct VerifyArgs {
     /// How work is spread.
     #[command(flatten)]
     pub effort: Effort,
-    /// End with code 0 when all that differs is within the tolerances of data/tolerances.toml
+    /// Exit with code 0 if all differences are within data/tolerances.toml
     #[arg(long)]
     pub tolerant: bool,
-    /// Only what fits into this time by the seconds of earlier runs, compilation not counted: 60s, 2m
+    /// Verify only the figures that fit into this time, judged by earlier runs, without compilation: 60s, 2m
     #[arg(long, value_name = "TIME", value_parser = seconds)]
     pub budget: Option<f64>,
-    /// Write a page that shows what differs
+    /// Write an HTML page of the differences
     #[arg(long, value_name = "FILE.html")]
     pub report: Option<PathBuf>,
-    /// Append machine, toolchain and sums to data/attestations.jsonl, if they are not there yet
+    /// Append machine, toolchain and sums to data/attestations.jsonl unless they are there
     #[arg(long, conflicts_with_all = ["ids", "budget"])]
     pub attest: bool,
     /// Measure seconds, memory and disk of each program, one at a time, and write data/costs.csv
@@ -154,7 +154,7 @@ pub struct StatusArgs {
     /// Which figures.
     #[command(flatten)]
     pub selection: Selection,
-    /// End with code 3 when something is stale
+    /// Exit with code 3 if something is stale
     #[arg(long)]
     pub exit_code: bool,
     /// Print JSON
@@ -165,7 +165,7 @@ pub struct StatusArgs {
 /// Options of `explain`.
 #[derive(Debug, Args)]
 pub struct ExplainArgs {
-    /// The figure; or the id of a claim, an erratum or a parameter, which is shown with its tests
+    /// A figure; or a claim, an erratum or a parameter, shown with its tests
     pub id: String,
     /// Print JSON
     #[arg(long)]
@@ -181,7 +181,7 @@ pub struct ListArgs {
     /// What each figure and each claim costs, as measured by verify --costs; written to data/COSTS.md too
     #[arg(long)]
     pub costs: bool,
-    /// The claims with their verdicts in place of the figures
+    /// List claims and their verdicts instead of figures
     #[arg(long, conflicts_with_all = ["ids", "all"])]
     pub claims: bool,
     /// Print JSON
@@ -195,10 +195,10 @@ pub struct BlessArgs {
     /// Which figures.
     #[command(flatten)]
     pub selection: Selection,
-    /// Whose sums
+    /// The scheme whose sums are accepted
     #[arg(long, value_enum, default_value_t)]
     pub scheme: Scheme,
-    /// Accept figures whose numbers moved
+    /// Accept numbers that moved
     #[arg(long)]
     pub numbers: bool,
 }
@@ -206,13 +206,13 @@ pub struct BlessArgs {
 /// Options of `accuracy`.
 #[derive(Debug, Args)]
 pub struct AccuracyArgs {
-    /// Half a minute: only rows of few right-hand sides, which must be among the committed ones
+    /// Only the cheap rows, in half a minute; they must be among the committed ones
     #[arg(long, conflicts_with_all = ["full", "seconds", "bless"])]
     pub quick: bool,
-    /// Rows of more right-hand sides as well
+    /// Include expensive rows
     #[arg(long, conflicts_with_all = ["seconds", "bless"])]
     pub full: bool,
-    /// Measure the archived seconds again, one program at a time
+    /// Measure the archived times again, one program at a time
     #[arg(long)]
     pub seconds: bool,
     /// Accept the tables and write their sums
@@ -226,10 +226,10 @@ pub struct AccuracyArgs {
 /// Options of `bundle`.
 #[derive(Debug, Args)]
 pub struct BundleArgs {
-    /// Where to; without it below the target folder
+    /// Where to write it [default: below target]
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Unpack it, validate its descriptions, and run the README's commands in it without a network
+    /// Unpack it, validate its descriptions, and run the README's commands in it offline
     #[arg(long)]
     pub check: bool,
 }
@@ -246,10 +246,10 @@ fn seconds(text: &str) -> Result<f64, String> {
 /// Options of `report`.
 #[derive(Debug, Args)]
 pub struct ReportArgs {
-    /// Where to write the page, in place of paper/report.html
+    /// Where to write the page [default: paper/report.html]
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// End with code 1 when it has not the committed sum
+    /// Exit with code 1 if its sum is not the committed one
     #[arg(long)]
     pub check: bool,
 }
@@ -273,7 +273,7 @@ pub struct JsonArgs {
 /// Options of `paper`.
 #[derive(Debug, Default, Args)]
 pub struct PaperArgs {
-    /// Accept the numbers and the sums of the document and of its pictures
+    /// Accept the numbers and the sums of the article and of its pictures
     #[arg(long)]
     pub bless: bool,
 }
@@ -281,7 +281,7 @@ pub struct PaperArgs {
 /// Options of `ci`.
 #[derive(Debug, Args)]
 pub struct CiArgs {
-    /// The slow checks as well
+    /// Include the slow checks
     #[arg(long)]
     pub full: bool,
 }

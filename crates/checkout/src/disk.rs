@@ -46,7 +46,7 @@ pub fn read_own(path: &Path) -> String {
     if is_file { fs::read_to_string(path).unwrap_or_default() } else { String::new() }
 }
 
-/// Writes a file of the runner's own whole or not at all; whatever else has its name gives way.
+/// Writes a file of the runner's own whole or not at all; anything else of that name is removed.
 ///
 /// # Errors
 /// A folder or the file cannot be written, or what is in the way not be removed.
@@ -58,7 +58,7 @@ pub fn write_own(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     write(path, bytes)
 }
 
-/// Makes a folder of the runner's own and those above it; a file or a dead link of this name gives way.
+/// Makes a folder of the runner's own and those above it; a file or a dead link of this name is removed.
 ///
 /// # Errors
 /// The folder cannot be made, or what is in the way not be removed.

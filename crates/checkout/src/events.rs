@@ -85,7 +85,7 @@ fn cells(line: &str) -> Vec<&str> {
     if line.contains(char::is_control) { Vec::new() } else { line.split(',').collect() }
 }
 
-/// A time as written; none that is no finite number.
+/// A time as written, if it is finite.
 fn time(text: &str) -> Option<f64> {
     text.parse().ok().filter(|t: &f64| t.is_finite())
 }

@@ -25,7 +25,7 @@ pub struct Request {
     pub all: bool,
     /// Figures that did not fit into a budget, with their seconds where they are known.
     pub left_out: Vec<(String, Option<f64>)>,
-    /// Programs at a time.
+    /// The number of programs run in parallel.
     pub jobs: usize,
 }
 

@@ -85,7 +85,7 @@ impl Controller {
         (SAFETY * integral * proportional).clamp(SMALLEST, LARGEST)
     }
 
-    /// The factor for another try after a rejected step; an error that is no number asks for the smallest.
+    /// The factor for another try after a rejected step; NaN asks for the smallest.
     pub(crate) fn reject(&self, error: f64) -> f64 {
         if error.is_finite() { (SAFETY * math::pow(error, -self.exponent)).clamp(SMALLEST, 0.9) } else { SMALLEST }
     }

@@ -183,7 +183,7 @@ fn power_of_two(number: f64) -> f64 {
 }
 
 /// The step over which a term of order `k` with this coefficient, in units of the tolerance, grows to 1. `None` for a
-/// coefficient that is no number; for one that vanishes, a step beyond every run.
+/// NaN coefficient; for one that vanishes, a step beyond every run.
 fn step_of_term(coefficient: f64, k: usize) -> Option<f64> {
     if !coefficient.is_finite() {
         return None;

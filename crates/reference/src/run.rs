@@ -147,7 +147,7 @@ impl Run {
         self.ring.rates(&self.state, &mut self.rates);
     }
 
-    /// The estimated error of the step just tried, in units of the tolerance; infinite if it is no number.
+    /// The estimated error of the step just tried, in units of the tolerance; infinite if it is NaN.
     fn error(&self) -> f64 {
         let n = self.ring.pedestrians;
         let is_singular = self.ring.law.is_singular();

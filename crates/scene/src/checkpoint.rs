@@ -1,4 +1,4 @@
-//! A run on its way, as bytes, to be gone on with later to the same bits. Pure: who writes them
+//! A checkpoint of a run, as bytes, from which it resumes with the same bits. Pure: who writes them
 //! where, and how often, is the caller's business.
 //!
 //! The bytes are 64-bit words, low byte first, numbers by their bits: place, counts, state, pace, events, samples, jams, what the judge has seen. What
@@ -80,7 +80,7 @@ impl Underway<'_> {
     }
 }
 
-/// A run to be gone on with.
+/// A run to resume.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Checkpoint {
     pub(crate) place: Place,

@@ -28,7 +28,7 @@ pub struct Attestation {
     pub rustc: String,
     /// Processors that may be used.
     pub processors: usize,
-    /// Programs at a time.
+    /// The number of programs run in parallel.
     pub jobs: usize,
     /// SHA-256 over the list of sums of the paper's figures, as they were made.
     pub sums: String,

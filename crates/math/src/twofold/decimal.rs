@@ -31,7 +31,7 @@ pub fn format(value: Twofold, digits: usize) -> String {
 }
 
 /// The number that a decimal text means, with a relative error below 2^-98 (digits from the 39th on are not read); none
-/// if it is no number. For sizes between about 1e-250 and 1e250.
+/// if it is NaN. For sizes between about 1e-250 and 1e250.
 pub fn parse(text: &str) -> Option<Twofold> {
     let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
     let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));

@@ -65,7 +65,7 @@ impl Form {
         Form::plain(format!("{value:.decimals$}({digit})"))
     }
 
-    /// A text that is no number, or one written out.
+    /// A text that is not a number, or one written out.
     pub fn plain(text: String) -> Form {
         Form { mantissa: text, exponent: None }
     }

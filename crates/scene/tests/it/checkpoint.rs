@@ -1,4 +1,4 @@
-//! Checkpoints: a run gone on with from any of them is the run that never stopped, to the last bit.
+//! Checkpoints: a run resumed from any of them is the run that never stopped, to the last bit.
 
 use crate::project::figure;
 use files::recipe;

@@ -68,7 +68,7 @@ fn every_number_of_a_figure_has_an_origin_and_the_other_way_round() {
             assert!(origin.is_some_and(|(_, from)| !from.trim().is_empty()), "{}: {key} has no origin", recipe.file);
         }
         for (key, _) in &recipe.origin {
-            assert!(keys.contains(key), "{}: origin of {key}, which is no number of the scene", recipe.file);
+            assert!(keys.contains(key), "{}: origin of {key}, which is not a number of the scene", recipe.file);
         }
         count += keys.len();
     }

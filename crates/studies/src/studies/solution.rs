@@ -55,7 +55,7 @@ pub fn spreads(folder: &Path) -> Result<Vec<f64>, Failure> {
 fn rows(file: &Path) -> Result<Vec<Vec<Twofold>>, Failure> {
     let text = std::fs::read_to_string(file).map_err(|error| with_path(error, file))?;
     let numbers = |line: &str| line.split(',').map(decimal::parse).collect::<Option<Vec<Twofold>>>();
-    let damaged = || Failure::work(format!("{}: a cell is no number", file.display()));
+    let damaged = || Failure::work(format!("{}: a cell is not a number", file.display()));
     text.lines().skip(1).map(|line| numbers(line).ok_or_else(damaged)).collect()
 }
 
