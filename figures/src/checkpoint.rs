@@ -20,16 +20,16 @@ use std::time::{Duration, Instant};
 /// How a long run is looked after.
 #[derive(Debug, clap::Args)]
 pub struct Care {
-    /// File from which the run goes on, if it is there; written as the run goes, removed at its end; not with --steps
+    /// Resume from FILE if it exists; updated while the run progresses, removed at its end
     #[arg(long, value_name = "FILE")]
     checkpoint: Option<PathBuf>,
-    /// Seconds between two writings of that file, at least; more where writing takes more than a hundredth of the time
+    /// Least time between two updates of that file; longer where updates would take more than a hundredth of the run
     #[arg(long, value_name = "SECONDS", default_value = "5", value_parser = seconds)]
     checkpoint_every: Duration,
-    /// Say how far the run is, a line a second on stderr: `progress 0.42`, or `resumed 0.40` at the start
+    /// Report progress on stderr, a line a second: `progress 0.42`, or `resumed 0.40` at the start
     #[arg(long)]
     progress: bool,
-    /// Leave out what became of the run
+    /// Do not classify the outcome of the run
     #[arg(long)]
     no_outcome: bool,
 }

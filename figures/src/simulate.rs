@@ -34,7 +34,7 @@ pub struct Arguments {
     /// Folder for std.csv, trajectories.csv, events.csv, summary.json and pictures; made if missing
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Tables and summary only, no pictures
+    /// Write tables and summary, no pictures
     #[arg(long)]
     tables_only: bool,
     #[arg(long, help = methods())]
@@ -57,10 +57,10 @@ pub struct Arguments {
     /// The scheme: as the scene says, or the paper's (Heun, steps of 1e-5, positions)
     #[arg(long, value_parser = ["adaptive", "paper"], default_value = "adaptive")]
     scheme: String,
-    /// The independent run that estimates the error: another method at a tighter tolerance
+    /// Run by another method at a tighter tolerance, to estimate the error
     #[arg(long, conflicts_with_all = ["method", "tol", "dt"])]
     check: bool,
-    /// Leave out the second run, which estimates the errors of the numbers; with --check it is left out, too
+    /// Do not estimate the errors of the numbers
     #[arg(long)]
     no_check: bool,
     /// Progress and checkpoints.

@@ -33,10 +33,10 @@ struct Arguments {
     /// which the paper calls typical: 0.6 for figure 11
     #[arg(long, value_name = "METRES", value_parser = positive, allow_negative_numbers = true)]
     a0: Option<f64>,
-    /// tau in seconds, the relaxation time; the default is what the paper calls typical
+    /// tau in seconds, the relaxation time; the default is typical according to the paper
     #[arg(long, value_name = "SECONDS", default_value = "0.5", value_parser = positive, allow_negative_numbers = true)]
     tau: f64,
-    /// Frames a second: 1 to 1000, decimals too
+    /// Frames per second, 1 to 1000; decimals are allowed
     #[arg(long, value_name = "N", default_value = "8", value_parser = rate, allow_negative_numbers = true)]
     fps: f64,
     /// Time at which the run ends, in units of tau; by default that of the scene

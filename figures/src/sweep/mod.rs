@@ -15,7 +15,7 @@ use std::path::PathBuf;
 
 /// What the command line asks for.
 #[derive(Debug, clap::Parser)]
-#[command(name = "sweep", about = "Says what became of the runs of a plane: a table of outcomes and its picture")]
+#[command(name = "sweep", about = "Classifies the runs of a plane by outcome; writes a table and its picture")]
 pub struct Arguments {
     /// The scene file, with [sweep]
     scene: PathBuf,
@@ -25,16 +25,16 @@ pub struct Arguments {
     /// Folder for cells.csv, sweep.png, sweep.svg, summary.json, SHA256SUMS and shards; made if missing
     #[arg(long, value_name = "DIR", required_unless_present = "dry_run")]
     out: Option<PathBuf>,
-    /// Compute this part of the plane only: into DIR/shards/I-of-N.csv
+    /// Compute only this part of the plane, into DIR/shards/I-of-N.csv
     #[arg(long, value_name = "I/N", value_parser = shard, conflicts_with = "gather")]
     shard: Option<(usize, usize)>,
-    /// Put the shards in DIR together: table, picture, sums
+    /// Gather the shards in DIR: table, picture, sums
     #[arg(long)]
     gather: bool,
-    /// Threads; all processors if it is left out
+    /// Number of threads [default: number of processors]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
-    /// Say how many cells there are, how long they take, and the command of every shard; compute nothing
+    /// Print the number of cells, the time they take, and the command of each shard; compute nothing
     #[arg(long)]
     dry_run: bool,
     /// Table only, no picture
