@@ -268,7 +268,7 @@ from_source() {
 
 # 32 bits, with SSE2; run by this processor.
 part_i686() {
-  from_source i686 i686-unknown-linux-gnu i686-linux-gnu 'gcc-i686-linux-gnu libc6-i386 lib32gcc-s1'
+  from_source i686 i686-unknown-linux-gnu i686-linux-gnu 'gcc-i686-linux-gnu libc6-dev-i386-cross libc6-i386 lib32gcc-s1'
 }
 
 part_riscv64() {
