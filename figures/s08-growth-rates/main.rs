@@ -43,8 +43,9 @@ const LAWS: [Law; 3] = [
 
 /// Ticks of an axis of wave numbers.
 const WAVE_NUMBERS: [(f64, &str); 3] = [(0.0, "0"), (0.5 * PI, "$\\pi/2$"), (PI, "$\\pi$")];
-/// The ends of the axis of residuals.
-const RESIDUALS: f64 = 2e-15;
+/// The unit of the axis of residuals, and its ends in that unit.
+const RESIDUAL: f64 = 1e-15;
+const RESIDUALS: f64 = 2.0;
 
 fn tables(job: &mut Job) -> Result<(), Failure> {
     for law in &LAWS {
@@ -89,7 +90,7 @@ fn rates(job: &Job, law: &Law, is_labelled: bool) -> Result<Lines, Failure> {
 const MARKERS: [Marker; 2] = [Marker::Circle, Marker::Square];
 
 fn residuals(job: &Job, law: &Law, is_labelled: bool) -> Result<Lines, Failure> {
-    let label = if is_labelled { "residual" } else { "" };
+    let label = if is_labelled { "residual / $10^{-15}$" } else { "" };
     let mut panel = Lines::new(
         Axis::linear("wave number $k$", 0.0, PI).ticks(&WAVE_NUMBERS),
         Axis::linear(label, -RESIDUALS, RESIDUALS).steps(4),
@@ -97,6 +98,7 @@ fn residuals(job: &Job, law: &Law, is_labelled: bool) -> Result<Lines, Failure> 
     .horizontal(0.0);
     for (index, (flow, _)) in law.flows.into_iter().enumerate() {
         let left = points(&job.read(&format!("{}_{flow}", law.name))?, "k", "residual")?;
+        let left = left.into_iter().map(|(k, residual)| (k, residual / RESIDUAL)).collect();
         panel = panel.series(Series::points("", MARKERS[index], left).look(index));
     }
     Ok(panel)

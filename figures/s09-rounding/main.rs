@@ -1,5 +1,5 @@
 //! Supplement 9: what rounding does to Heun's scheme on the stable run of figure 4, against the length of the step; and
-//! the curve of the paper's scheme, steps of 1e-5 in positions, wrapped and unwrapped, on top of the true one.
+//! the curve of the paper's scheme, steps of 1e-5 in positions, wrapped and unwrapped, beside the solution.
 
 use figures::panels::points;
 use figures::titles::number;
@@ -43,7 +43,7 @@ fn picture(job: &Job) -> Result<Picture, Failure> {
     Ok(Picture::new(COLUMN_WIDTH, 165.0)
         .columns(1)
         .titled(&format!("error of the gaps at $t = {}$", number(TIME)), against_step(job, "error_gap")?)
-        .titled("of it, rounding; hollow: compensated sums", against_step(job, "rounding_gap")?)
+        .titled("part of rounding; hollow: compensated sums", against_step(job, "rounding_gap")?)
         .titled("figure 4 (a) by Heun, $\\Delta t = 10^{-5}$", verbatim(job)?))
 }
 
@@ -69,7 +69,7 @@ fn verbatim(job: &Job) -> Result<Lines, Failure> {
     let table = job.read("verbatim")?;
     Ok(Lines::new(Axis::linear("$t$", 0.0, 2000.0).steps(4), Axis::log10("std of speeds", 1e-9, 1e-5))
         .legend(Corner::TopRight)
-        .series(Series::line("true", points(&table, "t", "exact")?).look(0).thick(2.0))
+        .series(Series::line("solution", points(&table, "t", "exact")?).look(0).thick(2.0))
         .series(Series::line("positions, unwrapped", points(&table, "t", "std")?).look(1))
         .series(Series::line("positions, wrapped", points(&table, "t", "wrapped")?).look(2)))
 }

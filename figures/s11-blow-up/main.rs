@@ -32,7 +32,7 @@ fn picture(job: &Job) -> Result<Picture, Failure> {
     Ok(Picture::new(COLUMN_WIDTH, 150.0)
         .columns(1)
         .titled("speeds double from collision to collision", speeds(&cascade)?)
-        .titled("the smallest gap closes as the square of the time left", rooms(job, &cascade)?)
+        .titled("least gaps of collisions fall as the square of the time left", rooms(job, &cascade)?)
         .titled("fixed steps report an overlap before $T^*$", steps(job)?))
 }
 

@@ -46,13 +46,14 @@ fn ring(job: &Job) -> Result<Lines, Failure> {
     let axes = (Axis::log10("pedestrians $N$", 3.0, 2000.0), Axis::log10("above that for all waves", 1e-6, 2.0));
     let mut panel = Lines::new(axes.0, axes.1).guide(&[slope(4.0), slope(2000.0)]).note("$\\pi^2 / N^2$", (60.0, 8e-3));
     let quantities = [
-        ("critical_mu", "$\\mu$", Marker::Circle),
-        ("critical_a", "$a$", Marker::Square),
-        ("critical_v0", "$v_0'$", Marker::Triangle),
+        ("critical_mu", "$\\mu$", Marker::Circle, 1.0),
+        // these two lie on each other
+        ("critical_a", "$a$", Marker::Square, 1.6),
+        ("critical_v0", "$v_0'$", Marker::Triangle, 0.8),
     ];
-    for (word, name, marker) in quantities {
+    for (word, name, marker, size) in quantities {
         let points = pairs(job, "ring", &[("quantity", word)], "pedestrians", "above")?;
-        panel = panel.series(Series::points(name, marker, points));
+        panel = panel.series(Series::points(name, marker, points).marker_size(size));
     }
     Ok(panel.legend(Corner::BottomLeft))
 }
@@ -67,9 +68,19 @@ fn relative_speed(job: &Job) -> Result<Lines, Failure> {
         .series(Series::line("", points).marker(Marker::Circle)))
 }
 
+/// A margin on an axis that is linear near 0 and logarithmic far from it: the inverse hyperbolic sine of five times it.
+fn shrunk(margin: f64) -> f64 {
+    let five = 5.0 * margin.abs();
+    math::ln(five + (five * five + 1.0).sqrt()).copysign(margin)
+}
+
 fn widening(job: &Job) -> Result<Lines, Failure> {
-    let axes =
-        (Axis::linear("$\\tilde a_v$", 0.0, 1.0).steps(5), Axis::linear("margin of long waves", -1.5, 1.0).steps(5));
+    let ticks = [-1.0, -0.3, 0.0, 0.3, 1.0, 3.0, 10.0].map(|margin| (shrunk(margin), margin.to_string()));
+    let ticks: Vec<(f64, &str)> = ticks.iter().map(|(place, text)| (*place, text.as_str())).collect();
+    let axes = (
+        Axis::linear("$\\tilde a_v$", 0.0, 1.0).steps(5),
+        Axis::linear("margin of long waves", shrunk(-5.0), shrunk(25.0)).ticks(&ticks),
+    );
     let lines = [
         ("algebraic", "density", "algebraic, given density"),
         ("algebraic", "gap", "algebraic, given $d'$"),
@@ -77,9 +88,10 @@ fn widening(job: &Job) -> Result<Lines, Failure> {
         ("exponential", "gap", "exponential, given $d'$"),
     ];
     let mut panel =
-        Lines::new(axes.0, axes.1).horizontal(0.0).note("unstable", (0.62, 0.08)).note("stable", (0.62, -0.2));
+        Lines::new(axes.0, axes.1).horizontal(0.0).note("unstable", (0.62, 0.1)).note("stable", (0.62, -0.3));
     for (law, fixed, name) in lines {
         let points = pairs(job, "widening", &[("law", law), ("fixed", fixed)], "a_v", "margin")?;
+        let points = points.into_iter().map(|(a_v, margin)| (a_v, shrunk(margin))).collect();
         panel = panel.series(Series::line(name, points));
     }
     Ok(panel.legend(Corner::BottomLeft))
@@ -94,5 +106,9 @@ fn contact(job: &Job) -> Result<Lines, Failure> {
         .legend(Corner::TopRight)
         .vertical(begin)
         .series(Series::line("first contact", pairs(job, "contact", &[], "v0", "contact_t")?).marker(Marker::Circle))
-        .series(Series::points("first backwards", Marker::Square, pairs(job, "contact", &[], "v0", "negative_t")?)))
+        .series(Series::points(
+            "first negative speed",
+            Marker::Square,
+            pairs(job, "contact", &[], "v0", "negative_t")?,
+        )))
 }

@@ -66,31 +66,38 @@ fn velocity(job: &Job) -> Result<Lines, Failure> {
         let curve = table.select(&[("law", law)], &["headway", "velocity", "slope"])?;
         let steep = curve.rows().filter(|row| row[2] > 0.5).map(|row| (row[0], row[1])).collect();
         panel = panel.series(Series::line(name, points(&curve, "headway", "velocity")?).look(index));
-        panel = panel.series(Series::line("", steep).look(index).solid().thick(2.5));
+        panel = panel.series(Series::line("", steep).look(index).thick(2.5));
     }
     Ok(panel)
 }
 
+/// Where the axis of times begins.
+const EARLIEST: f64 = 445.0;
+
 fn order(job: &Job) -> Result<Lines, Failure> {
     let table = job.read_rows("order")?;
-    let axes = (Axis::linear("desired speed $v_0'$", 0.0, 6.0).steps(6), Axis::linear("time", 445.0, 465.0).steps(4));
+    let axes =
+        (Axis::linear("desired speed $v_0'$", 0.0, 6.0).steps(6), Axis::linear("time", EARLIEST, 465.0).steps(4));
     let mut panel = Lines::new(axes.0, axes.1).legend(Corner::BottomRight);
     for (column, name, marker) in
         [("stop_t", "overlap", Marker::Circle), ("negative_t", "first negative speed", Marker::Square)]
     {
         let words = [("law", "exponential"), ("varied", "speed")];
-        let along = table.select(&words, &["v0", column])?;
-        panel = panel.series(Series::line(name, points(&along, "v0", column)?).marker(marker));
+        let along = points(&table.select(&words, &["v0", column])?, "v0", column)?;
+        // at v0' = 1 the uniform flow itself walks backwards: somebody does from the start on
+        let grown = along.into_iter().filter(|(_, time)| *time >= EARLIEST).collect();
+        panel = panel.series(Series::line(name, grown).marker(marker));
     }
     Ok(panel.note("exponential, $a = 3$", (0.3, 463.0)))
 }
 
 fn std(job: &Job) -> Result<Lines, Failure> {
-    let axes = (Axis::linear("$t$", 0.0, 3000.0).steps(3), Axis::linear("speed", 0.0, 0.8).steps(4));
+    let axes =
+        (Axis::linear("$t$", 0.0, 3000.0).steps(3), Axis::linear("std or least of the speeds", 0.0, 0.8).steps(4));
     Ok(Lines::new(axes.0, axes.1)
         .legend(Corner::TopRight)
         .series(Series::line("std, $\\tilde a_v = 0.1$, $v_0' = 1.3$", points(&job.read("widened")?, "t", "std")?))
-        .series(Series::line("least speed of it", points(&job.read("least")?, "t", "least")?))
+        .series(Series::line("least speed, same run", points(&job.read("least")?, "t", "least")?))
         .series(Series::line("std, $\\tilde a_v = 0$, $v_0' = 1$", points(&job.read("plain")?, "t", "std")?)))
 }
 

@@ -121,17 +121,22 @@ fn growth(source: &Source<'_>, all: &mut Quantities, figure: &str) -> Result<(),
     Ok(())
 }
 
-/// The jams at the end of figure 12's right panel, and the least speed of the whole run once all have started.
+/// The jams at the end of figure 12's right panel, by the rule of `jam::jams`: pedestrians slower than half way between the
+/// least and the largest speed; and the least speed of the whole run once all have started.
 fn jams(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
     let name = "data/fig12/t2000.csv";
-    let speeds = Sheet::read(source.paths, name)?.numbers("v")?;
-    let half = 0.5;
-    let is_slow: Vec<bool> = speeds.iter().map(|&speed| speed < half).collect();
-    let begins = (0..speeds.len()).filter(|&n| is_slow[n] && !is_slow[(n + speeds.len() - 1) % speeds.len()]);
-    all.exact("fig12.jams", begins.count() as f64, &format!("{name}: runs of pedestrians slower than half of v0"));
-    let slow = is_slow.iter().filter(|slow| **slow).count();
-    all.exact("fig12.slow", slow as f64, &format!("{name}: pedestrians slower than half of v0"));
     let sheet = Sheet::read(source.paths, name)?;
+    let speeds = sheet.numbers("v")?;
+    let threshold = 0.5 * (sheet.least("v")? + sheet.largest("v")?);
+    let is_slow: Vec<bool> = speeds.iter().map(|&speed| speed < threshold).collect();
+    let begins = (0..speeds.len()).filter(|&n| is_slow[n] && !is_slow[(n + speeds.len() - 1) % speeds.len()]);
+    all.exact(
+        "fig12.jams",
+        begins.count() as f64,
+        &format!("{name}: runs of pedestrians below the middle of the speeds"),
+    );
+    let slow = is_slow.iter().filter(|slow| **slow).count();
+    all.exact("fig12.slow", slow as f64, &format!("{name}: pedestrians below the middle of the speeds"));
     all.rounded("fig12.least", sheet.least("v")?, 3, name);
     all.rounded("fig12.largest", sheet.largest("v")?, 3, name);
     let name = "data/fig11/trajectories.csv";
@@ -143,16 +148,38 @@ fn jams(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
     Ok(())
 }
 
-/// From which desired speed on pedestrians collide under the logarithmic force, in runs to two times.
+/// From which desired speed on pedestrians collide under the logarithmic force, in runs to several times and at several
+/// headways; and how the least headway in jams vanishes.
 fn collisions(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
     let name = "data/s14/collision.csv";
     let sheet = Sheet::read(source.paths, name)?.only(&[("pedestrians", "133"), ("shift", "0.1")])?;
-    for end in ["300", "3000"] {
+    for end in ["300", "1000", "3000"] {
         let row = sheet.only(&[("t_end", end)])?;
         // known to a thousandth
         all.rounded(&format!("collision.{end}"), row.first("value")?, 4, name);
     }
     all.rounded("collision.a_0", sheet.only(&[("t_end", "3000")])?.first("a_0_in_m")?, 2, name);
+    let name = "data/s14/collision_by_headway.csv";
+    let sheet = Sheet::read(source.paths, name)?;
+    all.rounded("collision.headways.none", sheet.least("none_at")?, 5, &format!("{name}: least of none_at"));
+    all.rounded(
+        "collision.headways.contact",
+        sheet.largest("contact_at")?,
+        5,
+        &format!("{name}: largest of contact_at"),
+    );
+    all.exact("collision.headways.from", sheet.least("headway")?, name);
+    all.exact("collision.headways.to", sheet.largest("headway")?, name);
+    let name = "data/s14/jam_headway.csv";
+    let last = Sheet::read(source.paths, name)?.only(&[("v0", "1.25")])?;
+    all.rounded("jam-headway.zero.least", last.least("zero_at")?, 4, &format!("{name}: v0 = 1.25"));
+    all.rounded("jam-headway.zero.largest", last.largest("zero_at")?, 4, &format!("{name}: v0 = 1.25"));
+    let figure = Sheet::read(source.paths, name)?.only(&[("headway", "1.5")])?;
+    for v0 in ["1.15", "1.2", "1.23", "1.24", "1.25"] {
+        let row = figure.only(&[("v0", v0)])?;
+        all.exact(&format!("jam-headway.{v0}.v0"), row.first("v0")?, name);
+        all.rounded(&format!("jam-headway.{v0}"), row.first("least_headway")?, 2, name);
+    }
     Ok(())
 }
 

@@ -142,22 +142,56 @@ pub fn collision() -> Result<Rows, Failure> {
         let main = Run::default();
         let length = if pedestrians == 133 { main.length } else { 1.5 * pedestrians as f64 };
         let start = crate::parameters::jammed::Start::One(shift);
-        let at = |v0: f64| Run { desired_speed: v0, pedestrians, length, start, end, ..main };
-        let touches = |v0: f64, method| look(&at(v0), method, 1e-9).map(|seen| seen.touched);
-        let (mut low, mut high) = (1.0, 3.0);
-        while high - low > 0.003 {
-            let middle = 0.5 * (low + high);
-            if touches(middle, Method::Taylor)?.is_some() { high = middle } else { low = middle }
-        }
-        let time = |method| Ok::<Option<f64>, Failure>(touches(high, method)?.map(|touched| touched.time));
-        let (time, other) = (time(Method::Taylor)?, time(Method::Dop853)?);
-        let off = time.zip(other).map(|(one, other)| (one - other).abs());
-        let agree = touches(low, Method::Dop853)?.is_none() && other.is_some();
-        let (value, error) = (0.5 * (low + high), 0.5 * (high - low));
+        let found =
+            bracket(|v0| Run { desired_speed: v0, pedestrians, length, start, end, ..main }, (1.0, 3.0), 0.003)?;
+        let (low, high, value, error) = (found.none_at, found.contact_at, found.middle(), found.half());
         let a_0_in_m = REACH / value;
-        rows.push(row![pedestrians, shift, end, low, high, value, error, a_0_in_m, time, off, usize::from(agree)]);
+        let (time, off, agree) = (found.time, found.time_error, usize::from(found.agree));
+        rows.push(row![pedestrians, shift, end, low, high, value, error, a_0_in_m, time, off, agree]);
     }
     Ok(rows)
+}
+
+/// Two desired speeds, and what two methods say of them.
+pub(super) struct Bracket {
+    /// The larger one tried without a contact.
+    pub none_at: f64,
+    /// The smaller one tried with a contact.
+    pub contact_at: f64,
+    /// When that contact comes.
+    pub time: Option<f64>,
+    /// By how much a second method differs from it.
+    pub time_error: Option<f64>,
+    /// Whether that method sees a contact at the one and none at the other.
+    pub agree: bool,
+}
+
+impl Bracket {
+    pub fn middle(&self) -> f64 {
+        0.5 * (self.none_at + self.contact_at)
+    }
+
+    pub fn half(&self) -> f64 {
+        0.5 * (self.contact_at - self.none_at)
+    }
+}
+
+/// Halves an interval of desired speeds, with a contact at its upper end and none at its lower end, down to a width.
+///
+/// # Errors
+/// A run failed.
+pub(super) fn bracket(at: impl Fn(f64) -> Run, (low, high): (f64, f64), width: f64) -> Result<Bracket, Failure> {
+    let touches = |v0: f64, method| look(&at(v0), method, 1e-9).map(|seen| seen.touched);
+    let (mut low, mut high) = (low, high);
+    while high - low > width {
+        let middle = 0.5 * (low + high);
+        if touches(middle, Method::Taylor)?.is_some() { high = middle } else { low = middle }
+    }
+    let time = |method| Ok::<Option<f64>, Failure>(touches(high, method)?.map(|touched| touched.time));
+    let (time, other) = (time(Method::Taylor)?, time(Method::Dop853)?);
+    let time_error = time.zip(other).map(|(one, other)| (one - other).abs());
+    let agree = touches(low, Method::Dop853)?.is_none() && other.is_some();
+    Ok(Bracket { none_at: low, contact_at: high, time, time_error, agree })
 }
 
 fn look(run: &Run, method: Method, tolerance: f64) -> Result<Seen, Failure> {

@@ -4,6 +4,7 @@
 pub mod all_waves;
 mod contact;
 pub mod critical;
+mod jam_headway;
 pub mod monotone;
 mod slopes;
 mod widening;
@@ -30,5 +31,7 @@ pub fn tables() -> Result<Tables, Failure> {
         ("relaxation", contact::relaxation()?),
         ("contact", contact::contact()?),
         ("collision", contact::collision()?),
+        ("collision_by_headway", jam_headway::collision_by_headway()?),
+        ("jam_headway", jam_headway::jam_headway()?),
     ])
 }

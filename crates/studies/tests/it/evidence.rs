@@ -157,3 +157,35 @@ fn a_place_without_a_sample_is_named() {
     let failure = run.speed_differences(&[(7.0, 1.0)]).expect_err("no such pedestrian");
     assert!(failure.message.contains("n = 7.0"), "{}", failure.message);
 }
+
+/// Time of an event of a reference solution.
+fn reference(scene: &str, event: &str) -> f64 {
+    let file = root().join("data/reference/solutions/events.csv");
+    let rows = studies::hard::rows::Rows::read(&file).expect("the events of the reference solutions");
+    let row = rows.select(&[("scene", scene), ("event", event)], &["t"]).expect("the columns");
+    row.rows().next().expect("the event")[0]
+}
+
+#[test]
+fn errors_of_events_at_other_desired_speeds_hold_the_distance_from_the_reference() {
+    let events = studies::optimal_velocity::events().expect("the runs");
+    let mut compared = 0;
+    for (law, scene, stop) in
+        [("algebraic", "algebraic_unstable", "blow_up"), ("exponential", "exponential_unstable", "overlap")]
+    {
+        // an offset of the speeds moves no gap: the end of the run is that of the reference at every desired speed
+        let words = [("law", law), ("varied", "speed")];
+        let columns = ["v0", "stop_t", "stop_t_error", "negative_t", "negative_t_error"];
+        for row in events.select(&words, &columns).expect("the columns").rows() {
+            let off = (row[1] - reference(scene, stop)).abs();
+            assert!(off <= row[2] && row[2] < 1e-5, "{law}, v0 = {}: off by {off:e}, stated {:e}", row[0], row[2]);
+            compared += 1;
+            if row[0] == 3.0 {
+                let off = (row[3] - reference(scene, "negative_speed")).abs();
+                assert!(off <= row[4] && row[4] < 1e-5, "{law}: negative speed off by {off:e}, stated {:e}", row[4]);
+                compared += 1;
+            }
+        }
+    }
+    assert_eq!(compared, 14);
+}
