@@ -11,7 +11,7 @@ const TARGET: &str = "wasm32-unknown-unknown";
 /// The profile of the workspace that it is built with.
 const PROFILE: &str = "page";
 /// How to get the target.
-pub const REMEDY: &str =
+const REMEDY: &str =
     "rustup target add wasm32-unknown-unknown, or on Debian as root: apt-get install rustc-web rust-web-src lld-19";
 
 /// Debian's compiler, which brings the library's sources, and its linker.
@@ -25,6 +25,16 @@ pub enum Compiler {
     Own,
     /// Debian's, which builds the standard library first.
     Debian,
+}
+
+impl Compiler {
+    /// In words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Compiler::Own => "the pinned compiler has the target",
+            Compiler::Debian => "Debian's compiler has the library's sources",
+        }
+    }
 }
 
 /// Who can build the module here.
