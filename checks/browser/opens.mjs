@@ -34,7 +34,7 @@ async function withoutScripts(harness, tables) {
   const claims = tables.json('data/ledger.json').claims.length;
   harness.equal('without scripts: all claims are shown', await page.locator('.claim:visible').count(), claims);
   harness.equal('without scripts: nothing that needs them is shown', await page.locator('.scripted:visible, .explorer:visible').count(), 0);
-  harness.equal('without scripts: what stands in their place is', await page.locator('.unscripted:visible').count(), 2);
+  harness.equal('without scripts: what stands in their place is', await page.locator('.unscripted:visible').count(), 4);
   await page.locator('#fig03 summary').last().click();
   harness.check('without scripts: details open', await page.locator('#fig03 table').first().isVisible());
   await harness.close('without scripts', opened);
@@ -68,7 +68,7 @@ async function widths(harness) {
     const { page } = opened;
     // everything is laid out: folded parts open, drawings drawn
     await page.evaluate(() => document.querySelectorAll('details').forEach((one) => { one.open = true; }));
-    for (const host of await page.locator('.explorer, #ring').all()) await host.scrollIntoViewIfNeeded();
+    for (const host of await page.locator('.explorer, #ring, #own-law').all()) await host.scrollIntoViewIfNeeded();
     const over = await page.evaluate(() => document.scrollingElement.scrollWidth - document.scrollingElement.clientWidth);
     harness.equal(`${width} pixels: the page does not scroll sideways`, over, 0);
     const drawn = await page.evaluate(() => [...document.querySelectorAll('canvas')].filter((one) => one.width < 100 || one.clientHeight < 100).length);

@@ -93,6 +93,9 @@ pub trait Onlooker {
     /// Sees the same with what was found in it.
     fn seen(&mut self, _step: &mut Step<'_>, _sight: &mut Sight<'_, '_>) {}
 
+    /// Sees the tables whenever a sample was added to them.
+    fn sampled(&mut self, _std: &Table, _trajectories: &Table) {}
+
     /// Sees the run every few thousand steps.
     fn between(&mut self, _underway: &Underway<'_>) {}
 
@@ -139,6 +142,11 @@ impl<A: Onlooker, B: Onlooker> Onlooker for (A, B) {
         self.1.seen(step, sight);
     }
 
+    fn sampled(&mut self, std: &Table, trajectories: &Table) {
+        self.0.sampled(std, trajectories);
+        self.1.sampled(std, trajectories);
+    }
+
     fn between(&mut self, underway: &Underway<'_>) {
         self.0.between(underway);
         self.1.between(underway);
@@ -158,6 +166,10 @@ impl<A: Onlooker> Onlooker for &mut A {
 
     fn seen(&mut self, step: &mut Step<'_>, sight: &mut Sight<'_, '_>) {
         (**self).seen(step, sight);
+    }
+
+    fn sampled(&mut self, std: &Table, trajectories: &Table) {
+        (**self).sampled(std, trajectories);
     }
 
     fn between(&mut self, underway: &Underway<'_>) {
@@ -284,6 +296,7 @@ impl<'a> Recorder<'a> {
             judge.start(&self.watch, &found);
         }
         self.record.take(0.0, state);
+        self.onlooker.sampled(&self.record.std, &self.record.trajectories);
         self.record.follow(0.0, state);
     }
 
@@ -482,8 +495,11 @@ impl Observer for Recorder<'_> {
         self.onlooker.seen(step, &mut Sight { new: &new, watch: &mut self.watch, has_sample });
         if !self.is_stopped {
             let until = stop.unwrap_or(self.scene.t_end);
-            let record = &mut self.record;
-            self.sampler.within(step, until, &mut |t, state| record.take(t, state));
+            let (record, onlooker) = (&mut self.record, &mut *self.onlooker);
+            self.sampler.within(step, until, &mut |t, state| {
+                record.take(t, state);
+                onlooker.sampled(&record.std, &record.trajectories);
+            });
             self.is_stopped = stop.is_some();
             match stop {
                 Some(time) => record.follow_to(time, step),
