@@ -139,6 +139,9 @@ impl<L: Law> Coefficients<'_, '_, L> {
 #[inline(always)]
 fn start(spacings: &[f64], speeds: &[f64], from: usize) -> (Lanes<W>, Lanes<W>, Lanes<W>) {
     let n = spacings.len();
+    if from + W < n {
+        return (Lanes::of(&spacings[from..]), Lanes::of(&speeds[from..]), Lanes::of(&speeds[from + 1..]));
+    }
     let place = |lane: usize| if from + lane < n { from + lane } else { n - 1 };
     let next = |own: usize| if own + 1 < n { own + 1 } else { 0 };
     (
