@@ -240,6 +240,13 @@ impl<const WHOLE: bool> Kernel for Change<'_, WHOLE> {
             (0..n).for_each(|from| self.lanes::<1>(from));
             return;
         }
+        if n >= WIDE {
+            // each sum waits for itself: more of them at a time
+            for from in (0..n).step_by(WIDE) {
+                self.lanes::<WIDE>(from.min(n - WIDE));
+            }
+            return;
+        }
         for from in (0..n).step_by(LANES) {
             // the last block begins earlier rather than be cut: what is written twice is the same
             self.lanes::<LANES>(from.min(n - LANES));
@@ -303,3 +310,5 @@ fn forced(system: &dyn System) -> Vec<Range<usize>> {
 
 /// So many components at a time.
 const LANES: usize = 16;
+/// And so many of a sum over all orders.
+const WIDE: usize = 32;

@@ -31,7 +31,7 @@ pub(crate) fn add_nested(theta: f64, nested: &[f64], n: usize, first: usize, res
 }
 
 /// The largest absolute value; NaN if there is one.
-pub(crate) fn largest(values: &[f64]) -> f64 {
+pub fn largest(values: &[f64]) -> f64 {
     dispatch(Largest(values))
 }
 
@@ -196,19 +196,25 @@ impl Kernel for Largest<'_> {
         let (mut largest, mut sum) = ([0.0; LANES], [0.0; LANES]);
         let chunks = self.0.chunks_exact(LANES);
         let rest = chunks.remainder();
+        let mut take = |lane: usize, value: f64| {
+            let size = value.abs();
+            largest[lane] = if size > largest[lane] { size } else { largest[lane] };
+            sum[lane] += size;
+        };
         for chunk in chunks {
             for lane in 0..LANES {
-                let size = chunk[lane].abs();
-                largest[lane] = if size > largest[lane] { size } else { largest[lane] };
-                sum[lane] += size;
+                take(lane, chunk[lane]);
             }
         }
+        for (lane, value) in rest.iter().enumerate() {
+            take(lane, *value);
+        }
         // the sums tell a number that is none, which no comparison finds
-        let sizes = largest.iter().zip(&sum).map(|(size, sum)| if sum.is_nan() { f64::NAN } else { *size });
-        sizes.chain(rest.iter().map(|value| value.abs())).fold(0.0, |largest: f64, size| {
-            let keeps = largest.is_nan() || largest >= size;
-            if keeps { largest } else { size }
-        })
+        let [a, b, c, d, e, f, g, h] = sum;
+        if (((a + b) + (c + d)) + ((e + f) + (g + h))).is_nan() {
+            return f64::NAN;
+        }
+        largest.iter().fold(0.0, |most, &size| if size > most { size } else { most })
     }
 }
 

@@ -2,8 +2,7 @@
 
 use super::Watch;
 use crate::states::FlowAlong;
-use math::simd::{Kernel, dispatch};
-use ode::Step;
+use ode::{Step, largest};
 
 /// A flow, and how large the deviations from it are.
 #[derive(Clone, Copy, Debug)]
@@ -37,7 +36,7 @@ impl Watch<'_> {
         }
         let flow = self.form.flow_along(state, rates)?;
         let count = self.before.gaps.len();
-        let size = |values: &[f64], from: usize| dispatch(Largest(&values[from..from + count]));
+        let size = |values: &[f64], from: usize| largest(&values[from..from + count]);
         let ([gap, speed], [gap_rate, speed_rate]) =
             ([0, count].map(|from| size(state, from)), [0, count].map(|from| size(rates, from)));
         Some(Near { time, flow, gap, speed, gap_rate, speed_rate })
@@ -59,29 +58,4 @@ fn are_clear(before: &Near, after: &Near, h: f64, blow_up: f64) -> bool {
     let is_clear = |low: f64, high: f64| low - (high - low) > ROUNDING * high.abs();
     let net_gap = start.net_gap;
     is_clear(net_gap - gap, net_gap + gap) && is_clear(low - speed, high + speed) && high + speed < blow_up
-}
-
-/// The largest absolute value; NaN if there is one.
-struct Largest<'a>(&'a [f64]);
-
-impl Kernel for Largest<'_> {
-    type Output = f64;
-
-    #[inline(always)]
-    fn run(self) -> f64 {
-        const LANES: usize = 8;
-        let (mut largest, mut sums) = ([0.0; LANES], [0.0; LANES]);
-        let mut take = |lane: usize, value: f64| {
-            let size = value.abs();
-            largest[lane] = if size > largest[lane] { size } else { largest[lane] };
-            sums[lane] += size;
-        };
-        let chunks = self.0.chunks_exact(LANES);
-        let rest = chunks.remainder();
-        chunks.for_each(|chunk| (0..LANES).for_each(|lane| take(lane, chunk[lane])));
-        rest.iter().enumerate().for_each(|(lane, value)| take(lane, *value));
-        // a sum tells a number that is none, which no comparison finds
-        let is_nan = sums.iter().any(|sum| sum.is_nan());
-        if is_nan { f64::NAN } else { largest.iter().fold(0.0, |most, &size| if size > most { size } else { most }) }
-    }
 }
