@@ -22,7 +22,7 @@ from report import csv, markdown
 ROOT = Path(__file__).resolve().parent.parent
 OURS = "ours"
 BEFORE = "ours before"
-PATIENCE = 8.0  # seconds after which a series of tolerances goes on no further
+PATIENCE = 2.0  # seconds after which a series of tolerances goes on no further
 
 
 class Runner:
