@@ -52,8 +52,11 @@ impl<F: Fn(f64) -> f64> Kernel for Sum<'_, F> {
                 *sum += (self.map)(*value);
             }
         }
-        for (sum, value) in sums.iter_mut().zip(rest) {
-            *sum += (self.map)(*value);
+        let mut last = [0.0; LANES];
+        last[..rest.len()].copy_from_slice(rest);
+        for (lane, (sum, value)) in sums.iter_mut().zip(last).enumerate() {
+            let next = *sum + (self.map)(value);
+            *sum = if lane < rest.len() { next } else { *sum };
         }
         let [a, b, c, d, e, f, g, h] = sums;
         ((a + b) + (c + d)) + ((e + f) + (g + h))

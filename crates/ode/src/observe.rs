@@ -2,7 +2,7 @@
 
 use crate::dense::{Step, nearby};
 use crate::integrate::Statistics;
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 
 /// Sees every accepted step.
 pub trait Observer {
@@ -108,13 +108,25 @@ impl Sampler {
 
     /// Calls `take(t, state)` for every sample time within the step that is not after `until`.
     pub fn within(&mut self, step: &mut Step<'_>, until: f64, take: &mut dyn FnMut(f64, &[f64])) {
+        let all = 0..self.state.len();
+        self.components_within(step, until, all, take);
+    }
+
+    /// The same where `take` looks at these components alone: the others of the state that it gets have no meaning.
+    pub fn components_within(
+        &mut self,
+        step: &mut Step<'_>,
+        until: f64,
+        range: Range<usize>,
+        take: &mut dyn FnMut(f64, &[f64]),
+    ) {
         let end = if until < step.end { until } else { step.end + nearby(step.end, step.length()) };
         loop {
             let t = self.next();
             if t > end {
                 return;
             }
-            step.at(t, &mut self.state);
+            step.components_at(t, range.clone(), &mut self.state);
             take(t, &self.state);
             self.next += 1;
         }

@@ -6,7 +6,7 @@
 //! Experimental Mathematics 14 (2005) 99).
 
 use crate::control::{Control, Norm};
-use crate::dense::{Ends, Stepper, Trial};
+use crate::dense::{Ends, Part, Stepper, Trial};
 use crate::system::System;
 use math::lane;
 use math::simd::{Kernel, dispatch};
@@ -22,6 +22,8 @@ pub(crate) struct Taylor {
     next_unit: f64,
     /// Rows of coefficients, that of order 0 first.
     coefficients: Vec<f64>,
+    /// The size of the row of the last order, in units of the tolerance.
+    last_size: f64,
     /// The components that are not position-like: the others' rates bend nowhere.
     forced: Vec<Range<usize>>,
     /// Room for the defect at the end of a step; 0 for position-like components.
@@ -62,6 +64,7 @@ impl Taylor {
             unit: 1.0,
             next_unit: 1.0,
             coefficients,
+            last_size: 0.0,
             forced: forced(system),
             defect,
             has_defect: false,
@@ -90,14 +93,15 @@ impl Stepper for Taylor {
             self.expand(system, from.state, from.rates);
         }
         let h = from.h / self.unit;
-        dispatch(Change { coefficients: &self.coefficients[self.dimension..], h, change });
-        norm.map_or(0.0, |norm| (0..self.order).fold(norm.of(self.row(self.order)), |error, _| error * h))
+        dispatch(Change::<false> { rows: &self.coefficients, n: self.dimension, from: 0, h, result: change });
+        norm.map_or(0.0, |_| (0..self.order).fold(self.last_size, |error, _| error * h))
     }
 
     fn propose(&mut self, system: &dyn System, state: &[f64], rates: &[f64], norm: &Norm) -> Option<f64> {
         self.expand(system, state, rates);
-        let limit = |k: usize| step_of_term(norm.of(self.row(k)), k);
-        let (last, before) = (limit(self.order)?, limit(self.order - 1)?);
+        self.last_size = norm.of(self.row(self.order));
+        let last = step_of_term(self.last_size, self.order)?;
+        let before = step_of_term(norm.of(self.row(self.order - 1)), self.order - 1)?;
         let step = SAFETY * self.unit * if last < before { last } else { before };
         self.next_unit = power_of_two(step);
         Some(step)
@@ -166,12 +170,11 @@ impl Stepper for Taylor {
         self.order
     }
 
-    fn interpolate(&mut self, _system: &dyn System, ends: &Ends<'_>, theta: f64, result: &mut [f64]) -> u64 {
+    fn interpolate(&mut self, _system: &dyn System, ends: &Ends<'_>, theta: f64, part: Part<'_>) -> u64 {
         let h = theta * (ends.h / self.unit);
-        dispatch(Change { coefficients: &self.coefficients[self.dimension..], h, change: result });
-        for (result, before) in result.iter_mut().zip(ends.before) {
-            *result += before;
-        }
+        // row 0 is the state at the start of the step
+        let Part { from, values: result } = part;
+        dispatch(Change::<true> { rows: &self.coefficients, n: self.dimension, from, h, result });
         0
     }
 }
@@ -198,34 +201,50 @@ const LEAST: f64 = 1e-300;
 /// The step is so much shorter than that at which the last term meets the tolerance.
 const SAFETY: f64 = 0.95;
 
-/// Writes `c_1 h + c_2 h^2 + ...` (Horner).
-struct Change<'a> {
-    coefficients: &'a [f64],
+/// Writes `c_1 h + c_2 h^2 + ...` (Horner) of the components from `from` on, to which `WHOLE` adds `c_0`.
+struct Change<'a, const WHOLE: bool> {
+    rows: &'a [f64],
+    /// Length of a row.
+    n: usize,
+    from: usize,
     h: f64,
-    change: &'a mut [f64],
+    result: &'a mut [f64],
 }
 
-impl Change<'_> {
+impl<const WHOLE: bool> Change<'_, WHOLE> {
     #[inline(always)]
     fn lanes<const LANES: usize>(&mut self, from: usize) {
         let mut sum = [0.0; LANES];
-        for row in self.coefficients.rchunks_exact(self.change.len()) {
-            for (sum, coefficient) in sum.iter_mut().zip(&row[from..][..LANES]) {
+        let (first, others) = self.rows.split_at(self.n);
+        for row in others.rchunks_exact(self.n) {
+            for (sum, coefficient) in sum.iter_mut().zip(&row[self.from + from..][..LANES]) {
                 *sum = (*sum + coefficient) * self.h;
             }
         }
-        self.change[from..][..LANES].copy_from_slice(&sum);
+        if WHOLE {
+            for (sum, before) in sum.iter_mut().zip(&first[self.from + from..][..LANES]) {
+                *sum += before;
+            }
+        }
+        self.result[from..][..LANES].copy_from_slice(&sum);
     }
 }
 
-impl Kernel for Change<'_> {
+impl<const WHOLE: bool> Kernel for Change<'_, WHOLE> {
     type Output = ();
 
     #[inline(always)]
     fn run(mut self) {
-        let n = self.change.len();
+        let n = self.result.len();
         if n < LANES {
             (0..n).for_each(|from| self.lanes::<1>(from));
+            return;
+        }
+        if n >= WIDE {
+            // each sum waits for itself: more of them at a time
+            for from in (0..n).step_by(WIDE) {
+                self.lanes::<WIDE>(from.min(n - WIDE));
+            }
             return;
         }
         for from in (0..n).step_by(LANES) {
@@ -291,3 +310,5 @@ fn forced(system: &dyn System) -> Vec<Range<usize>> {
 
 /// So many components at a time.
 const LANES: usize = 16;
+/// And so many of a sum over all orders.
+const WIDE: usize = 32;

@@ -460,7 +460,8 @@ impl<'a> Recorder<'a> {
         let scene = self.scene;
         let Some(speed) = scene.steady_speed else { return false };
         let least = NEAR_WALLS * scene.model.room(scene.ring.headway(), speed, speed);
-        scene.model.is_singular() && self.can_turn() && self.watch.rooms().iter().any(|&room| room < least)
+        let is_near = !self.watch.is_quiet() && scene.model.is_singular() && self.can_turn();
+        is_near && self.watch.rooms().iter().any(|&room| room < least)
     }
 }
 
@@ -482,7 +483,10 @@ fn advice(failure: &ode::Failure, scene: &Scene) -> Option<&'static str> {
 impl Observer for Recorder<'_> {
     fn after(&mut self, step: &mut Step<'_>) -> ControlFlow<()> {
         self.onlooker.after(step);
-        let new = self.watch.look(step);
+        let new = match &self.judge {
+            Some(_) => self.watch.look(step),
+            None => self.watch.look_for_new(step),
+        };
         if let Some(judge) = &mut self.judge {
             judge.look(&mut self.watch, step, &new);
             if self.onlooker.judging() == Judging::UntilCertain && judge.verdict().is_some() {
@@ -496,7 +500,9 @@ impl Observer for Recorder<'_> {
         if !self.is_stopped {
             let until = stop.unwrap_or(self.scene.t_end);
             let (record, onlooker) = (&mut self.record, &mut *self.onlooker);
-            self.sampler.within(step, until, &mut |t, state| {
+            // of the standard deviation alone the speeds are enough
+            let wanted = if record.scene.keeps_trajectories { 0..step.before().len() } else { record.form.speeds() };
+            self.sampler.components_within(step, until, wanted, &mut |t, state| {
                 record.take(t, state);
                 onlooker.sampled(&record.std, &record.trajectories);
             });
