@@ -130,15 +130,24 @@ impl Step<'_> {
 
     /// Writes the state at the time `t` within the step.
     pub fn at(&mut self, t: f64, state: &mut [f64]) {
+        self.at_fraction(self.fraction(t), state);
+    }
+
+    /// The fraction of the step at which the time `t` lies.
+    pub fn fraction(&self, t: f64) -> f64 {
         let near = nearby(self.end, self.ends.h);
-        let theta = if (t - self.start).abs() < near {
+        if (t - self.start).abs() < near {
             0.0
         } else if (t - self.end).abs() < near {
             1.0
         } else {
             (t - self.start) / self.ends.h
-        };
-        self.at_fraction(theta, state);
+        }
+    }
+
+    /// Writes the rates of any state. They are not counted: who looks on does not change what a run says of itself.
+    pub fn rates_of(&self, state: &[f64], rates: &mut [f64]) {
+        self.system.rates(state, rates);
     }
 
     /// Writes the state at the fraction `theta` of the step, 0 to 1.

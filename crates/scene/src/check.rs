@@ -151,7 +151,8 @@ const HIGHEST_SEEN: usize = 8;
 /// The order of steps across a kink.
 const ACROSS_KINKS: usize = 2;
 
-fn has_kinks(model: &Model) -> bool {
+/// Whether the law has bends of no width.
+pub(crate) fn has_kinks(model: &Model) -> bool {
     matches!(model, Model::Formula(formula) if formula.has_kinks())
 }
 
