@@ -114,7 +114,8 @@ impl Shadow {
         self.added.fill(0.0);
         self.rows.clear();
         let h = step.length();
-        self.reach = LASTS * h;
+        // what the first steps add is carried on from the next one
+        self.reach = h;
         let size = relative(step.system, step.ends.before, &self.error);
         self.scale = DISTANCE / size;
         if !self.scale.is_finite() || self.scale == 0.0 {
@@ -134,7 +135,7 @@ impl Shadow {
             self.orders -= if reach > 2.0 * h && self.orders > ORDERS { MORE } else { 0 };
             // of all orders the step itself is made
             let reach = if reach > h { reach } else { h };
-            self.reach = if reach < self.reach { reach } else { self.reach };
+            self.reach = if reach < LASTS * h { reach } else { LASTS * h };
             return;
         }
     }
