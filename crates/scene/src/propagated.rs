@@ -29,6 +29,9 @@ pub struct Propagated {
 /// The first order left out is not all that a step leaves out.
 const CAUTION: f64 = 2.0;
 
+/// What a difference of two forces does not show, as a part of them and of the difference of their states.
+const UNSEEN: f64 = 1e-9;
+
 impl Onlooker for Propagated {
     fn seen(&mut self, step: &mut Step<'_>, sight: &mut Sight<'_, '_>) {
         if self.is_blind || !self.follow(step) {
@@ -49,6 +52,9 @@ impl Onlooker for Propagated {
                 continue;
             }
             step.at_fraction(place, &mut state);
+            if self.lost.is_some() {
+                state[n..2 * n].fill(0.0);
+            }
             self.std = math::larger(self.std, std_error(&state[n..2 * n], errors));
         }
         for happening in sight.new {
@@ -146,8 +152,10 @@ impl Propagated {
         let largest_std = outcome.std.rows().fold(0.0, |most, row| math::larger(most, row[1]));
         let of_std = match scene.form {
             FormKind::Deviations => ROUNDINGS * largest_std,
-            // speeds that are the same to the last bit have no rounding between them
-            _ if largest_std == 0.0 => 0.0,
+            // where all motion is one, no rounding lies between speeds; but a weak force goes unseen beside the drive
+            _ if self.lost.is_some() && largest_std == 0.0 => {
+                UNSEEN * scene.model.desired_speed().abs() * (self.shift / self.clearance).abs()
+            }
             _ => rounding(&outcome.speeds),
         };
         // at a blow-up a rounding of the time is a large part of the state
