@@ -46,10 +46,10 @@ const LASTS: f64 = 6.0;
 const SHORTER: f64 = 0.5;
 
 /// The part of the difference that may be lost.
-const REST: f64 = 0.05;
+const REST: f64 = 0.005;
 
 /// The shadow is as far from the solution as this part of it, so that neither curvature nor rounding counts.
-const DISTANCE: f64 = 1e-6;
+const DISTANCE: f64 = 1e-9;
 
 /// What rounding adds in each step, relative to the change. Taken for an error that grows always.
 const ROUNDING: f64 = 0.5 * f64::EPSILON;

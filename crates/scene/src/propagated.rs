@@ -1,6 +1,6 @@
 //! The errors of a run by Taylor's method, whose steps tell their own, carried along with it ([`ode::Shadow`]).
 
-use crate::check::{Errors, ROUNDINGS, has_kinks, largest};
+use crate::check::{Errors, ROUNDINGS, has_kinks, largest, largest_std, loses_shift};
 use crate::run::Scene;
 use crate::simulation::{Onlooker, Outcome, Sight};
 use jam::events::{Event, Happening};
@@ -14,6 +14,8 @@ pub struct Propagated {
     /// Everybody's clearance but for the shift, and that.
     clearance: f64,
     shift: f64,
+    /// Whether spacings lose the shift.
+    loses_shift: bool,
     shadow: Option<Shadow>,
     /// What becomes of a shift that spacings lose to the last digit. All motion is then one, as are the errors of steps, in
     /// which so small a difference would be lost again.
@@ -30,7 +32,7 @@ pub struct Propagated {
 const CAUTION: f64 = 2.0;
 
 /// What a difference of two forces does not show, as a part of them and of the difference of their states.
-const UNSEEN: f64 = 1e-9;
+const UNSEEN: f64 = 1e-6;
 
 impl Onlooker for Propagated {
     fn seen(&mut self, step: &mut Step<'_>, sight: &mut Sight<'_, '_>) {
@@ -79,6 +81,7 @@ impl Propagated {
             pedestrians: scene.ring.pedestrians,
             clearance,
             shift: scene.start.shift,
+            loses_shift: loses_shift(scene),
             shadow: None,
             lost: None,
             is_blind: !scene.method.needs_series() || has_kinks(&scene.model),
@@ -92,9 +95,8 @@ impl Propagated {
         let (n, dimension) = (self.pedestrians, step.after().len());
         if self.shadow.is_none() {
             let error = self.of_start(step.before());
-            let is_lost = is_uniform(step.before(), n) && self.shift != 0.0;
-            self.lost = is_lost.then(|| Shadow::new(error.clone()));
-            self.shadow = Some(Shadow::new(if is_lost { vec![0.0; dimension] } else { error }));
+            self.lost = self.loses_shift.then(|| Shadow::new(error.clone()));
+            self.shadow = Some(Shadow::new(if self.loses_shift { vec![0.0; dimension] } else { error }));
         }
         if self.shadow.as_ref().is_some_and(|shadow| shadow.dimension() != dimension) {
             self.shadow = Some(Shadow::new(in_gaps(&self.error_at(1.0), n)));
@@ -149,11 +151,10 @@ impl Propagated {
             .take(n)
             .collect();
         let rounding = |numbers: &[f64]| ROUNDINGS * largest(numbers);
-        let largest_std = outcome.std.rows().fold(0.0, |most, row| math::larger(most, row[1]));
         let of_std = match scene.form {
-            FormKind::Deviations => ROUNDINGS * largest_std,
+            FormKind::Deviations => ROUNDINGS * largest_std(outcome),
             // where all motion is one, no rounding lies between speeds; but a weak force goes unseen beside the drive
-            _ if self.lost.is_some() && largest_std == 0.0 => {
+            _ if self.lost.is_some() && largest_std(outcome) == 0.0 => {
                 UNSEEN * scene.model.desired_speed().abs() * (self.shift / self.clearance).abs()
             }
             _ => rounding(&outcome.speeds),
@@ -164,7 +165,8 @@ impl Propagated {
             |errors: &[f64], numbers: &[f64]| (!is_blow_up).then(|| CAUTION * largest(errors) + rounding(numbers));
         Some(Errors {
             std: Some(CAUTION * self.std + of_std + f64::MIN_POSITIVE),
-            positions: end(&positions, &outcome.positions).map(|error| error + 2.0 * rounding(&outcome.positions)),
+            positions: end(&positions, &outcome.positions)
+                .map(|error| error + 2.0 * rounding(&outcome.positions) + RELAXATION * UNSURE * largest(&speeds)),
             speeds: end(&speeds, &outcome.speeds).map(|error| error + ROUNDINGS * scene.model.desired_speed().abs()),
             events: self.of_events(&outcome.events),
             cost: 0.0,
@@ -218,6 +220,9 @@ fn std_error(speeds: &[f64], errors: &[f64]) -> f64 {
     let difference = if between == 0.0 { 0.0 } else { (between / count).abs() / deviations };
     scale * (difference + UNSURE * (offs / count).sqrt())
 }
+
+/// What is not sure of speeds becomes an error of positions within a relaxation time.
+const RELAXATION: f64 = 1.0;
 
 /// The part of the errors of steps that is not sure: orders that follow the first that is left out are smaller by about this
 /// factor each, since the steps are as long as the series allow.
