@@ -181,7 +181,8 @@ fn ended(
     verdict.ending = ending(scene, outcome, broken);
     question.times = times(scene, outcome);
     // what comes after the end tells whether there is a reason for it
-    if broken.is_some() || is_blown_up(outcome) {
+    let is_undefined = outcome.events.iter().any(|happening| happening.event == Event::Undefined);
+    if broken.is_some() || is_blown_up(outcome) || is_undefined {
         question.times.push(scene.t_end);
     }
     verdict.cost = Some((stated.cost, outcome.statistics.evaluations));

@@ -148,21 +148,30 @@ impl Step<'_> {
         self.part_at(t, Part { from: 0, values: state });
     }
 
+    /// The same of some components that lie side by side: what [`Step::at`] writes there, for less.
+    pub fn components_at(&mut self, t: f64, range: Range<usize>, state: &mut [f64]) {
+        self.part_at(t, Part { from: range.start, values: &mut state[range] });
+    }
+
     fn part_at(&mut self, t: f64, part: Part<'_>) {
+        self.part_at_fraction(self.fraction(t), part);
+    }
+
+    /// The fraction of the step at which the time `t` lies.
+    pub fn fraction(&self, t: f64) -> f64 {
         let near = nearby(self.end, self.ends.h);
-        let theta = if (t - self.start).abs() < near {
+        if (t - self.start).abs() < near {
             0.0
         } else if (t - self.end).abs() < near {
             1.0
         } else {
             (t - self.start) / self.ends.h
-        };
-        self.part_at_fraction(theta, part);
+        }
     }
 
-    /// The same of some components that lie side by side: what [`Step::at`] writes there, for less.
-    pub fn components_at(&mut self, t: f64, range: Range<usize>, state: &mut [f64]) {
-        self.part_at(t, Part { from: range.start, values: &mut state[range] });
+    /// Writes the rates of any state. They are not counted: who looks on does not change what a run says of itself.
+    pub fn rates_of(&self, state: &[f64], rates: &mut [f64]) {
+        self.system.rates(state, rates);
     }
 
     /// Writes the state at the fraction `theta` of the step, 0 to 1.

@@ -13,8 +13,10 @@ use crate::vector::largest;
 pub struct Shadow {
     /// The error where the shadow was expanded last.
     error: Vec<f64>,
-    /// What the steps since then have added.
+    /// What the steps since then have added, the last one included.
     added: Vec<f64>,
+    /// What the last step has added.
+    own: Vec<f64>,
     /// The orders of the shadow's difference from the solution, as series in time since then; none before the first error.
     rows: Vec<f64>,
     /// How many orders.
@@ -23,12 +25,14 @@ pub struct Shadow {
     scale: f64,
     /// The unit of time of the series.
     unit: f64,
-    /// The time since then, and how far the series reach.
+    /// The time from then to the end of the last step, and how far the series reach.
     elapsed: f64,
     reach: f64,
-    /// The error at the end of the last step.
-    now: Vec<f64>,
-    own: Vec<f64>,
+    /// The length of the step of the expansion.
+    expanded: f64,
+    /// The length of the last step, and the power of it with which its own error grows.
+    length: f64,
+    power: usize,
 }
 
 /// Orders of the series of the difference at first, and how many more where these do not reach over a step.
@@ -38,11 +42,14 @@ const MORE: usize = 4;
 /// So many steps an expansion lasts at most: what they add is carried on from the next one only.
 const LASTS: f64 = 6.0;
 
+/// Steps that have become shorter by this factor show something that the series does not: a sharp bend of the law.
+const SHORTER: f64 = 0.5;
+
 /// The part of the difference that may be lost.
-const REST: f64 = 0.05;
+const REST: f64 = 0.005;
 
 /// The shadow is as far from the solution as this part of it, so that neither curvature nor rounding counts.
-const DISTANCE: f64 = 1e-6;
+const DISTANCE: f64 = 1e-9;
 
 /// What rounding adds in each step, relative to the change. Taken for an error that grows always.
 const ROUNDING: f64 = 0.5 * f64::EPSILON;
@@ -53,7 +60,6 @@ impl Shadow {
         let zeros = vec![0.0; error.len()];
         Shadow {
             added: zeros.clone(),
-            now: error.clone(),
             own: zeros,
             error,
             rows: Vec::new(),
@@ -62,46 +68,59 @@ impl Shadow {
             unit: 1.0,
             elapsed: 0.0,
             reach: 0.0,
+            expanded: 0.0,
+            length: 0.0,
+            power: 1,
         }
-    }
-
-    /// The error at the end of the step looked at last, component by component.
-    pub fn now(&self) -> &[f64] {
-        &self.now
     }
 
     /// Goes along with a step; false for a method whose steps do not tell their error.
     pub fn follow(&mut self, step: &mut Step<'_>) -> bool {
-        let h = step.length();
         if !step.stepper.own_error(step.system, &step.ends, &mut self.own) {
             return false;
         }
-        if self.elapsed + h > self.reach {
+        self.advance(step);
+        self.power = step.stepper.error_power() + 1;
+        let states = step.ends.before.iter().zip(step.ends.after);
+        let errors = self.error.iter().zip(&mut self.own);
+        for ((added, (error, own)), (before, after)) in self.added.iter_mut().zip(errors).zip(states) {
+            *own += (ROUNDING * (after - before).abs()).copysign(*error);
+            *added += *own;
+        }
+        true
+    }
+
+    /// Goes along with a step that adds nothing: of the errors before it alone.
+    pub fn carry(&mut self, step: &mut Step<'_>) {
+        self.advance(step);
+        self.own.fill(0.0);
+    }
+
+    fn advance(&mut self, step: &mut Step<'_>) {
+        let h = step.length();
+        if self.elapsed + h > self.reach || h < SHORTER * self.expanded {
             self.expand(step);
-            self.elapsed = 0.0;
+            (self.elapsed, self.expanded) = (0.0, h);
         }
         self.elapsed += h;
-        let states = step.ends.before.iter().zip(step.ends.after);
-        let errors = self.error.iter().zip(&self.own);
-        for ((added, (error, own)), (before, after)) in self.added.iter_mut().zip(errors).zip(states) {
-            *added += own + (ROUNDING * (after - before).abs()).copysign(*error);
-        }
-        self.evaluate();
-        true
+        self.length = h;
     }
 
     /// Expands the difference about the start of a step.
     fn expand(&mut self, step: &mut Step<'_>) {
-        self.error.copy_from_slice(&self.now);
+        let mut now = vec![0.0; self.error.len()];
+        self.at(1.0, &mut now);
+        self.error = now;
         self.added.fill(0.0);
         self.rows.clear();
         let h = step.length();
-        self.reach = LASTS * h;
+        // what the first steps add is carried on from the next one
+        self.reach = h;
         let size = relative(step.system, step.ends.before, &self.error);
-        if size == 0.0 || !size.is_finite() {
+        self.scale = DISTANCE / size;
+        if !self.scale.is_finite() || self.scale == 0.0 {
             return;
         }
-        self.scale = DISTANCE / size;
         let near: Vec<f64> =
             step.ends.before.iter().zip(&self.error).map(|(state, error)| state + self.scale * error).collect();
         loop {
@@ -116,7 +135,7 @@ impl Shadow {
             self.orders -= if reach > 2.0 * h && self.orders > ORDERS { MORE } else { 0 };
             // of all orders the step itself is made
             let reach = if reach > h { reach } else { h };
-            self.reach = if reach < self.reach { reach } else { self.reach };
+            self.reach = if reach < LASTS * h { reach } else { LASTS * h };
             return;
         }
     }
@@ -132,26 +151,30 @@ impl Shadow {
         self.unit * math::smaller(limit(last), limit(last - 1))
     }
 
-    /// The error at the present time.
-    fn evaluate(&mut self) {
-        let n = self.error.len();
-        if self.rows.is_empty() {
-            for ((now, error), added) in self.now.iter_mut().zip(&self.error).zip(&self.added) {
-                *now = error + added;
+    /// Writes the error at the fraction `theta` of the step looked at last, component by component.
+    pub fn at(&self, theta: f64, result: &mut [f64]) {
+        result.fill(0.0);
+        if !self.rows.is_empty() {
+            let h = (self.elapsed - (1.0 - theta) * self.length) / self.unit;
+            for row in self.rows.rchunks_exact(result.len()) {
+                for (result, coefficient) in result.iter_mut().zip(row) {
+                    *result = (*result + coefficient) * h;
+                }
             }
-            return;
+            let share = 1.0 / self.scale;
+            result.iter_mut().for_each(|result| *result *= share);
         }
-        let h = self.elapsed / self.unit;
-        self.now.fill(0.0);
-        for row in self.rows.rchunks_exact(n) {
-            for (now, coefficient) in self.now.iter_mut().zip(row) {
-                *now = (*now + coefficient) * h;
-            }
+        // of the own error of the step, that of what lies before it is the rest
+        let rest = 1.0 - (0..self.power).fold(1.0, |power, _| power * theta);
+        let errors = self.error.iter().zip(&self.added).zip(&self.own);
+        for (result, ((error, added), own)) in result.iter_mut().zip(errors) {
+            *result += error + (added - rest * own);
         }
-        let share = 1.0 / self.scale;
-        for ((now, error), added) in self.now.iter_mut().zip(&self.error).zip(&self.added) {
-            *now = (error + added) + share * *now;
-        }
+    }
+
+    /// How many components it has.
+    pub fn dimension(&self) -> usize {
+        self.error.len()
     }
 }
 

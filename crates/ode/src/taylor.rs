@@ -30,6 +30,8 @@ pub(crate) struct Taylor {
     defect: Vec<f64>,
     /// Whether it is that of the last step.
     has_defect: bool,
+    /// Room for what position-like components lack.
+    missing: Vec<f64>,
 }
 
 /// The order at a fixed step: higher ones gain nothing in double precision.
@@ -57,7 +59,7 @@ impl Taylor {
     pub(crate) fn new(system: &dyn System, control: Control) -> Taylor {
         let (order, dimension) = (order(control), system.dimension());
         let zeros = |count: usize| vec![0.0; count];
-        let (coefficients, defect) = (zeros((order + 1) * dimension), zeros(dimension));
+        let (coefficients, defect, missing) = (zeros((order + 1) * dimension), zeros(dimension), zeros(dimension));
         Taylor {
             order,
             dimension,
@@ -68,6 +70,7 @@ impl Taylor {
             forced: forced(system),
             defect,
             has_defect: false,
+            missing,
         }
     }
 
@@ -131,21 +134,26 @@ impl Stepper for Taylor {
     }
 
     /// What follows the last order. Of components with a force the defect tells it, which has been found when the step was
-    /// accepted; of position-like ones it is known.
+    /// accepted. Of position-like ones two orders are known: the first follows from the last order of speeds, the second from
+    /// what the speeds lack. The first alone may vanish by chance, or by symmetry.
     fn own_error(&mut self, system: &dyn System, ends: &Ends<'_>, error: &mut [f64]) -> bool {
         if !self.has_defect {
             return false;
         }
         let (n, next) = (self.dimension, (self.order + 1) as f64);
         let h = ends.h / self.unit;
-        let power = (0..self.order).fold(ends.h / next, |power, _| power * h);
-        system.kinematics(&self.coefficients[self.order * n..], error);
-        error.iter_mut().for_each(|rate| *rate *= -power);
+        let first = (0..self.order).fold(-ends.h / next, |power, _| power * h);
+        let second = ends.h / ((next + 1.0) * next);
+        let last = &self.coefficients[self.order * n..];
         for range in self.forced.iter().cloned() {
-            for (error, defect) in error[range.clone()].iter_mut().zip(&self.defect[range]) {
+            let known = self.defect[range.clone()].iter().zip(&last[range.clone()]);
+            let own = error[range.clone()].iter_mut().zip(&mut self.missing[range]);
+            for ((defect, last), (error, missing)) in known.zip(own) {
                 *error = defect / next;
+                *missing = first * last + second * defect;
             }
         }
+        system.kinematics(&self.missing, error);
         true
     }
 

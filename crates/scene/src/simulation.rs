@@ -123,8 +123,8 @@ pub struct Sight<'a, 'w> {
     pub new: &'a [Happening],
     /// The watch that found them.
     pub watch: &'a mut Watch<'w>,
-    /// Whether a sample is taken in it.
-    pub has_sample: bool,
+    /// The times of the first and the last sample that is taken in it.
+    pub samples: Option<[f64; 2]>,
 }
 
 /// Nobody looks on.
@@ -495,8 +495,8 @@ impl Observer for Recorder<'_> {
         }
         let stop = new.iter().find(|happening| self.stops(happening)).map(|happening| happening.time);
         let until = stop.unwrap_or(step.end);
-        let has_sample = !self.is_stopped && self.sampler.next() <= until;
-        self.onlooker.seen(step, &mut Sight { new: &new, watch: &mut self.watch, has_sample });
+        let samples = if self.is_stopped { None } else { self.sampler.span(step, until) };
+        self.onlooker.seen(step, &mut Sight { new: &new, watch: &mut self.watch, samples });
         if !self.is_stopped {
             let until = stop.unwrap_or(self.scene.t_end);
             let (record, onlooker) = (&mut self.record, &mut *self.onlooker);
