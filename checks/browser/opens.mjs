@@ -91,7 +91,25 @@ async function keyboard(harness) {
   await harness.close('keyboard', opened);
 }
 
+/** Neither the page nor a worker of its can ask for anything; the browser says so on its console, which is not judged here. */
+async function policy(harness) {
+  const opened = await harness.open();
+  const { page, heard } = opened;
+  const request = "fetch('http://127.0.0.1:9/').then(() => 'sent', () => 'refused')";
+  const asked = page.evaluate(() => new Promise((told) => { document.addEventListener('securitypolicyviolation', (event) => told(event.effectiveDirective)); }));
+  harness.equal('the page cannot ask', await page.evaluate(request), 'refused');
+  harness.equal('since its policy forbids it', await asked, 'connect-src');
+  const answer = await page.evaluate((text) => new Promise((told) => {
+    const worker = new Worker(URL.createObjectURL(new Blob([`${text}.then(postMessage)`])));
+    worker.onmessage = ({ data }) => told(data);
+  }), request);
+  harness.equal('nor can a worker', answer, 'refused');
+  harness.equal('nothing was sent', heard.requests.filter((url) => url.startsWith('http')).join(' '), '');
+  await opened.context.close();
+}
+
 export default async function opens(harness, tables) {
+  await policy(harness);
   await pictures(harness, tables);
   await withoutScripts(harness, tables);
   await schemes(harness);

@@ -104,6 +104,24 @@ async function saved(harness, page, name, change) {
   return here;
 }
 
+/** The ring moves while a run is computed, unless its reader wants no motion; a run can be stopped. */
+async function underway(harness) {
+  for (const reducedMotion of ['no-preference', 'reduce']) {
+    const opened = await harness.open({ reducedMotion });
+    const { page } = opened;
+    await begin(page);
+    await choose(page, 'Figure 11');
+    await page.waitForFunction(() => document.querySelector('#own-law .run progress').value > 0.2, null, { timeout: 60000, polling: 20 });
+    const seen = await page.locator('#own-law .ring-stage').evaluate((stage) => ({ ...stage.parentElement.dataset }));
+    if (reducedMotion === 'reduce') harness.equal('without motion nothing is drawn on the way', seen.t, undefined);
+    else harness.check('the ring moves while it is computed', Number(seen.t) > 0 && !seen.outcome, JSON.stringify(seen).slice(0, 100));
+    await page.getByRole('button', { name: 'Stop the run' }).click();
+    harness.equal('a run can be stopped', await page.locator('#own-law .run > output').textContent(), 'Stopped.');
+    harness.equal('and has no outcome', await page.locator('#own-law [data-outcome]').count(), 0);
+    await harness.close(`a run under way, motion ${reducedMotion}`, opened);
+  }
+}
+
 async function address(harness, page) {
   await choose(page, '(two phases)');
   await move(dial(page, 'kappa'), 1.7);
@@ -130,5 +148,6 @@ export default async function own(harness) {
   await saved(harness, page, '(two phases)', async () => { await move(dial(page, 'pedestrians'), 30); await move(dial(page, 'kappa'), 1.23); });
   harness.check('the ring shows the last sample', Number(await page.locator('#own-law .run [data-outcome]').getAttribute('data-t')) > 0);
   await address(harness, page);
+  await underway(harness);
   await harness.close('a law of one\'s own', opened);
 }

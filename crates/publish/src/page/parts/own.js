@@ -211,6 +211,7 @@ class OwnLaw {
     // columns of the field in place of those of the file
     const words = problem.replace(/^column (\d+)/, (_, column) => `column ${Number(column) - begin + 1}`);
     this.verdict.textContent = '';
+    this.rates.hidden = true;
     const wrong = place ? place.wrong : this.wrong;
     wrong.textContent = words;
     wrong.hidden = false;

@@ -168,7 +168,7 @@ class Ring {
       context.fillStyle = this.colour(speed);
       context.fill();
     }
-    put(this.followed, 2);
+    put(this.followed, Math.min(2, 13 / dot));
     context.strokeStyle = colours.second;
     context.lineWidth = 2.5;
     context.stroke();

@@ -16,11 +16,12 @@ const OWN_HINT = 'In the strip time runs to the right, the position on the ring 
 
 class RunView {
   constructor(host) {
+    this.host = host;
     this.status = make('output', { 'aria-live': 'polite' });
     this.bar = make('progress', { max: 1, value: 0, 'aria-label': 'How much of the run is computed' });
     this.stage = make('div', {});
     this.note = make('p', { class: 'hint', hidden: true }, 'This scene records the standard deviation alone; with record = trajectories the ring is shown.');
-    this.button = make('button', { type: 'button', hidden: true, onclick: () => this.stop('Stopped.') }, 'Stop the run');
+    this.button = make('button', { type: 'button', hidden: true, onclick: () => { this.stop('Stopped.'); this.host.classList.remove('stale'); } }, 'Stop the run');
     this.log = false;
     this.deviation = make('div', {});
     this.events = make('ul', { class: 'events' });
@@ -61,6 +62,7 @@ class RunView {
     delete this.stage.dataset.outcome;
     this.status.setAttribute('aria-live', 'off');
     this.status.textContent = reason;
+    this.host.classList.add('stale');
     this.bar.hidden = this.button.hidden = true;
     this.events.replaceChildren();
     this.sums.replaceChildren();
@@ -101,6 +103,7 @@ class RunView {
   }
 
   draw() {
+    this.host.classList.remove('stale');
     if (this.motion.keeps && !this.ring.playing && this.motion.samples) this.ring.show(this.motion, this.motion.t.at(-1));
     this.drawDeviation();
   }
