@@ -63,7 +63,7 @@ pub(crate) trait Stepper {
     }
 
     /// Writes by how much the series about a state near the start of the step differ from those of the step, for the orders
-    /// from 1 to `order` or the method's own, and returns their unit of time. Only for methods with [`Stepper::own_error`].
+    /// from 1 to `order` or the method's own, after a row of no meaning, and returns their unit of time. Only for methods with [`Stepper::own_error`].
     fn difference(&mut self, _system: &dyn System, _near: &[f64], _order: usize, _rows: &mut Vec<f64>) -> f64 {
         1.0
     }

@@ -6,7 +6,9 @@
 
 use crate::dense::Step;
 use crate::system::{Measure, System};
+use crate::taylor::Change;
 use crate::vector::largest;
+use math::simd::dispatch;
 
 /// The error of a solution, step by step.
 #[derive(Clone, Debug)]
@@ -17,8 +19,10 @@ pub struct Shadow {
     added: Vec<f64>,
     /// What the last step has added.
     own: Vec<f64>,
-    /// The orders of the shadow's difference from the solution, as series in time since then; none before the first error.
+    /// The orders of the shadow's difference from the solution, as series in time since then, after a row of no meaning.
     rows: Vec<f64>,
+    /// Whether there is an error that they follow.
+    has_rows: bool,
     /// How many orders.
     orders: usize,
     /// How much larger the difference is than the error.
@@ -35,9 +39,13 @@ pub struct Shadow {
     power: usize,
 }
 
-/// Orders of the series of the difference at first, and how many more where these do not reach over a step.
+/// Orders of the series of the difference at first, how many more where these do not reach over a step, and the fewest.
 const ORDERS: usize = 6;
-const MORE: usize = 4;
+const MORE: usize = 2;
+const FEWEST: usize = 4;
+
+/// By so much further than a step an expansion shall reach.
+const MARGIN: f64 = 1.15;
 
 /// So many steps an expansion lasts at most: what they add is carried on from the next one only.
 const LASTS: f64 = 6.0;
@@ -63,6 +71,7 @@ impl Shadow {
             own: zeros,
             error,
             rows: Vec::new(),
+            has_rows: false,
             orders: ORDERS,
             scale: 0.0,
             unit: 1.0,
@@ -108,44 +117,56 @@ impl Shadow {
 
     /// Expands the difference about the start of a step.
     fn expand(&mut self, step: &mut Step<'_>) {
-        let mut now = vec![0.0; self.error.len()];
-        self.at(1.0, &mut now);
-        self.error = now;
+        let mut near = vec![0.0; self.error.len()];
+        self.at(1.0, &mut near);
+        self.error.copy_from_slice(&near);
         self.added.fill(0.0);
-        self.rows.clear();
         let h = step.length();
         // what the first steps add is carried on from the next one
         self.reach = h;
         let size = relative(step.system, step.ends.before, &self.error);
         self.scale = DISTANCE / size;
-        if !self.scale.is_finite() || self.scale == 0.0 {
+        self.has_rows = self.scale.is_finite() && self.scale > 0.0;
+        if !self.has_rows {
             return;
         }
-        let near: Vec<f64> =
-            step.ends.before.iter().zip(&self.error).map(|(state, error)| state + self.scale * error).collect();
+        near.iter_mut().zip(step.ends.before).for_each(|(near, state)| *near = state + self.scale * *near);
         loop {
             self.unit = step.stepper.difference(step.system, &near, self.orders, &mut self.rows);
-            let is_whole = self.rows.len() / self.error.len() < self.orders;
-            let reach = self.convergent(step);
+            let made = self.rows.len() / near.len() - 1;
+            let is_whole = made < self.orders;
+            let reach = self.convergent(step, made);
             if reach < h && !is_whole {
                 // a stiff system: the step itself is nearly as long as all its orders allow
                 self.orders += MORE;
                 continue;
             }
-            self.orders -= if reach > 2.0 * h && self.orders > ORDERS { MORE } else { 0 };
             // of all orders the step itself is made
             let reach = if reach > h { reach } else { h };
             self.reach = if reach < LASTS * h { reach } else { LASTS * h };
+            self.adapt(step, made, reach);
             return;
         }
     }
 
-    /// How far the series are worth while: to where the last two terms are as large as [`REST`] of the difference.
-    fn convergent(&self, step: &Step<'_>) -> f64 {
+    /// The orders of the next expansion: one more or less where these reach hardly over a step, or one less would. Further
+    /// than a step more orders do not pay.
+    fn adapt(&mut self, step: &Step<'_>, made: usize, reach: f64) {
+        let enough = MARGIN * step.length();
+        self.orders = made;
+        if reach < enough {
+            self.orders += 1;
+        } else if made > FEWEST && self.convergent(step, made - 1) > enough {
+            self.orders -= 1;
+        }
+    }
+
+    /// How far so many orders of the series are worth while: to where the last two terms are as large as [`REST`] of the
+    /// difference.
+    fn convergent(&self, step: &Step<'_>, last: usize) -> f64 {
         let n = self.error.len();
-        let last = self.rows.len() / n;
         let limit = |k: usize| {
-            let term = relative(step.system, step.ends.before, &self.rows[(k - 1) * n..k * n]);
+            let term = relative(step.system, step.ends.before, &self.rows[k * n..(k + 1) * n]);
             if term > 0.0 { math::pow(REST * DISTANCE / term, 1.0 / k as f64) } else { f64::INFINITY }
         };
         self.unit * math::smaller(limit(last), limit(last - 1))
@@ -153,16 +174,13 @@ impl Shadow {
 
     /// Writes the error at the fraction `theta` of the step looked at last, component by component.
     pub fn at(&self, theta: f64, result: &mut [f64]) {
-        result.fill(0.0);
-        if !self.rows.is_empty() {
+        if self.has_rows {
             let h = (self.elapsed - (1.0 - theta) * self.length) / self.unit;
-            for row in self.rows.rchunks_exact(result.len()) {
-                for (result, coefficient) in result.iter_mut().zip(row) {
-                    *result = (*result + coefficient) * h;
-                }
-            }
+            dispatch(Change::<false> { rows: &self.rows, n: result.len(), from: 0, h, result });
             let share = 1.0 / self.scale;
             result.iter_mut().for_each(|result| *result *= share);
+        } else {
+            result.fill(0.0);
         }
         // of the own error of the step, that of what lies before it is the rest
         let rest = 1.0 - (0..self.power).fold(1.0, |power, _| power * theta);

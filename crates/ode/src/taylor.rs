@@ -160,15 +160,14 @@ impl Stepper for Taylor {
     fn difference(&mut self, system: &dyn System, near: &[f64], order: usize, rows: &mut Vec<f64>) -> f64 {
         let n = self.dimension;
         let order = if order < self.order { order } else { self.order };
-        rows.clear();
-        rows.extend_from_slice(near);
+        // all of them are written anew
         rows.resize((order + 1) * n, 0.0);
+        rows[..n].copy_from_slice(near);
         let (states, rates) = rows.split_at_mut(n);
         system.rates(states, &mut rates[..n]);
         rates[..n].iter_mut().for_each(|rate| *rate *= self.unit);
         system.series(order, self.unit, rows);
-        rows.drain(..n);
-        for (row, coefficient) in rows.iter_mut().zip(&self.coefficients[n..]) {
+        for (row, coefficient) in rows[n..].iter_mut().zip(&self.coefficients[n..]) {
             *row -= coefficient;
         }
         self.unit
@@ -210,13 +209,13 @@ const LEAST: f64 = 1e-300;
 const SAFETY: f64 = 0.95;
 
 /// Writes `c_1 h + c_2 h^2 + ...` (Horner) of the components from `from` on, to which `WHOLE` adds `c_0`.
-struct Change<'a, const WHOLE: bool> {
-    rows: &'a [f64],
+pub(crate) struct Change<'a, const WHOLE: bool> {
+    pub(crate) rows: &'a [f64],
     /// Length of a row.
-    n: usize,
-    from: usize,
-    h: f64,
-    result: &'a mut [f64],
+    pub(crate) n: usize,
+    pub(crate) from: usize,
+    pub(crate) h: f64,
+    pub(crate) result: &'a mut [f64],
 }
 
 impl<const WHOLE: bool> Change<'_, WHOLE> {

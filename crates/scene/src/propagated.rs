@@ -14,6 +14,9 @@ pub struct Propagated {
     /// Everybody's clearance but for the shift, and that.
     clearance: f64,
     shift: f64,
+    headway: f64,
+    /// The size of the desired speed.
+    desired: f64,
     /// Whether spacings lose the shift.
     loses_shift: bool,
     shadow: Option<Shadow>,
@@ -40,17 +43,23 @@ impl Onlooker for Propagated {
             self.is_blind = true;
             return;
         }
+        if sight.samples.is_none() && sight.new.is_empty() {
+            return;
+        }
         let (n, dimension) = (self.pedestrians, step.after().len());
         let (mut error, mut state) = (vec![0.0; dimension], vec![0.0; dimension]);
         // between samples of one step errors grow or fade; the ends of the span tell both
         let samples = sight.samples.map_or(Vec::new(), |[first, last]| vec![first, last]);
         for (index, time) in samples.iter().enumerate() {
+            if index > 0 && samples[0] == *time {
+                continue;
+            }
             let place = step.fraction(*time);
             // where the perturbation is lost all errors but its own are alike
             self.lost.as_ref().or(self.shadow.as_ref()).into_iter().for_each(|shadow| shadow.at(place, &mut error));
             let errors = &error[n..2 * n];
             // no standard deviation is off by more than all of its numbers
-            if index > 0 && samples[0] == *time || (1.0 + UNSURE) * largest(errors) <= self.std {
+            if (1.0 + UNSURE) * largest(errors) <= self.std {
                 continue;
             }
             step.at_fraction(place, &mut state);
@@ -68,7 +77,9 @@ impl Onlooker for Propagated {
             let mut change =
                 |direction: &[f64]| sight.watch.change(happening.event, happening.pedestrian, &state, direction).abs();
             let (by_error, rate) = (change(&error), change(&rates));
-            self.events.push(if by_error == 0.0 { 0.0 } else { by_error / rate });
+            // what falls through 0 is a difference of larger numbers
+            let size = if happening.event == Event::NegativeSpeed { self.desired } else { self.headway };
+            self.events.push((by_error + f64::EPSILON * size) / rate);
         }
     }
 }
@@ -81,6 +92,8 @@ impl Propagated {
             pedestrians: scene.ring.pedestrians,
             clearance,
             shift: scene.start.shift,
+            headway: scene.ring.headway(),
+            desired: scene.model.desired_speed().abs(),
             loses_shift: loses_shift(scene),
             shadow: None,
             lost: None,
