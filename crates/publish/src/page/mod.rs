@@ -41,7 +41,7 @@ pub const TEMPLATE: &str = include_str!("parts/template.html");
 /// How it looks.
 pub const STYLE: &str = include_str!("parts/style.css");
 /// What it does, in the order in which it is read.
-pub const SCRIPTS: [(&str, &str); 18] = [
+pub const SCRIPTS: [(&str, &str); 20] = [
     ("base.js", include_str!("parts/base.js")),
     ("numbers.js", include_str!("parts/numbers.js")),
     ("map.js", include_str!("parts/map.js")),
@@ -58,6 +58,8 @@ pub const SCRIPTS: [(&str, &str); 18] = [
     ("dial.js", include_str!("parts/dial.js")),
     ("motion.js", include_str!("parts/motion.js")),
     ("run-view.js", include_str!("parts/run-view.js")),
+    ("fields.js", include_str!("parts/fields.js")),
+    ("flow-view.js", include_str!("parts/flow-view.js")),
     ("own.js", include_str!("parts/own.js")),
     ("start.js", include_str!("parts/start.js")),
 ];
