@@ -236,9 +236,13 @@ fn reason(verdict: &mut Verdict, scene: &Scene, broken: &Broken, answer: &Answer
         _ => false,
     };
     let ends_there = matches!(solution.end, End::Singular | End::BlownUp) && solution.time <= time;
-    // positions tell no room below their rounding
+    // positions tell no room below their rounding; before a blow-up that rounding throws pedestrians about
     let (room, when) = solution.least[0];
-    let is_blind = scene.form == FormKind::Positions && when <= time && room < 1e-10 * scene.ring.length;
+    let is_rounding = |room: f64| room < 1e-10 * scene.ring.length;
+    let own = broken.narrowest.is_some_and(|place| is_rounding(place.room));
+    let blows_up = matches!(solution.end, End::Singular | End::BlownUp);
+    let sees_none = when <= time && is_rounding(room) || own && blows_up;
+    let is_blind = scene.form == FormKind::Positions && sees_none;
     if !is_own && !ends_there && !is_blind {
         let text = format!(
             "{broken}; the second integration goes on: {:?} at t = {:?} with speeds up to {:e}",

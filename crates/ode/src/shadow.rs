@@ -44,8 +44,8 @@ const ORDERS: usize = 6;
 const MORE: usize = 2;
 const FEWEST: usize = 4;
 
-/// By so much further than a step an expansion shall reach.
-const MARGIN: f64 = 1.15;
+/// An expansion shall reach over so many steps: fewer, longer ones cost as much as many short ones, and lose less.
+const MARGIN: f64 = 2.2;
 
 /// So many steps an expansion lasts at most: what they add is carried on from the next one only.
 const LASTS: f64 = 6.0;
@@ -54,7 +54,7 @@ const LASTS: f64 = 6.0;
 const SHORTER: f64 = 0.5;
 
 /// The part of the difference that may be lost.
-const REST: f64 = 0.005;
+const REST: f64 = 0.01;
 
 /// The shadow is as far from the solution as this part of it, so that neither curvature nor rounding counts.
 const DISTANCE: f64 = 1e-9;
@@ -149,8 +149,8 @@ impl Shadow {
         }
     }
 
-    /// The orders of the next expansion: one more or less where these reach hardly over a step, or one less would. Further
-    /// than a step more orders do not pay.
+    /// The orders of the next expansion: one more where these do not reach over [`MARGIN`] steps, one less where one less
+    /// does.
     fn adapt(&mut self, step: &Step<'_>, made: usize, reach: f64) {
         let enough = MARGIN * step.length();
         self.orders = made;

@@ -1,4 +1,8 @@
 //! The errors of a run by Taylor's method, whose steps tell their own, carried along with it ([`ode::Shadow`]).
+//!
+//! Some runs by this method are run a second time like those by others ([`crate::check`]): those by steps of fixed length,
+//! whose errors are roundings that they do not tell; those of laws with kinks, which a step may cross unseen; and those that
+//! went on from a checkpoint, which does not keep the errors before it.
 
 use crate::check::{Errors, ROUNDINGS, has_kinks, largest, largest_std, loses_shift};
 use crate::run::Scene;
