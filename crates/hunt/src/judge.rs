@@ -473,7 +473,10 @@ fn blow_up(verdict: &mut Verdict, happening: &Happening, answer: &Answer, length
             "blow-up at t = {found:?}; right: {:?} at {:?} with speeds of {:e}",
             solution.end, solution.time, solution.fastest
         );
-        let is_unknown = solution.end == End::Unfinished && solution.time < found + allowed;
+        let is_unfinished = solution.end == End::Unfinished && solution.time < found + allowed;
+        // a run whose own error leads it out of the domain of its formula, and whose second run does not follow
+        let is_unsure = happening.event == Event::Undefined && bound.std.is_infinite();
+        let is_unknown = is_unfinished || is_unsure;
         if is_unknown { verdict.undecided.push(text) } else { verdict.findings.push(text) }
     }
 }

@@ -25,7 +25,8 @@ pub struct Shadow {
     has_rows: bool,
     /// How many orders.
     orders: usize,
-    /// How much larger the difference is than the error.
+    /// How large the error is, and how much larger the difference.
+    size: f64,
     scale: f64,
     /// The unit of time of the series.
     unit: f64,
@@ -53,6 +54,9 @@ const LASTS: f64 = 6.0;
 /// Steps that have become shorter by this factor show something that the series does not: a sharp bend of the law.
 const SHORTER: f64 = 0.5;
 
+/// What steps have added is carried on once it is this part of the error.
+const FRESH: f64 = 0.25;
+
 /// The part of the difference that may be lost.
 const REST: f64 = 0.01;
 
@@ -73,6 +77,7 @@ impl Shadow {
             rows: Vec::new(),
             has_rows: false,
             orders: ORDERS,
+            size: 0.0,
             scale: 0.0,
             unit: 1.0,
             elapsed: 0.0,
@@ -107,7 +112,8 @@ impl Shadow {
 
     fn advance(&mut self, step: &mut Step<'_>) {
         let h = step.length();
-        if self.elapsed + h > self.reach || h < SHORTER * self.expanded {
+        let adds_much = relative(step.system, step.ends.before, &self.added) > FRESH * self.size;
+        if adds_much || self.elapsed + h > self.reach || h < SHORTER * self.expanded {
             self.expand(step);
             (self.elapsed, self.expanded) = (0.0, h);
         }
@@ -124,8 +130,8 @@ impl Shadow {
         let h = step.length();
         // what the first steps add is carried on from the next one
         self.reach = h;
-        let size = relative(step.system, step.ends.before, &self.error);
-        self.scale = DISTANCE / size;
+        self.size = relative(step.system, step.ends.before, &self.error);
+        self.scale = DISTANCE / self.size;
         self.has_rows = self.scale.is_finite() && self.scale > 0.0;
         if !self.has_rows {
             return;
