@@ -25,7 +25,8 @@ pub struct Shadow {
     has_rows: bool,
     /// How many orders.
     orders: usize,
-    /// How much larger the difference is than the error.
+    /// How large the error is, and how much larger the difference.
+    size: f64,
     scale: f64,
     /// The unit of time of the series.
     unit: f64,
@@ -44,8 +45,8 @@ const ORDERS: usize = 6;
 const MORE: usize = 2;
 const FEWEST: usize = 4;
 
-/// By so much further than a step an expansion shall reach.
-const MARGIN: f64 = 1.15;
+/// An expansion shall reach over so many steps: fewer, longer ones cost as much as many short ones, and lose less.
+const MARGIN: f64 = 2.2;
 
 /// So many steps an expansion lasts at most: what they add is carried on from the next one only.
 const LASTS: f64 = 6.0;
@@ -53,8 +54,11 @@ const LASTS: f64 = 6.0;
 /// Steps that have become shorter by this factor show something that the series does not: a sharp bend of the law.
 const SHORTER: f64 = 0.5;
 
+/// What steps have added is carried on once it is this part of the error.
+const FRESH: f64 = 0.25;
+
 /// The part of the difference that may be lost.
-const REST: f64 = 0.005;
+const REST: f64 = 0.01;
 
 /// The shadow is as far from the solution as this part of it, so that neither curvature nor rounding counts.
 const DISTANCE: f64 = 1e-9;
@@ -73,6 +77,7 @@ impl Shadow {
             rows: Vec::new(),
             has_rows: false,
             orders: ORDERS,
+            size: 0.0,
             scale: 0.0,
             unit: 1.0,
             elapsed: 0.0,
@@ -107,7 +112,8 @@ impl Shadow {
 
     fn advance(&mut self, step: &mut Step<'_>) {
         let h = step.length();
-        if self.elapsed + h > self.reach || h < SHORTER * self.expanded {
+        let adds_much = relative(step.system, step.ends.before, &self.added) > FRESH * self.size;
+        if adds_much || self.elapsed + h > self.reach || h < SHORTER * self.expanded {
             self.expand(step);
             (self.elapsed, self.expanded) = (0.0, h);
         }
@@ -124,8 +130,8 @@ impl Shadow {
         let h = step.length();
         // what the first steps add is carried on from the next one
         self.reach = h;
-        let size = relative(step.system, step.ends.before, &self.error);
-        self.scale = DISTANCE / size;
+        self.size = relative(step.system, step.ends.before, &self.error);
+        self.scale = DISTANCE / self.size;
         self.has_rows = self.scale.is_finite() && self.scale > 0.0;
         if !self.has_rows {
             return;
@@ -149,8 +155,8 @@ impl Shadow {
         }
     }
 
-    /// The orders of the next expansion: one more or less where these reach hardly over a step, or one less would. Further
-    /// than a step more orders do not pay.
+    /// The orders of the next expansion: one more where these do not reach over [`MARGIN`] steps, one less where one less
+    /// does.
     fn adapt(&mut self, step: &Step<'_>, made: usize, reach: f64) {
         let enough = MARGIN * step.length();
         self.orders = made;

@@ -159,15 +159,26 @@ pub(crate) fn has_kinks(model: &Model) -> bool {
 /// Fixed steps may be too long for their error to be that of their order.
 const CAUTION: f64 = 2.0;
 
-/// The rounding of the speeds, which the standard deviation inherits where they are not kept as deviations; none where they
-/// lose the perturbation whole, so that all motion is one, and the second run does not.
+/// The rounding of the standard deviation: that of speeds where they are not kept as deviations; none where spacings lose
+/// the perturbation whole, so that all motion is one, and the second run does not.
 fn rounding(scene: &Scene, outcome: &Outcome, second: &Scene) -> f64 {
     let shows_all = second.form == FormKind::Deviations;
-    if scene.form == FormKind::Deviations || shows_all && loses_shift(scene) && largest_std(outcome) == 0.0 {
-        0.0
-    } else {
-        ROUNDINGS * largest(&outcome.speeds)
+    match scene.form {
+        FormKind::Deviations => of_headway(scene) * largest_std(outcome),
+        _ if shows_all && loses_shift(scene) && largest_std(outcome) == 0.0 => 0.0,
+        _ => ROUNDINGS * largest(&outcome.speeds),
     }
+}
+
+/// How much the headway, `L/N` to the nearest double, changes deviations that grow or fade by how the force answers to a
+/// spacing: much where that falls by a factor of `e` over a small part of the headway.
+pub(crate) fn of_headway(scene: &Scene) -> f64 {
+    const PART: f64 = 1e-9;
+    let Some(speed) = scene.steady_speed else { return 0.0 };
+    let headway = scene.ring.headway();
+    let [here, there] = [headway, headway * (1.0 + PART)].map(|headway| scene.model.linearise(headway, speed).phi);
+    let condition = ((there - here) / (PART * here)).abs();
+    if condition.is_finite() { 0.5 * f64::EPSILON * condition } else { 0.0 }
 }
 
 /// Whether spacings lose the shift of the start to the last digit.

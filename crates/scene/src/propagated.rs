@@ -1,6 +1,10 @@
 //! The errors of a run by Taylor's method, whose steps tell their own, carried along with it ([`ode::Shadow`]).
+//!
+//! Some runs by this method are run a second time like those by others ([`crate::check`]): those by steps of fixed length,
+//! whose errors are roundings that they do not tell; those of laws with kinks, which a step may cross unseen; and those that
+//! went on from a checkpoint, which does not keep the errors before it.
 
-use crate::check::{Errors, ROUNDINGS, has_kinks, largest, largest_std, loses_shift};
+use crate::check::{Errors, ROUNDINGS, has_kinks, largest, largest_std, loses_shift, of_headway};
 use crate::run::Scene;
 use crate::simulation::{Onlooker, Outcome, Sight};
 use jam::events::{Event, Happening};
@@ -165,7 +169,7 @@ impl Propagated {
             .collect();
         let rounding = |numbers: &[f64]| ROUNDINGS * largest(numbers);
         let of_std = match scene.form {
-            FormKind::Deviations => ROUNDINGS * largest_std(outcome),
+            FormKind::Deviations => (ROUNDINGS + of_headway(scene)) * largest_std(outcome),
             // where all motion is one, no rounding lies between speeds; but a weak force goes unseen beside the drive
             _ if self.lost.is_some() && largest_std(outcome) == 0.0 => {
                 UNSEEN * scene.model.desired_speed().abs() * (self.shift / self.clearance).abs()
