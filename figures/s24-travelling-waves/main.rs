@@ -39,10 +39,9 @@ fn strength(job: &Job) -> Result<Lines, Failure> {
         let branch = points(job, "branch", ring, "mu", "std")?;
         panel = panel.series(Series::line(&format!("$N = {ring}$"), branch).look(look));
     }
-    for ring in RINGS {
-        let name = if ring == RINGS[0] { "lasts in a run" } else { "" };
-        panel = panel.series(Series::points(name, Marker::Circle, points(job, "runs", ring, "mu", "std")?).look(3));
-    }
+    let runs = job.read_rows("runs")?.select(&[], &["mu", "std"])?;
+    let lasting = runs.rows().map(|row| (row[0], row[1])).collect();
+    panel = panel.series(Series::points("lasts in a run", Marker::Circle, lasting).look(3));
     Ok(panel)
 }
 

@@ -30,7 +30,7 @@ pub fn tables(job: &Job, planes: &[Titled<'_>]) -> Result<(), Failure> {
             for class in Class::ALL.into_iter().filter(|class| all > 0.0 && count(*class) > 0.0) {
                 let words = [*panel, flow, class.name()].map(Cell::from);
                 let numbers = [count(class), count(class) / all, error].map(Cell::Number);
-                shares.push(&words.into_iter().chain(numbers).collect::<Vec<Cell>>());
+                shares.push(words.into_iter().chain(numbers).collect::<Vec<Cell>>());
             }
         }
     }
@@ -66,7 +66,7 @@ pub fn bands(job: &Job, panels: &[&str]) -> Result<(), Failure> {
         for (column, cells) in cells.chunks(sweep.y.cells).enumerate() {
             let words = [*panel, &sweep.x.parameter].map(Cell::from);
             let numbers = band(&sweep, column, cells)?.map(|number| number.map_or(Cell::Empty, Cell::Number));
-            bands.push(&words.into_iter().chain(numbers).collect::<Vec<Cell>>());
+            bands.push(words.into_iter().chain(numbers).collect::<Vec<Cell>>());
         }
     }
     job.write_rows("bands", &bands)
