@@ -75,11 +75,12 @@ fn shrunk(margin: f64) -> f64 {
 }
 
 fn widening(job: &Job) -> Result<Lines, Failure> {
-    let ticks = [-1.0, -0.3, 0.0, 0.3, 1.0, 3.0, 10.0].map(|margin| (shrunk(margin), margin.to_string()));
+    let ticks = [-1.0, -0.3, 0.0, 0.3, 1.0, 3.0, 10.0]
+        .map(|margin| (shrunk(margin), margin.to_string().replace('-', "\u{2212}")));
     let ticks: Vec<(f64, &str)> = ticks.iter().map(|(place, text)| (*place, text.as_str())).collect();
     let axes = (
         Axis::linear("$\\tilde a_v$", 0.0, 1.0).steps(5),
-        Axis::linear("margin of long waves", shrunk(-5.0), shrunk(25.0)).ticks(&ticks),
+        Axis::linear("margin of long waves", shrunk(-110.0), shrunk(25.0)).ticks(&ticks),
     );
     let lines = [
         ("algebraic", "density", "algebraic, given density"),
@@ -88,7 +89,7 @@ fn widening(job: &Job) -> Result<Lines, Failure> {
         ("exponential", "gap", "exponential, given $d'$"),
     ];
     let mut panel =
-        Lines::new(axes.0, axes.1).horizontal(0.0).note("unstable", (0.62, 0.1)).note("stable", (0.62, -0.3));
+        Lines::new(axes.0, axes.1).horizontal(0.0).note("unstable", (0.62, 0.35)).note("stable", (0.62, -0.9));
     for (law, fixed, name) in lines {
         let points = pairs(job, "widening", &[("law", law), ("fixed", fixed)], "a_v", "margin")?;
         let points = points.into_iter().map(|(a_v, margin)| (a_v, shrunk(margin))).collect();

@@ -202,9 +202,7 @@ impl Kernel for Largest<'_> {
             sum[lane] += size;
         };
         for chunk in chunks {
-            for lane in 0..LANES {
-                take(lane, chunk[lane]);
-            }
+            chunk.iter().enumerate().for_each(|(lane, value)| take(lane, *value));
         }
         for (lane, value) in rest.iter().enumerate() {
             take(lane, *value);

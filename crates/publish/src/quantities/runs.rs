@@ -161,19 +161,20 @@ fn collisions(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> 
     all.rounded("collision.a_0", sheet.only(&[("t_end", "3000")])?.first("a_0_in_m")?, 2, name);
     let name = "data/s14/collision_by_headway.csv";
     let sheet = Sheet::read(source.paths, name)?;
-    all.rounded("collision.headways.none", sheet.least("none_at")?, 5, &format!("{name}: least of none_at"));
-    all.rounded(
-        "collision.headways.contact",
-        sheet.largest("contact_at")?,
-        5,
-        &format!("{name}: largest of contact_at"),
-    );
+    // limits: rounded away from each other
+    let down = |value: f64| (value * 1e4).floor() / 1e4;
+    all.rounded("collision.headways.none", down(sheet.least("none_at")?), 5, &format!("{name}: least of none_at"));
+    let highest = -down(-sheet.largest("contact_at")?);
+    all.rounded("collision.headways.contact", highest, 5, &format!("{name}: largest of contact_at"));
     all.exact("collision.headways.from", sheet.least("headway")?, name);
     all.exact("collision.headways.to", sheet.largest("headway")?, name);
     let name = "data/s14/jam_headway.csv";
     let last = Sheet::read(source.paths, name)?.only(&[("v0", "1.25")])?;
     all.rounded("jam-headway.zero.least", last.least("zero_at")?, 4, &format!("{name}: v0 = 1.25"));
     all.rounded("jam-headway.zero.largest", last.largest("zero_at")?, 4, &format!("{name}: v0 = 1.25"));
+    let same = Sheet::read(source.paths, name)?.only(&[("v0", "1.2")])?;
+    all.rounded("jam-headway.1.2.least", same.least("least_headway")?, 3, &format!("{name}: v0 = 1.2"));
+    all.rounded("jam-headway.1.2.largest", same.largest("least_headway")?, 3, &format!("{name}: v0 = 1.2"));
     let figure = Sheet::read(source.paths, name)?.only(&[("headway", "1.5")])?;
     for v0 in ["1.15", "1.2", "1.23", "1.24", "1.25"] {
         let row = figure.only(&[("v0", v0)])?;
