@@ -14,6 +14,15 @@ PACKAGES = {
     "libgsl-dev": lambda: Path("/usr/include/gsl/gsl_odeiv2.h").exists(),
     "libboost-dev": lambda: Path("/usr/include/boost/numeric/odeint.hpp").exists(),
 }
+# of these programs; the others are needed for any
+NEEDED_BY = {
+    "gfortran": {"numbalsoda"},
+    "libsundials-dev": {"cvode", "arkode"},
+    "libgsl-dev": {"gsl"},
+    "libboost-dev": {"odeint"},
+}
+# the integrators that are called from Python
+PYTHON = {"scipy", "numbalsoda", "heyoka"}
 LIBRARIES = {
     "cvode": ["-lsundials_cvode", "-lsundials_nvecserial"],
     "arkode": ["-lsundials_arkode", "-lsundials_nvecserial"],
@@ -37,9 +46,10 @@ def run(command, what, **options):
     return done.stdout
 
 
-def system_packages(install):
-    """Checks for the packages of the system; installs them if that was asked for and is allowed."""
-    missing = [name for name, found in PACKAGES.items() if not found()]
+def system_packages(install, wanted):
+    """Checks for what the wanted programs need of the system; installs it if that was asked for and is allowed."""
+    needed = {name: found for name, found in PACKAGES.items() if NEEDED_BY.get(name, wanted) & wanted}
+    missing = [name for name, found in needed.items() if not found()]
     if not missing:
         return
     if not install:
@@ -78,16 +88,18 @@ def python_environment(scratch):
     return python
 
 
-def programs(scratch):
-    """Builds the programs in C++ and Rust: their paths by name."""
+def programs(scratch, wanted):
+    """Builds the wanted programs in C++ and Rust: their paths by name."""
     options, level = flags()
     library = scratch / "librhs.so"
     source = BENCH / "cpp"
     run(["g++", *options, "-shared", "-fPIC", source / "rhs.cpp", "-o", library], "g++ rhs.cpp")
     built = {"rhs": library}
-    for name, libraries in LIBRARIES.items():
+    for name, libraries in [(name, libraries) for name, libraries in LIBRARIES.items() if name in wanted]:
         built[name] = scratch / name
         run(["g++", *options, source / f"{name}.cpp", "-o", built[name], *libraries], f"g++ {name}.cpp")
+    if "differential-equations" not in wanted:
+        return built
     rust = f"-C target-cpu={level} -L {scratch} -C link-arg=-Wl,-rpath,{scratch}"
     environment = os.environ | {"CARGO_TARGET_DIR": str(scratch / "cargo"), "RUSTFLAGS": rust}
     package = BENCH / "differential-equations"
@@ -109,9 +121,9 @@ def versions(python):
         "from importlib.metadata import version as v\n"
         "print(*(f'{n} {v(n)}' for n in ['numpy', 'scipy', 'numba', 'numbalsoda', 'heyoka']), sep='\\n')"
     )
-    found = run([python, "-c", code], "versions").split("\n")[:-1]
+    found = run([python, "-c", code], "versions").split("\n")[:-1] if python else []
     for name in ["libsundials-dev", "libgsl-dev", "libboost-dev"]:
-        if shutil.which("dpkg-query"):
+        if shutil.which("dpkg-query") and PACKAGES[name]():
             found.append(f"{name} " + run(["dpkg-query", "-W", "-f", "${Version}", name], "dpkg-query"))
     manifest = (BENCH / "differential-equations" / "Cargo.toml").read_text()
     found.append("differential-equations " + manifest.split('differential-equations = "=')[1].split('"')[0])

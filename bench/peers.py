@@ -21,7 +21,8 @@ from report import csv, markdown
 
 ROOT = Path(__file__).resolve().parent.parent
 OURS = "ours"
-PATIENCE = 8.0  # seconds after which a series of tolerances goes on no further
+BEFORE = "ours before"
+PATIENCE = 2.0  # seconds after which a series of tolerances goes on no further
 
 
 class Runner:
@@ -29,18 +30,21 @@ class Runner:
 
     def __init__(self, folder, programs, python, simulate):
         self.folder, self.simulate = folder, simulate
+        # peers estimate no errors of a run and judge none; an earlier commit may not know the options
+        self.without = {peer: known_options(program) for peer, program in simulate.items()}
         self.commands = {name: [path] for name, path in programs.items()}
-        for name in ["scipy", "numbalsoda", "heyoka"]:
-            self.commands[name] = [python, build.BENCH / "python" / f"{name}_ring.py", programs["rhs"]]
+        if python:
+            for name in sorted(build.PYTHON):
+                self.commands[name] = [python, build.BENCH / "python" / f"{name}_ring.py", programs["rhs"]]
         for case in CASES:
             for record in ["std", "trajectories"]:
                 (folder / f"{case.name}-{record}.toml").write_text(case.scene(record))
 
-    def ours(self, case, method, tolerance, record="std"):
-        options = ["--method", method, "--tol", tolerance, "--json"]
+    def ours(self, case, method, tolerance, record="std", peer=OURS):
+        options = ["--method", method, "--tol", tolerance, "--json", *self.without[peer]]
         if record == "trajectories":
             options += ["--out", self.folder / "out", "--tables-only"]
-        return [self.simulate, self.folder / f"{case.name}-{record}.toml", *options]
+        return [self.simulate[peer], self.folder / f"{case.name}-{record}.toml", *options]
 
     def our_methods(self):
         """The names in the message about an unknown one, without those that have no control of their steps."""
@@ -53,8 +57,8 @@ class Runner:
 
     def time(self, case, setting, times):
         """(CPU seconds, right-hand sides), or None if it fails; the states of a peer are left in a file."""
-        if setting.peer == OURS:
-            done = run_quietly(self.ours(case, setting.method, setting.tolerance))
+        if setting.peer in self.simulate:
+            done = run_quietly(self.ours(case, setting.method, setting.tolerance, peer=setting.peer))
             result = done and json.loads(done)
             # a run that an event ends early is no solution
             return (result["seconds"], result["right_hand_sides"]) if result and result["stop"] == "t_end" else None
@@ -66,12 +70,18 @@ class Runner:
 
     def states(self, case, setting, times):
         """The states at these times, of the run just timed or, for ours, of another one that keeps them."""
-        if setting.peer != OURS:
+        if setting.peer not in self.simulate:
             with (self.folder / "states.csv").open() as file:
                 return read_states(file)
-        build.run(self.ours(case, setting.method, setting.tolerance, "trajectories"), "simulate")
+        build.run(self.ours(case, setting.method, setting.tolerance, "trajectories", setting.peer), "simulate")
         with (self.folder / "out" / "trajectories.csv").open() as file:
             return read_trajectories(file, 200.0, times)
+
+
+def known_options(program):
+    """The options of ours that leave out what no peer does, as far as the program has them."""
+    text = subprocess.run([program, "--help"], capture_output=True, text=True).stdout
+    return [option for option in ["--no-check", "--no-outcome"] if option in text]
 
 
 def run_quietly(command, limit=60.0):
@@ -167,6 +177,7 @@ def arguments():
     parser.add_argument("--quick", action="store_true", help="fewer tolerances, 3 rounds")
     parser.add_argument("--cases", type=names, help=f"of {', '.join(case.name for case in CASES)}; all by default")
     parser.add_argument("--peers", type=names, help=f"of {', '.join(peer.name for peer in PEERS)}; all by default")
+    parser.add_argument("--before", type=Path, help="the program `simulate` of an earlier commit, measured in turn with ours")
     parser.add_argument("--install", action="store_true", help="install missing system packages (apt-get, as root)")
     options = parser.parse_args()
     for wanted, known in [(options.cases, CASES), (options.peers, PEERS)]:
@@ -179,7 +190,8 @@ def arguments():
 def compare(runner, options):
     """The tables of all cases asked for, [(case, target, rows)], and against what each was judged."""
     wanted = [
-        [Setting(OURS, "", "deviation", method, f"1e-{k}", "") for k in exponents(options.quick)]
+        [Setting(peer, "", "deviation", method, f"1e-{k}", "") for k in exponents(options.quick)]
+        for peer in runner.simulate
         for method in runner.our_methods()
     ]
     wanted += [one for one in series(options.quick) if not options.peers or one[0].peer in options.peers]
@@ -195,9 +207,12 @@ def compare(runner, options):
 def main(options):
     scratch = options.scratch.resolve()
     scratch.mkdir(parents=True, exist_ok=True)
-    build.system_packages(options.install)
-    python = build.python_environment(scratch)
-    programs, simulate = build.programs(scratch), build.simulate()
+    wanted = {peer.program for peer in PEERS if not options.peers or peer.name in options.peers}
+    build.system_packages(options.install, wanted)
+    python = build.python_environment(scratch) if wanted & build.PYTHON else None
+    programs, simulate = build.programs(scratch, wanted), {OURS: build.simulate()}
+    if options.before:
+        simulate[BEFORE] = options.before.resolve()
     with tempfile.TemporaryDirectory(dir=scratch) as folder:
         tables, truths = compare(Runner(Path(folder), programs, python, simulate), options)
     facts = {

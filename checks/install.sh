@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what the checks need and this machine lacks, where that is possible (Debian, as root):
-#   checks/install.sh [compiler] [python] [browser] [git] [valgrind] [slurm] [parallel]
+#   checks/install.sh [compiler] [python] [browser] [wasm] [git] [valgrind] [slurm] [parallel]
 # Exit code 0: all of it is there; 5: something is missing and cannot be installed here; another one: an installation
 # failed.
 set -euo pipefail
@@ -11,6 +11,10 @@ for part in "$@"; do
     compiler) need cc build-essential; need c++ build-essential ;;
     valgrind) need valgrind valgrind ;;
     git) need git git ;;
+    wasm)
+      # the target, or Debian's compiler with the sources of the library
+      rustup target add wasm32-unknown-unknown >/dev/null 2>&1 || packages+=(rustc-web rust-web-src lld-19)
+      ;;
     slurm) need slurmctld slurm-wlm; need munged munge ;;
     parallel) need parallel parallel ;;
     python) python3 -c 'import ensurepip, venv' >/dev/null 2>&1 || packages+=(python3 python3-venv) ;;
@@ -19,7 +23,7 @@ for part in "$@"; do
       need node nodejs
       need npm npm
       ;;
-    *) echo "$0: $part: valid are compiler, git, python, browser, valgrind, slurm, parallel" >&2; exit 2 ;;
+    *) echo "$0: $part: valid are compiler, git, python, browser, wasm, valgrind, slurm, parallel" >&2; exit 2 ;;
   esac
 done
 [ ${#packages[@]} -gt 0 ] || exit 0

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Makes tables and pictures of the figures on other machines and compares their sums with those of data/SHA256SUMS:
-#   checks/other-machines.sh [--only PART]... [SUMS]       PART: here, environment, nehalem, arm64, wasm
+#   checks/other-machines.sh [--only PART]... [SUMS]
+# PART: here, environment, nehalem, arm64, wasm; and, only when named, i686, riscv64, s390x, windows.
 # What a part needs is installed when this is Debian and the user is root; where that is not possible the part is
 # reported as skipped. Everything is written under target/other-machines. Exit code 1 when a sum differs.
 set -u -o pipefail
@@ -35,16 +36,16 @@ run_panels() {
   echo "${panels:-main}"
 }
 
-# one_figure SLUG BIN OUT [RUNNER..]: runs, tables and pictures of one figure, from the current folder's scenes.
+# one_figure SLUG BIN OUT [RUNNER..], with the programs' suffix in the environment: runs, tables and pictures of one figure, from the current folder's scenes.
 one_figure() {
   local slug=$1 bin=$2 out=$3 scene=figures/$1/scene.toml id=${1%%-*} panel
   shift 3
   local runs=()
   for panel in $(run_panels "$scene"); do
-    "$@" "$bin/simulate" "$scene" --panel "$panel" --out "$out/runs/$id-$panel" --tables-only || return 1
+    "$@" "$bin/simulate${suffix:-}" "$scene" --panel "$panel" --out "$out/runs/$id-$panel" --tables-only || return 1
     runs+=(--run "$panel=$out/runs/$id-$panel")
   done
-  "$@" "$bin/$slug" --scene "$scene" ${runs[@]+"${runs[@]}"} --tables "$out/data/$id" --pictures "$out/figures/$slug"
+  "$@" "$bin/$slug${suffix:-}" --scene "$scene" ${runs[@]+"${runs[@]}"} --tables "$out/data/$id" --pictures "$out/figures/$slug"
 }
 export -f one_figure run_panels
 
@@ -237,10 +238,78 @@ part_wasm() {
   fi
 }
 
+# Debian's compiler and the sources of its standard library, which is built along.
+has_std_source() {
+  [ -d "$(/usr/bin/rustc --print sysroot 2>/dev/null)/lib/rustlib/src/rust/library" ]
+}
+
+# build_with_std TRIPLE LINKER [RUSTFLAGS]: the binaries with a standard library from source.
+build_with_std() {
+  local name=${1//-/_}
+  name=${name^^}
+  env RUSTC_BOOTSTRAP=1 RUSTC=/usr/bin/rustc "CARGO_TARGET_${name}_LINKER=$2" "CARGO_TARGET_${name}_RUSTFLAGS=${3:-}" \
+    CARGO_TARGET_DIR="$scratch/build" cargo build --release --quiet -Zbuild-std=std,panic_unwind --target "$1" -p figures \
+    >"$scratch/$1.log" 2>&1 || { tail -n 20 "$scratch/$1.log" >&2; return 1; }
+}
+
+# from_source NAME TRIPLE PREFIX PACKAGES [RUNNER..]: another Linux, with Debian's cross compiler PREFIX-gcc.
+from_source() {
+  local name=$1 triple=$2 prefix=$3 packages=(rustc-web rust-web-src) place
+  read -ra more <<<"$4"
+  packages+=("${more[@]}")
+  shift 4
+  if ! { has_std_source && tools "$prefix-gcc" ${1:+"$1"}; }; then
+    install "${packages[@]}" || { skip "$name" "needs ${packages[*]}"; return; }
+  fi
+  build_with_std "$triple" "$prefix-gcc" || { skip "$name" "the binaries do not build"; return; }
+  place=$(folder "$name")
+  cd "$place" && figures_as "$name" "$scratch/build/$triple/release" 2 "$@"
+}
+
+# 32 bits, with SSE2; run by this processor.
+part_i686() {
+  from_source i686 i686-unknown-linux-gnu i686-linux-gnu 'gcc-i686-linux-gnu libc6-dev-i386-cross libc6-i386 lib32gcc-s1'
+}
+
+part_riscv64() {
+  from_source riscv64 riscv64gc-unknown-linux-gnu riscv64-linux-gnu 'gcc-riscv64-linux-gnu libc6-dev-riscv64-cross qemu-user' \
+    qemu-riscv64 -L /usr/riscv64-linux-gnu
+}
+
+# Big-endian. QEMU 7.2 multiplies two f32 to an f64 wrongly there, so pictures need a newer one: QEMU_S390X names it.
+part_s390x() {
+  local qemu=${QEMU_S390X:-qemu-s390x}
+  from_source s390x s390x-unknown-linux-gnu s390x-linux-gnu 'gcc-s390x-linux-gnu libc6-dev-s390x-cross qemu-user' \
+    "$qemu" -L /usr/s390x-linux-gnu
+}
+
+# Windows programs by mingw, run by Wine.
+part_windows() {
+  local triple=x86_64-pc-windows-gnu extra=$scratch/windows-extra packages=(rustc-web rust-web-src gcc-mingw-w64-x86-64 wine64) source object place
+  if ! { has_std_source && tools x86_64-w64-mingw32-gcc && [ -x /usr/lib/wine/wine64 ]; }; then
+    install "${packages[@]}" || { skip windows "needs ${packages[*]}"; return; }
+  fi
+  # two objects that -Zbuild-std does not make
+  source=$(/usr/bin/rustc --print sysroot)/lib/rustlib/src/rust/library/rtstartup
+  mkdir -p "$extra"
+  for object in rsbegin rsend; do
+    RUSTC_BOOTSTRAP=1 /usr/bin/rustc --target $triple --emit=obj -o "$extra/$object.o" "$source/$object.rs" || return
+  done
+  build_with_std $triple x86_64-w64-mingw32-gcc "-L native=$extra" || { skip windows "the binaries do not build"; return; }
+  export WINEPREFIX=$scratch/wine WINEDEBUG=-all WINEARCH=win64
+  [ -d "$WINEPREFIX" ] || timeout 300 /usr/lib/wine/wine64 wineboot -i >/dev/null 2>&1
+  # Wine 8 lacks the library from which the standard library takes random bytes
+  printf '%s\n' '#include <windows.h>' 'BOOLEAN NTAPI SystemFunction036(PVOID, ULONG);' \
+    '__declspec(dllexport) BOOL WINAPI ProcessPrng(PBYTE at, SIZE_T length) { return SystemFunction036(at, (ULONG)length); }' >"$extra/random.c"
+  x86_64-w64-mingw32-gcc -shared -O2 -o "$WINEPREFIX/drive_c/windows/system32/bcryptprimitives.dll" "$extra/random.c" -ladvapi32 || return
+  place=$(folder windows)
+  cd "$place" && export suffix=.exe && figures_as "Windows by Wine" "$scratch/build/$triple/release" 2 /usr/lib/wine/wine64
+}
+
 for part in "${parts[@]}"; do
   case $part in
-    here | environment | nehalem | arm64 | wasm) cd "$root" && "part_$part" ;;
-    *) echo "$part: must be here, environment, nehalem, arm64 or wasm" >&2; exit 2 ;;
+    here | environment | nehalem | arm64 | wasm | i686 | riscv64 | s390x | windows) cd "$root" && "part_$part" ;;
+    *) echo "$part: must be here, environment, nehalem, arm64, wasm, i686, riscv64, s390x or windows" >&2; exit 2 ;;
   esac
 done
 echo "$passed passed, $failed failed, $skipped skipped"

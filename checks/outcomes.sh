@@ -1,47 +1,59 @@
 #!/usr/bin/env bash
 # Computes planes of outcomes again and compares them with the committed tables, byte by byte: data/outcomes. A plane takes
-# minutes. `bash checks/outcomes.sh [--bless] [PANEL ...]`; by default the quickest plane.
+# seconds to minutes. `bash checks/outcomes.sh [--bless] [PANEL ...]`; by default the quickest plane.
 #
-# `bash checks/outcomes.sh --how-sure [PANEL ...]` prints how many cells of a coarse plane (25 x 25) change with a hundredth of the
-# tolerance, twice the time, another method and other shifts: all that differ, and those that are decided both times.
+# `bash checks/outcomes.sh --how-sure COUNT [PANEL ...]` prints rows of data/outcomes/how_sure.csv. Of the committed plane, so
+# many cells that were filled in are run, and so many that were run are run again with a hundredth of the tolerance, for twice
+# the time, with another method and with other shifts; a row says how many have another outcome, and of how many both outcomes
+# are decided. With COUNT = 0 all cells are: hours for some planes.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-scene=figures/s18-outcomes/scene.toml
-bless=
-if [ "${1:-}" = --bless ]; then bless=1; shift; fi
-if [ "${1:-}" = --how-sure ]; then
-    shift
-    work=${CARGO_TARGET_DIR:-target}/outcomes/how-sure
+work=${CARGO_TARGET_DIR:-target}/outcomes
+
+scene_of() {
+    grep -l "^\[panel\.$1\." figures/s*-outcomes*/scene.toml || { echo "no plane is called $1" >&2; exit 2; }
+}
+
+case ${1:-} in
+--how-sure)
+    count=${2:?how many cells of a kind}
+    shift 2
+    [ "$count" -gt 0 ] || count=1000000
+    [ $# -gt 0 ] || set -- exponential
     mkdir -p "$work"
-    coarse='s/cells = [0-9]*/cells = 25/'
     echo "plane,change,cells,differ,decided_differ"
-    [ $# -gt 0 ] || set -- logarithmic exponential relative plain
+    cargo build --quiet --release --package studies --bin again
     for panel in "$@"; do
-        for change in none 's/= 1e-6/= 1e-8/' 's/= 6000.0/= 12000.0/' 's/"taylor"/"dop853"/' \
-            's/^shift = 0.1/shift = 0.05/' 's/^shift = 0.1/shift = 0.15/'; do
-            name=$(printf %s "$panel $change" | tr -c 'a-zA-Z0-9.\n' _)
-            if [ "$change" = none ]; then edit=; else edit=$change; fi
-            sed -e "$coarse" -e "$edit" "$scene" > "$work/$name.toml"
-            rm -rf "${work:?}/$name"
-            cargo --quiet xtask sweep "$work/$name.toml" --panel "$panel" --out "$work/$name" --tables-only >&2
-            if [ "$change" = none ]; then first=$work/$name/cells.csv; continue; fi
-            paste -d, <(cut -d, -f3 "$first") <(cut -d, -f3 "$work/$name/cells.csv") | awk -F, -v plane="$panel" -v change="$change" '
-                NR > 1 { cells++; if ($1 != $2) { differ++; if ($1 != "undecided" && $2 != "undecided") sure++ } }
-                END { gsub(/^s.|\/$/, "", change); print plane "," change "," cells "," differ + 0 "," sure + 0 }'
-        done
+        scene=$(scene_of "$panel")
+        while read -r kind change edit; do
+            sed "$edit" "$scene" > "$work/$panel-$change.toml"
+            "${CARGO_TARGET_DIR:-target}/release/again" "$work/$panel-$change.toml" "$panel" "data/outcomes/$panel.csv" \
+                "$count" "$kind" "$change"
+        done <<'EDITS'
+filled filled_cells_run
+run tolerance_1e-8 s/tolerance = 1e-6/tolerance = 1e-8/
+run t_end_12000 s/t_end     = 6000.0/t_end     = 12000.0/
+run dop853 s/"taylor"/"dop853"/
+run shift_0.05 s/^shift = 0.1/shift = 0.05/
+run shift_0.15 s/^shift = 0.1/shift = 0.15/
+EDITS
     done
-    exit
-fi
-for panel in "${@:-exponential}"; do
-    out=${CARGO_TARGET_DIR:-target}/outcomes/$panel
-    rm -rf "$out"
-    cargo --quiet xtask sweep "$scene" --panel "$panel" --out "$out" --tables-only
-    if [ -n "$bless" ]; then
-        mkdir -p data/outcomes
-        cp "$out/cells.csv" "data/outcomes/$panel.csv"
-    elif cmp "$out/cells.csv" "data/outcomes/$panel.csv"; then
-        echo "$panel: the same bytes"
-    else
-        exit 1
-    fi
-done
+    ;;
+*)
+    bless=
+    if [ "${1:-}" = --bless ]; then bless=1; shift; fi
+    for panel in "${@:-exponential}"; do
+        table=$work/$panel/cells.csv
+        rm -rf "${work:?}/$panel"
+        cargo --quiet xtask sweep "$(scene_of "$panel")" --panel "$panel" --out "$work/$panel" --tables-only
+        if [ -n "$bless" ]; then
+            mkdir -p data/outcomes
+            cp "$table" "data/outcomes/$panel.csv"
+        elif cmp "$table" "data/outcomes/$panel.csv"; then
+            echo "$panel: the same bytes"
+        else
+            exit 1
+        fi
+    done
+    ;;
+esac

@@ -14,7 +14,9 @@ export default async function access(harness) {
     const opened = await harness.open(options);
     const { page } = opened;
     await page.evaluate(() => document.querySelectorAll('details').forEach((one) => { one.open = true; }));
-    for (const host of await page.locator('.explorer').all()) await host.scrollIntoViewIfNeeded();
+    for (const host of await page.locator('.explorer, #own-law, #bits').all()) await host.scrollIntoViewIfNeeded();
+    // with what a run leaves there
+    if (harness.hasModule) await page.waitForFunction(() => document.querySelector('#own-law [data-outcome]'), null, { timeout: 120000 });
     await page.evaluate(AXE);
     const { violations, passes } = await page.evaluate(() => window.axe.run(document, { resultTypes: ['violations'] }));
     const told = violations.map((one) => `${one.id} (${one.nodes.length}): ${one.nodes[0].html.slice(0, 160)} ${one.nodes[0].failureSummary}`);

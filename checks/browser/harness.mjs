@@ -1,7 +1,9 @@
 // A browser without a window, a page that is watched, and checks that are counted.
 
 import { chromium } from 'playwright-core';
-import { accessSync, constants } from 'node:fs';
+import { spawnSync } from 'node:child_process';
+import { accessSync, constants, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
 import { delimiter, join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 
@@ -22,7 +24,10 @@ function browserPath() {
 
 export class Harness {
   constructor(file, browser) {
+    this.file = file;
     this.url = pathToFileURL(file).href;
+    this.hasModule = /id="module">[^<]/.test(readFileSync(file, 'utf8'));
+    this.folder = mkdtempSync(join(tmpdir(), 'page-'));
     this.browser = browser;
     this.passed = 0;
     this.failed = 0;
@@ -52,7 +57,7 @@ export class Harness {
   }
 
   /** Opens the page in a context of its own, with an ear for errors and requests. */
-  async open(options = {}) {
+  async open({ hash = '', ...options } = {}) {
     const context = await this.browser.newContext({ viewport: { width: 1400, height: 900 }, ...options });
     const page = await context.newPage();
     const heard = { errors: [], requests: [] };
@@ -64,7 +69,9 @@ export class Harness {
     page.on('pageerror', (error) => heard.errors.push(String(error)));
     page.on('request', (request) => heard.requests.push(request.url()));
     await context.route((url) => !INSIDE.includes(url.protocol), (route) => route.abort());
-    await page.goto(this.url, { waitUntil: 'load' });
+    await page.goto(this.url + hash, { waitUntil: 'load' });
+    // its numbers are unpacked after that
+    if (options.javaScriptEnabled !== false) await page.waitForFunction(() => 'ready' in document.documentElement.dataset);
     return { context, page, heard };
   }
 
@@ -78,8 +85,30 @@ export class Harness {
     await context.close();
   }
 
-  async end() {
+  /** Runs a verb of the runner. */
+  xtask(words) {
+    const { status, stdout, stderr } = spawnSync(process.env.XTASK, words, { encoding: 'utf8', cwd: this.root });
+    return { status, out: stdout, err: stderr };
+  }
+
+  /** Resident memory of the largest process that shows a page: where there is no /proc, none. */
+  async memory() {
+    const session = await this.browser.newBrowserCDPSession();
+    const { processInfo } = await session.send('SystemInfo.getProcessInfo');
+    await session.detach();
+    const resident = ({ id }) => {
+      try { return 1024 * Number(readFileSync(`/proc/${id}/status`, 'utf8').match(/^VmRSS:\s+(\d+)/m)[1]); } catch { return 0; }
+    };
+    return Math.max(...processInfo.filter((one) => one.type === 'renderer').map(resident));
+  }
+
+  async stop() {
     await this.browser.close();
+    rmSync(this.folder, { recursive: true });
+  }
+
+  async end() {
+    await this.stop();
     console.log(`${this.passed} passed, ${this.failed} failed`);
     return this.failed === 0 ? 0 : 1;
   }

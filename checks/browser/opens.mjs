@@ -34,7 +34,7 @@ async function withoutScripts(harness, tables) {
   const claims = tables.json('data/ledger.json').claims.length;
   harness.equal('without scripts: all claims are shown', await page.locator('.claim:visible').count(), claims);
   harness.equal('without scripts: nothing that needs them is shown', await page.locator('.scripted:visible, .explorer:visible').count(), 0);
-  harness.equal('without scripts: what stands in their place is', await page.locator('.unscripted:visible').count(), 2);
+  harness.equal('without scripts: what stands in their place is', await page.locator('.unscripted:visible').count(), 4);
   await page.locator('#fig03 summary').last().click();
   harness.check('without scripts: details open', await page.locator('#fig03 table').first().isVisible());
   await harness.close('without scripts', opened);
@@ -68,7 +68,7 @@ async function widths(harness) {
     const { page } = opened;
     // everything is laid out: folded parts open, drawings drawn
     await page.evaluate(() => document.querySelectorAll('details').forEach((one) => { one.open = true; }));
-    for (const host of await page.locator('.explorer, #ring').all()) await host.scrollIntoViewIfNeeded();
+    for (const host of await page.locator('.explorer, #ring, #own-law').all()) await host.scrollIntoViewIfNeeded();
     const over = await page.evaluate(() => document.scrollingElement.scrollWidth - document.scrollingElement.clientWidth);
     harness.equal(`${width} pixels: the page does not scroll sideways`, over, 0);
     const drawn = await page.evaluate(() => [...document.querySelectorAll('canvas')].filter((one) => one.width < 100 || one.clientHeight < 100).length);
@@ -91,7 +91,25 @@ async function keyboard(harness) {
   await harness.close('keyboard', opened);
 }
 
+/** Neither the page nor a worker of its can ask for anything; the browser says so on its console, which is not judged here. */
+async function policy(harness) {
+  const opened = await harness.open();
+  const { page, heard } = opened;
+  const request = "fetch('http://127.0.0.1:9/').then(() => 'sent', () => 'refused')";
+  const asked = page.evaluate(() => new Promise((told) => { document.addEventListener('securitypolicyviolation', (event) => told(event.effectiveDirective)); }));
+  harness.equal('the page cannot ask', await page.evaluate(request), 'refused');
+  harness.equal('since its policy forbids it', await asked, 'connect-src');
+  const answer = await page.evaluate((text) => new Promise((told) => {
+    const worker = new Worker(URL.createObjectURL(new Blob([`${text}.then(postMessage)`])));
+    worker.onmessage = ({ data }) => told(data);
+  }), request);
+  harness.equal('nor can a worker', answer, 'refused');
+  harness.equal('nothing was sent', heard.requests.filter((url) => url.startsWith('http')).join(' '), '');
+  await opened.context.close();
+}
+
 export default async function opens(harness, tables) {
+  await policy(harness);
   await pictures(harness, tables);
   await withoutScripts(harness, tables);
   await schemes(harness);

@@ -1,12 +1,16 @@
 #!/usr/bin/env bash
 # Tests the page in Chromium without a window (test.mjs), with packages that are pinned by hash and lie below target/.
-# XTASK names the runner. Exit code 5: not tried, with the reason.
+# Where no compiler has the target of its WebAssembly module, the page is tested without. XTASK names the runner.
+# Exit code 5: not tried, with the reason.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 root=$PWD
 mkdir -p "${CARGO_TARGET_DIR:-target}/browser"
 place=$(cd "${CARGO_TARGET_DIR:-target}/browser" && pwd)
-[ -z "${CHECKS_INSTALL:-}" ] || bash checks/install.sh browser
+if [ -n "${CHECKS_INSTALL:-}" ]; then
+  bash checks/install.sh browser
+  bash checks/install.sh wasm || echo "without the target of WebAssembly" >&2
+fi
 command -v chromium >/dev/null || command -v chromium-browser >/dev/null || { echo "chromium is missing" >&2; exit 5; }
 major=$(node --version 2>/dev/null | sed 's/^v\([0-9]*\).*/\1/')
 [ "${major:-0}" -ge 18 ] || { echo "node 18 or later is missing" >&2; exit 5; }

@@ -6,7 +6,7 @@ import { resolve } from 'node:path';
 import { Harness } from './harness.mjs';
 import { Tables } from './tables.mjs';
 
-const PARTS = ['opens', 'maps', 'ring', 'published', 'claims', 'access'];
+const PARTS = ['opens', 'maps', 'ring', 'published', 'claims', 'recomputed', 'own', 'access'];
 
 const [page, root, ...chosen] = process.argv.slice(2);
 if (!page || !root) {
@@ -14,6 +14,7 @@ if (!page || !root) {
   process.exit(2);
 }
 const harness = await Harness.start(resolve(page));
+harness.root = resolve(root);
 const tables = new Tables(resolve(root));
 for (const part of chosen.length ? chosen : PARTS) {
   const { default: run } = await import(`./${part}.mjs`);

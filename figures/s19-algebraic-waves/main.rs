@@ -35,8 +35,11 @@ fn tables(job: &mut Job) -> Result<(), Failure> {
     job.write_own_rows("varied", &varied(&scene)?)
 }
 
+/// The width of the ramp of two more runs: a narrower ramp needs a stronger force.
+const NARROW: f64 = 0.02;
+
 /// The outcome of the run, with one thing changed at a time: method, start, number of pedestrians at the same headway, width
-/// of the ramp, strength.
+/// of the ramp, strength; and the strength with a narrow ramp.
 fn varied(scene: &Scene) -> Result<Sheet, Failure> {
     let mut sheet = Sheet::new(&[
         "varied",
@@ -73,15 +76,20 @@ fn varied(scene: &Scene) -> Result<Sheet, Failure> {
         let ring = Ring { pedestrians, length: scene.ring.headway() * pedestrians as f64 };
         add("pedestrians", Cell::Number(pedestrians as f64), Scene { ring, ..base.clone() })?;
     }
-    for (parameter, values) in
-        [("epsilon", &[0.2, 0.1, 0.05, 0.02, 0.01][..]), ("mu", &[0.28, 0.285, 0.29, 0.3, 0.32, 0.34, 0.36])]
-    {
-        for value in values {
-            let model = base.model.with(parameter, *value).map_err(Failure::input)?;
-            let speed = jam::uniform::steady_speed(&model, base.ring.headway()).map_err(Failure::work)?;
-            let steady_speed = Some(speed);
-            add(parameter, Cell::Number(*value), Scene { model, steady_speed, ..base.clone() })?;
-        }
+    let mut add_with = |varied: &str, changes: &[(&str, f64)], value: f64| {
+        let change = |model: jam::laws::Model, (name, value): &(&str, f64)| model.with(name, *value);
+        let model = changes.iter().try_fold(base.model.clone(), change).map_err(Failure::input)?;
+        let speed = jam::uniform::steady_speed(&model, base.ring.headway()).map_err(Failure::work)?;
+        add(varied, Cell::Number(value), Scene { model, steady_speed: Some(speed), ..base.clone() })
+    };
+    for epsilon in [0.2, 0.1, 0.05, 0.02, 0.01] {
+        add_with("epsilon", &[("epsilon", epsilon)], epsilon)?;
+    }
+    for mu in [0.28, 0.285, 0.29, 0.3, 0.32, 0.34, 0.36] {
+        add_with("mu", &[("mu", mu)], mu)?;
+    }
+    for mu in [0.36, 0.4] {
+        add_with("mu_narrow", &[("mu", mu), ("epsilon", NARROW)], mu)?;
     }
     Ok(sheet)
 }

@@ -209,6 +209,21 @@ impl Job {
         Ok(atomic(&self.arguments.tables.join(format!("{panel}.csv")), &bytes)?)
     }
 
+    /// Takes a table that was committed beside the planes, which says how sure they are.
+    ///
+    /// # Errors
+    /// It is missing, or the copy cannot be written.
+    pub fn take_of_planes(&self, name: &str) -> Result<(), Failure> {
+        let file = self.arguments.reference.with_file_name("outcomes").join(format!("{name}.csv"));
+        let bytes = std::fs::read(&file).map_err(|error| with_path(error, &file))?;
+        Ok(atomic(&self.arguments.tables.join(format!("{name}.csv")), &bytes)?)
+    }
+
+    /// States how a table was computed, for the manifest.
+    pub fn state_method(&mut self, name: &str, method: &str) {
+        self.report.insert(name.to_owned(), json!({ "method": method }));
+    }
+
     /// The sweep of a panel, and its cells from the table of this figure.
     ///
     /// # Errors

@@ -41,7 +41,7 @@ fn main() -> io::Result<()> {
 
 fn note(name: &str, arguments: &[String]) -> io::Result<()> {
     // programs about the result are built whenever they are asked
-    let is_quiet = |word: &str| ["verify", "publish", "interchange"].contains(&word);
+    let is_quiet = |word: &str| ["verify", "publish", "interchange", "browser"].contains(&word);
     if name == "cargo" && value(arguments, "-p").is_some_and(|package| is_quiet(&package)) {
         return Ok(());
     }

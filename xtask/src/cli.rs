@@ -140,6 +140,9 @@ pub struct VerifyArgs {
     /// Append machine, toolchain and sums to data/attestations.jsonl unless they are there
     #[arg(long, conflicts_with_all = ["ids", "budget"])]
     pub attest: bool,
+    /// Compute nothing: compare a receipt, copied from the page in a browser, with the committed sums
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["ids", "tolerant", "budget", "report", "attest", "costs"])]
+    pub receipt: Option<PathBuf>,
     /// Measure seconds, memory and disk of each program, one at a time, and write data/costs.csv
     #[arg(long, conflicts_with_all = ["jobs", "budget"])]
     pub costs: bool,

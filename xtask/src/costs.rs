@@ -1,4 +1,4 @@
-//! Which figures fit into a budget of time.
+//! Chooses the figures that fit into a budget of time.
 
 use crate::child::Usage;
 use crate::plan::{self, Node, Wish};

@@ -1,4 +1,4 @@
-//! How far a run is from its check, column by column.
+//! The distance of a run from its check, column by column.
 
 use crate::store;
 use checkout::disk;

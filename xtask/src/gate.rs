@@ -1,4 +1,4 @@
-//! What must be true before a document about the figures is made: they are up to date, and they are the committed ones.
+//! Conditions for making a document about the figures: they are up to date, and they are the committed ones.
 
 use crate::record::{self, Records, Survey};
 use crate::sources::Sources;

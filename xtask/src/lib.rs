@@ -11,6 +11,7 @@ pub mod estimate;
 pub mod gate;
 pub mod lock;
 pub mod measured;
+pub mod module;
 pub mod pins;
 pub mod plan;
 pub mod pool;

@@ -1,4 +1,4 @@
-//! One run at a time in one target folder.
+//! The lock: one run at a time in one target folder.
 
 use checkout::disk;
 use checkout::failure::Failure;

@@ -17,7 +17,10 @@ fn run(cli: Cli) -> Result<(), Failure> {
     let paths = &Paths::find(cli.root)?;
     match cli.verb {
         Verb::Figures(arguments) => verbs::figures::run(paths, &arguments),
-        Verb::Verify(arguments) => verbs::verify::run(paths, &arguments),
+        Verb::Verify(arguments) => match &arguments.receipt {
+            Some(file) => verbs::receipt::check(paths, file),
+            None => verbs::verify::run(paths, &arguments),
+        },
         Verb::Status(arguments) => verbs::status::run(paths, &arguments),
         Verb::Explain(arguments) => verbs::explain::run(paths, &arguments),
         Verb::List(arguments) => verbs::list::run(paths, &arguments),

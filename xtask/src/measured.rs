@@ -1,4 +1,4 @@
-//! What is measured of each figure once it is made: the errors of its runs, for the manifest, and their events.
+//! Measurements of each figure once it is made: the errors of its runs, for the manifest, and their events.
 
 use crate::estimate::{self, Estimate};
 use crate::pins::{CRATE, RUSTC};

@@ -1,4 +1,4 @@
-//! What a build takes from outside: the compiler, and the crates of the lock file. As named texts, so that a change can
+//! The inputs of a build from outside: the compiler, and the crates of the lock file. As named texts, so that a change can
 //! be told with both versions.
 
 use crate::sources::Inputs;

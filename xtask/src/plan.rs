@@ -1,4 +1,4 @@
-//! What has to be done, in which order.
+//! The plan: what has to be done, in which order.
 
 use crate::pool::Job;
 use crate::record::Survey;

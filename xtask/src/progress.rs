@@ -1,4 +1,4 @@
-//! How far the nodes at work are, on stderr: one line that changes on a terminal, else a plain line now and then.
+//! Progress of the nodes at work, on stderr: one line that changes on a terminal, else a plain line now and then.
 
 use crate::child::Word;
 use checkout::print::duration;

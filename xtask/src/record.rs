@@ -1,4 +1,4 @@
-//! What each figure was made from the last time, and why it is stale now.
+//! Records of the inputs from which each figure was last made, and the reasons why it is stale.
 
 use crate::measured::Measured;
 use crate::pins::{CRATE, RUSTC};

@@ -1,4 +1,4 @@
-//! Everything that outputs are made from, with a hash for each file, so that a change can be named.
+//! The sources of the outputs, with a hash for each file, so that a change can be named.
 
 use crate::pins;
 use checkout::disk;

@@ -1,4 +1,4 @@
-//! Carrying out a plan: programs are started, their outputs put in place, progress goes to stderr.
+//! Carries out a plan: starts programs, puts their outputs in place, shows progress on stderr.
 
 use crate::child::{self, Usage, Word};
 use crate::plan::{Node, Step};

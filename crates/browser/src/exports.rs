@@ -1,13 +1,18 @@
 //! The C functions of the module. A function that answers with text or bytes keeps them and returns their length;
-//! [`answer`] says where they lie, until the next call. A negative length is that of an error message.
+//! [`answer`] says where they lie, until the next call. A negative length is that of an error message. What a function
+//! reads is written to where [`room`] says before it is called.
 #![allow(unsafe_code, reason = "an exported name is `unsafe` since two of the same would clash; nothing else here is")]
 
 use crate::compute::Tables;
 use crate::figures::FIGURES;
+use crate::page::Page;
+use crate::{flow, simulate};
+use serde_json::Value;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 static TABLES: Mutex<Tables> = Mutex::new(Tables::new());
 static ANSWER: Mutex<Vec<u8>> = Mutex::new(Vec::new());
+static GIVEN: Mutex<Vec<u8>> = Mutex::new(Vec::new());
 
 /// The number of figures; they are counted from 0.
 #[unsafe(no_mangle)]
@@ -42,10 +47,42 @@ pub extern "C" fn table(figure: usize, table: usize) -> isize {
     keep(bytes)
 }
 
+/// Makes room for a text of so many bytes, which the next call reads; where it is.
+#[unsafe(no_mangle)]
+pub extern "C" fn room(length: usize) -> *mut u8 {
+    let mut given = lock(&GIVEN);
+    *given = vec![0; length];
+    given.as_mut_ptr()
+}
+
+/// Small waves on the uniform flow of the scene in the room; the answer is JSON, see [`flow::of`].
+#[unsafe(no_mangle)]
+pub extern "C" fn stability(count: usize) -> isize {
+    with_given(|text| flow::of(text, count))
+}
+
+/// Runs the scene in the room and tells the page as it goes; the answer is JSON, see [`simulate::run`].
+#[unsafe(no_mangle)]
+pub extern "C" fn run() -> isize {
+    with_given(|text| simulate::run(text, &mut Page))
+}
+
+/// SHA-256 of the bytes in the room, as hexadecimal digits.
+#[unsafe(no_mangle)]
+pub extern "C" fn sum() -> isize {
+    keep(Ok(files::write::sha256(&lock(&GIVEN)).into_bytes()))
+}
+
 /// Where the answer to the last call lies.
 #[unsafe(no_mangle)]
 pub extern "C" fn answer() -> *const u8 {
     lock(&ANSWER).as_ptr()
+}
+
+fn with_given(compute: impl FnOnce(&str) -> Result<Value, Value>) -> isize {
+    let given = lock(&GIVEN);
+    let answer = compute(&String::from_utf8_lossy(&given));
+    keep(answer.map(|told| told.to_string().into_bytes()).map_err(|complaint| complaint.to_string()))
 }
 
 fn missing(what: &str, index: usize, count: usize) -> String {

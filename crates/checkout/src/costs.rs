@@ -1,4 +1,4 @@
-//! What each program of a verification costs: `data/costs.csv`, measured by `verify --costs`, one program at a time.
+//! The costs of each program of a verification: `data/costs.csv`, measured by `verify --costs`, one program at a time.
 
 use crate::disk;
 use crate::failure::Failure;

@@ -1,4 +1,4 @@
-//! Why a verb did not end well, and the exit code that says so.
+//! The reasons for which a verb fails, each with its exit code.
 
 use std::fmt::Display;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! What is known of each output: where it comes from, and how far it can be trusted. No clock, no commit.
+//! The manifest: provenance and error of each output. It has no time and no commit.
 
 use crate::disk;
 use crate::failure::Failure;

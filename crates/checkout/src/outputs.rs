@@ -1,4 +1,4 @@
-//! What a figure writes: tables in its folder of data, a PNG and an SVG beside its source.
+//! The outputs of a figure: tables in its folder of data, a PNG and an SVG beside its source.
 
 use crate::disk;
 use crate::failure::Failure;

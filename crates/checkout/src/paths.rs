@@ -1,4 +1,4 @@
-//! Where everything lies. The only module that spells a path.
+//! The paths that several crates share.
 
 use crate::failure::Failure;
 use clap::ValueEnum;

@@ -1,4 +1,4 @@
-//! Starting programs that share our terminal, or of which one line is wanted.
+//! Starts programs that share the terminal, or reads one line of their output.
 
 use crate::failure::Failure;
 use std::io::ErrorKind;

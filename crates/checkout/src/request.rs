@@ -1,4 +1,4 @@
-//! What the runner asks the program that judges: which figures were made, from which runs, and where they lie.
+//! A request of the runner to the program `verify`: the figures that were made, their runs, and the folder with their outputs.
 
 use crate::failure::Failure;
 use crate::figure::{self, Figure};

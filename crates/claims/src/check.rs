@@ -1,4 +1,4 @@
-//! Checks of entries and measures for what the form of a file does not say and no table is needed to see.
+//! Checks of entries and measures that need no table.
 
 use crate::entry::{Claim, Erratum, Measure, Parameter, Verdict};
 use crate::expression::{Condition, Expression};

@@ -1,4 +1,4 @@
-//! What stands in `of` and `where`: formulas whose names are columns, and comparisons of such.
+//! The expressions of `of` and `where`: formulas whose names are columns, and comparisons of them.
 
 use crate::sheet::{Sheet, Stated};
 use crate::uncertain::{Outcome, Relation, Uncertain};

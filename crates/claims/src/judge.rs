@@ -1,4 +1,4 @@
-//! The ledger as the verbs use it: judged on tables made now, compared with what is recorded and committed, written.
+//! Judges the ledger by the present tables, compares it with the committed one, and writes it.
 
 use crate::entry::{Claim, Erratum, Parameter, Verdict};
 use crate::report::{JudgedClaim, Ledger};

@@ -1,4 +1,4 @@
-//! What is found: each entry with its tests, values, outcomes and verdict; the form of `data/ledger.json`.
+//! The findings: each entry with its tests, values, outcomes and verdict, as in `data/ledger.json`.
 
 use crate::entry::{Claim, Erratum, Measure, Parameter, Verdict};
 use crate::measure;

@@ -1,4 +1,4 @@
-//! What must be true of a value: `> 0`, `= 5`, `0.5 within 0.01`.
+//! Requirements on a value: `> 0`, `= 5`, `0.5 within 0.01`.
 
 use crate::uncertain::{Outcome, Relation, Uncertain};
 

@@ -1,4 +1,4 @@
-//! The files written by hand: claims, errata, parameters. Read strictly, then checked for what a table cannot tell.
+//! Reads and checks the files written by hand: claims, errata, parameters.
 
 use crate::entry::{Claim, Erratum, Measure, Parameter};
 use checkout::disk;

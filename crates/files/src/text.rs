@@ -1,4 +1,4 @@
-//! Text as people and their programs write it: what is wrong with it, by name.
+//! Checks text written by people and their programs; names what is wrong.
 
 use std::io;
 use std::path::Path;

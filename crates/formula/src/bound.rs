@@ -1,4 +1,4 @@
-//! Formulas with numbers for parameters: what is carried out.
+//! Formulas whose parameters are numbers, ready for evaluation.
 
 use crate::graph::Stencil;
 use crate::operation::{Id, Operation, Variable};

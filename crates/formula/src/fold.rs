@@ -1,4 +1,4 @@
-//! Parameters become numbers, and what has no variable is computed.
+//! Constant folding: parameters become numbers, and parts without variables are computed.
 
 use crate::Bound;
 use crate::arena::Arena;

@@ -18,6 +18,18 @@ pub enum Given<'a> {
     Text(&'a str),
 }
 
+impl From<f64> for Given<'_> {
+    fn from(number: f64) -> Self {
+        Given::Number(number)
+    }
+}
+
+impl<'a> From<&'a str> for Given<'a> {
+    fn from(text: &'a str) -> Self {
+        Given::Text(text)
+    }
+}
+
 /// One line of `[law]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Definition<'a> {

@@ -1,4 +1,4 @@
-//! What a formula may take at most, so that no text exhausts stack, memory or patience.
+//! Limits on formulas, so that no text exhausts stack, memory or time.
 
 /// Bytes of one expression.
 pub const LONGEST_TEXT: usize = 16_384;

@@ -1,4 +1,4 @@
-//! The words of the language.
+//! The reserved words of the language.
 
 use crate::operation::{Binary, Unary};
 use std::f64::consts::{E, PI};

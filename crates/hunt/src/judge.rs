@@ -181,7 +181,8 @@ fn ended(
     verdict.ending = ending(scene, outcome, broken);
     question.times = times(scene, outcome);
     // what comes after the end tells whether there is a reason for it
-    if broken.is_some() || is_blown_up(outcome) {
+    let is_undefined = outcome.events.iter().any(|happening| happening.event == Event::Undefined);
+    if broken.is_some() || is_blown_up(outcome) || is_undefined {
         question.times.push(scene.t_end);
     }
     verdict.cost = Some((stated.cost, outcome.statistics.evaluations));
@@ -235,9 +236,13 @@ fn reason(verdict: &mut Verdict, scene: &Scene, broken: &Broken, answer: &Answer
         _ => false,
     };
     let ends_there = matches!(solution.end, End::Singular | End::BlownUp) && solution.time <= time;
-    // positions tell no room below their rounding
+    // positions tell no room below their rounding; before a blow-up that rounding throws pedestrians about
     let (room, when) = solution.least[0];
-    let is_blind = scene.form == FormKind::Positions && when <= time && room < 1e-10 * scene.ring.length;
+    let is_rounding = |room: f64| room < 1e-10 * scene.ring.length;
+    let own = broken.narrowest.is_some_and(|place| is_rounding(place.room));
+    let blows_up = matches!(solution.end, End::Singular | End::BlownUp);
+    let sees_none = when <= time && is_rounding(room) || own && blows_up;
+    let is_blind = scene.form == FormKind::Positions && sees_none;
     if !is_own && !ends_there && !is_blind {
         let text = format!(
             "{broken}; the second integration goes on: {:?} at t = {:?} with speeds up to {:e}",
@@ -468,7 +473,10 @@ fn blow_up(verdict: &mut Verdict, happening: &Happening, answer: &Answer, length
             "blow-up at t = {found:?}; right: {:?} at {:?} with speeds of {:e}",
             solution.end, solution.time, solution.fastest
         );
-        let is_unknown = solution.end == End::Unfinished && solution.time < found + allowed;
+        let is_unfinished = solution.end == End::Unfinished && solution.time < found + allowed;
+        // a run whose own error leads it out of the domain of its formula, and whose second run does not follow
+        let is_unsure = happening.event == Event::Undefined && bound.std.is_infinite();
+        let is_unknown = is_unfinished || is_unsure;
         if is_unknown { verdict.undecided.push(text) } else { verdict.findings.push(text) }
     }
 }

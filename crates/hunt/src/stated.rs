@@ -82,11 +82,15 @@ const FINEST: f64 = 1e-17;
 pub fn of(scene: &Scene, outcome: &Outcome, propagated: &Propagated) -> Stated {
     let errors = check::errors_of(scene, outcome, Some(propagated), &mut ());
     let or_none = |error: Option<f64>| error.unwrap_or(f64::INFINITY);
+    let end = [or_none(errors.positions), or_none(errors.speeds)];
+    let table = difference(scene, outcome).table;
+    // the last row of the table is the end; two methods may agree by chance
+    let with_end = |i: usize| if end[i].is_finite() { math::larger(table[i], end[i]) } else { table[i] };
     Stated {
         std: or_none(errors.std),
-        end: [or_none(errors.positions), or_none(errors.speeds)],
+        end,
         events: errors.events.into_iter().map(or_none).collect(),
-        table: difference(scene, outcome).table,
+        table: [with_end(0), with_end(1)],
         cost: errors.cost,
     }
 }

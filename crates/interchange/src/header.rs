@@ -1,4 +1,4 @@
-//! What both files say of themselves: the run, the ring, and the units.
+//! The header of both files: the run, the ring, and the units.
 
 use crate::problem::Problem;
 use files::reader::{POSITIVE, Reader, RecipeError};

@@ -1,4 +1,4 @@
-//! Why nothing could be exported, and the exit code that says so.
+//! The reasons for which an export fails, each with its exit code.
 
 use std::fmt;
 use std::io;

@@ -1,10 +1,13 @@
 //! Events of a run: overlap, negative speed, exchange of places, blow-up, each with its time and pedestrian.
 
+mod quiet;
+
 use crate::force::{Force, Rows};
 use crate::laws::Model;
 use crate::states::Form;
 use math::simd::{Kernel, dispatch};
 use ode::{Step, crossing_between, first_crossing};
+use quiet::Near;
 
 /// What can happen to a pedestrian.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -124,6 +127,12 @@ pub struct Watch<'a> {
     state: Vec<f64>,
     /// The time that `after` shows.
     seen: Option<f64>,
+    /// Whether rooms are gaps less a constant.
+    has_plain_rooms: bool,
+    /// The end of the step looked at last, as sizes of deviations.
+    near: Option<Near>,
+    /// Whether that step was passed over.
+    is_quiet: bool,
 }
 
 /// What happens to several pedestrians within this time happens at once.
@@ -138,13 +147,16 @@ impl<'a> Watch<'a> {
         let instant = Instant::new(pedestrians);
         let force = model.force();
         let [before, after, within] = [instant.clone(), instant.clone(), instant];
-        Watch { model, force, form, found: Vec::new(), before, after, within, state: Vec::new(), seen: None }
+        let has_plain_rooms = !matches!(model, Model::Formula(_)) && model.room_per_speed() == 0.0;
+        let (found, state) = (Vec::new(), Vec::new());
+        let (seen, near, is_quiet) = (None, None, false);
+        Watch { model, force, form, found, before, after, within, state, seen, has_plain_rooms, near, is_quiet }
     }
 
     /// Goes on with the same ring in another form.
     pub fn change_form(&mut self, form: &'a dyn Form) {
         self.form = form;
-        self.seen = None;
+        (self.seen, self.near) = (None, None);
     }
 
     /// What happens at the start of a run, at time `t`: everybody to whom it does. A speed of 0 that falls is negative at once.
@@ -232,6 +244,18 @@ impl<'a> Watch<'a> {
     /// The first event of each kind so far, of everybody to whom it happened at once, in order of time.
     pub fn found(&self) -> &[Happening] {
         &self.found
+    }
+
+    /// As [`Watch::look`], for those who want to know what is new and nothing else: a step near a uniform flow, in which
+    /// nothing can happen, is passed over, and the watch goes on to show an earlier one.
+    pub fn look_for_new(&mut self, step: &mut Step<'_>) -> Vec<Happening> {
+        self.is_quiet = self.nothing_can_happen(step);
+        if self.is_quiet { Vec::new() } else { self.look(step) }
+    }
+
+    /// Whether the last step was passed over: then no room in it is less than half of that in the uniform flow.
+    pub fn is_quiet(&self) -> bool {
+        self.is_quiet
     }
 
     /// Looks for events in a step; returns those that are new, in order of time.

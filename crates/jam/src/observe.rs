@@ -3,8 +3,12 @@
 use math::simd::{Kernel, dispatch};
 
 /// The standard deviation over the pedestrians, divided by `N` (not `N - 1`): the mean first, then the squares of what
-/// is left. Sums run in eight lanes, `n` modulo 8, which are then added in pairs: one fixed order for any vector width.
+/// is left; 0 of numbers that are all equal. Sums run in eight lanes, `n` modulo 8, which are then added in pairs: one fixed order for any vector width.
 pub fn spread(values: &[f64]) -> f64 {
+    // the mean of equal numbers is rounded
+    if values.iter().all(|value| *value == values[0]) {
+        return 0.0;
+    }
     let count = values.len() as f64;
     let mean = dispatch(Sum { values, map: |value| value }) / count;
     let squares = |scale: f64| {
@@ -52,8 +56,11 @@ impl<F: Fn(f64) -> f64> Kernel for Sum<'_, F> {
                 *sum += (self.map)(*value);
             }
         }
-        for (sum, value) in sums.iter_mut().zip(rest) {
-            *sum += (self.map)(*value);
+        let mut last = [0.0; LANES];
+        last[..rest.len()].copy_from_slice(rest);
+        for (lane, (sum, value)) in sums.iter_mut().zip(last).enumerate() {
+            let next = *sum + (self.map)(value);
+            *sum = if lane < rest.len() { next } else { *sum };
         }
         let [a, b, c, d, e, f, g, h] = sums;
         ((a + b) + (c + d)) + ((e + f) + (g + h))

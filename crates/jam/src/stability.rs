@@ -45,18 +45,27 @@ pub enum Waves {
 impl Response {
     /// `b` and `c` of `z^2 + b z + c = 0`.
     pub fn polynomial(&self, k: f64) -> (Complex, Complex) {
+        self.polynomial_with(k, math::sin(0.5 * k))
+    }
+
+    /// The same, given `sin(k / 2)`. Sines and cosines are most of the work for the waves of a ring: none is taken twice.
+    fn polynomial_with(&self, k: f64, half: f64) -> (Complex, Complex) {
+        let sin_k = math::sin(k);
+        let turn = |j: i32| match j {
+            0 => (1.0, 0.0),
+            1 => (math::cos(k), sin_k),
+            _ => (math::cos(f64::from(j) * k), math::sin(f64::from(j) * k)),
+        };
         let mut b = (0.0, 0.0);
         for (j, slope) in &self.speeds {
-            let angle = f64::from(*j) * k;
-            b = (b.0 - slope * math::cos(angle), b.1 - slope * math::sin(angle));
+            let (cos, sin) = turn(*j);
+            b = (b.0 - slope * cos, b.1 - slope * sin);
         }
         // 1 - e^{ik} without cancellation
-        let half = math::sin(0.5 * k);
-        let (re, im) = (2.0 * half * half, -math::sin(k));
+        let (re, im) = (2.0 * half * half, -sin_k);
         let mut c = (0.0, 0.0);
         for (j, slope) in &self.spacings {
-            let angle = f64::from(*j) * k;
-            let (cos, sin) = (math::cos(angle), math::sin(angle));
+            let (cos, sin) = turn(*j);
             c = (c.0 + slope * (cos * re - sin * im), c.1 + slope * (cos * im + sin * re));
         }
         (b, c)
@@ -64,7 +73,10 @@ impl Response {
 
     /// The root `z^+` with the larger real part, for `k` in (0, pi].
     pub fn root(&self, k: f64) -> Complex {
-        let (b, c) = self.polynomial(k);
+        Response::root_of(self.polynomial(k))
+    }
+
+    fn root_of((b, c): (Complex, Complex)) -> Complex {
         let discriminant = (b.0 * b.0 - b.1 * b.1 - 4.0 * c.0, 2.0 * b.0 * b.1 - 4.0 * c.1);
         let s = complex_sqrt(discriminant.0, discriminant.1);
         // the sum that does not cancel gives one root, its product with the other is c
@@ -100,27 +112,29 @@ impl Response {
     /// How far a wave is from stability, negative when it decays: `-D / ((1 - cos k) sum_j f_{s_j})`, or `-D` where that sum
     /// is not positive. Where `Re b <= 0`, which no relaxation outweighs, at least `-Re b`.
     pub fn margin_of(&self, k: f64) -> f64 {
-        let (b, c) = self.polynomial(k);
-        let d = b.0 * b.0 * c.0 + b.0 * b.1 * c.1 - c.1 * c.1;
         let half = math::sin(0.5 * k);
+        self.margin_with(k, half, self.polynomial_with(k, half))
+    }
+
+    fn margin_with(&self, k: f64, half: f64, (b, c): (Complex, Complex)) -> f64 {
+        let d = b.0 * b.0 * c.0 + b.0 * b.1 * c.1 - c.1 * c.1;
         // a neutral wave, one that all neighbours together do not answer, neither grows nor decays
-        let d = if d.abs() <= self.rounding(k, b, c) { 0.0 } else { d };
+        let d = if d.abs() <= self.rounding(half, k, b, c) { 0.0 } else { d };
         self.damped(-d / (2.0 * half * half * self.stiffness()), b.0)
     }
 
     /// As large an error as the rounding of `b(k)` and `c(k)` can leave in `D`; 0 with one neighbour, whose terms do not
     /// cancel.
-    fn rounding(&self, k: f64, b: Complex, c: Complex) -> f64 {
+    fn rounding(&self, half: f64, k: f64, b: Complex, c: Complex) -> f64 {
         if self.spacings.len() < 2 {
             return 0.0;
         }
         let sum = |list: &[(i32, f64)], part: &dyn Fn(f64) -> f64| -> f64 {
             list.iter().map(|(j, slope)| slope.abs() * part(f64::from(*j).abs() * k)).sum()
         };
-        let half = math::sin(0.5 * k).abs();
         // a wave number rounded by half a unit turns a term by that times its angle
         let speeds = sum(&self.speeds, &|angle| 1.0 + angle);
-        let spacings = 2.0 * half * sum(&self.spacings, &|angle| 1.0 + angle);
+        let spacings = 2.0 * half.abs() * sum(&self.spacings, &|angle| 1.0 + angle);
         let largest = b.0.abs() + b.1.abs();
         2.0 * f64::EPSILON
             * (largest * largest * spacings + largest * speeds * (c.0.abs() + c.1.abs()) + c.1.abs() * spacings)
@@ -157,6 +171,19 @@ impl Response {
             }
             Waves::All => self.over_all(4),
         }
+    }
+
+    /// The largest margin over the waves of a ring, as [`Response::margin`] gives it, and the largest growth rate of them, as
+    /// [`Response::fastest`] does: each wave is worked out once for both.
+    pub fn of_ring(&self, pedestrians: usize) -> (f64, f64) {
+        let waves = (1..=pedestrians / 2).map(|l| wave_number(l, pedestrians));
+        waves.fold((f64::NAN, f64::NAN), |(margin, rate), k| {
+            let half = math::sin(0.5 * k);
+            let polynomial = self.polynomial_with(k, half);
+            let own = [self.margin_with(k, half, polynomial), Response::root_of(polynomial).0];
+            let largest = |known: f64, own: f64| if own > known || known.is_nan() { own } else { known };
+            (largest(margin, own[0]), largest(rate, own[1]))
+        })
     }
 
     /// The larger of a margin, with its `k`, and those of these waves.

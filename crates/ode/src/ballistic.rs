@@ -4,7 +4,7 @@
 //! Physica A 419 (2015) 183.
 
 use crate::control::Norm;
-use crate::dense::{Ends, Stepper, Trial, cubic};
+use crate::dense::{Ends, Part, Stepper, Trial, cubic};
 use crate::system::System;
 use crate::vector::add;
 use std::ops::Range;
@@ -44,8 +44,8 @@ impl Stepper for Ballistic {
         1
     }
 
-    fn interpolate(&mut self, _system: &dyn System, ends: &Ends<'_>, theta: f64, result: &mut [f64]) -> u64 {
-        cubic(ends, theta, result);
+    fn interpolate(&mut self, _system: &dyn System, ends: &Ends<'_>, theta: f64, part: Part<'_>) -> u64 {
+        cubic(ends, theta, part);
         0
     }
 }

@@ -4,6 +4,7 @@ use crate::control::Norm;
 use crate::system::System;
 use crate::vector::largest;
 use math::simd::{Kernel, dispatch};
+use std::ops::Range;
 
 /// Where a step starts and how long it shall be.
 pub(crate) struct Trial<'a> {
@@ -62,7 +63,7 @@ pub(crate) trait Stepper {
     }
 
     /// Writes by how much the series about a state near the start of the step differ from those of the step, for the orders
-    /// from 1 to `order` or the method's own, and returns their unit of time. Only for methods with [`Stepper::own_error`].
+    /// from 1 to `order` or the method's own, after a row of no meaning, and returns their unit of time. Only for methods with [`Stepper::own_error`].
     fn difference(&mut self, _system: &dyn System, _near: &[f64], _order: usize, _rows: &mut Vec<f64>) -> f64 {
         1.0
     }
@@ -70,8 +71,22 @@ pub(crate) trait Stepper {
     /// The power of the step with which the estimated error falls.
     fn error_power(&self) -> usize;
 
-    /// Writes the solution at the fraction `theta` of the accepted step; returns the evaluations this took.
-    fn interpolate(&mut self, system: &dyn System, ends: &Ends<'_>, theta: f64, result: &mut [f64]) -> u64;
+    /// Writes components of the solution at the fraction `theta` of the accepted step; returns the evaluations this took.
+    fn interpolate(&mut self, system: &dyn System, ends: &Ends<'_>, theta: f64, part: Part<'_>) -> u64;
+}
+
+/// Some of the components of a state that lie side by side, to be written.
+pub(crate) struct Part<'a> {
+    /// The first of them.
+    pub(crate) from: usize,
+    pub(crate) values: &'a mut [f64],
+}
+
+impl Part<'_> {
+    /// Which they are.
+    pub(crate) fn range(&self) -> Range<usize> {
+        self.from..self.from + self.values.len()
+    }
 }
 
 /// An accepted step.
@@ -130,37 +145,62 @@ impl Step<'_> {
 
     /// Writes the state at the time `t` within the step.
     pub fn at(&mut self, t: f64, state: &mut [f64]) {
+        self.part_at(t, Part { from: 0, values: state });
+    }
+
+    /// The same of some components that lie side by side: what [`Step::at`] writes there, for less.
+    pub fn components_at(&mut self, t: f64, range: Range<usize>, state: &mut [f64]) {
+        self.part_at(t, Part { from: range.start, values: &mut state[range] });
+    }
+
+    fn part_at(&mut self, t: f64, part: Part<'_>) {
+        self.part_at_fraction(self.fraction(t), part);
+    }
+
+    /// The fraction of the step at which the time `t` lies.
+    pub fn fraction(&self, t: f64) -> f64 {
         let near = nearby(self.end, self.ends.h);
-        let theta = if (t - self.start).abs() < near {
+        if (t - self.start).abs() < near {
             0.0
         } else if (t - self.end).abs() < near {
             1.0
         } else {
             (t - self.start) / self.ends.h
-        };
-        self.at_fraction(theta, state);
+        }
+    }
+
+    /// Writes the rates of any state. They are not counted: who looks on does not change what a run says of itself.
+    pub fn rates_of(&self, state: &[f64], rates: &mut [f64]) {
+        self.system.rates(state, rates);
     }
 
     /// Writes the state at the fraction `theta` of the step, 0 to 1.
     pub fn at_fraction(&mut self, theta: f64, state: &mut [f64]) {
+        self.part_at_fraction(theta, Part { from: 0, values: state });
+    }
+
+    fn part_at_fraction(&mut self, theta: f64, part: Part<'_>) {
         if theta.abs() < SAME {
-            state.copy_from_slice(self.ends.before);
+            part.values.copy_from_slice(&self.ends.before[part.range()]);
         } else if (theta - 1.0).abs() < SAME {
-            state.copy_from_slice(self.ends.after);
+            part.values.copy_from_slice(&self.ends.after[part.range()]);
         } else {
-            self.evaluations += self.stepper.interpolate(self.system, &self.ends, theta, state);
-            self.mend(theta, state);
+            let (from, values) = (part.from, part.values);
+            let part = Part { from, values: &mut *values };
+            self.evaluations += self.stepper.interpolate(self.system, &self.ends, theta, part);
+            self.mend(theta, Part { from, values });
         }
     }
 }
 
 impl Step<'_> {
     /// Takes the chord where the interpolant is not finite: a step of fixed length may end where the rates are not.
-    fn mend(&self, theta: f64, state: &mut [f64]) {
-        if largest(state).is_finite() {
+    fn mend(&self, theta: f64, part: Part<'_>) {
+        if largest(part.values).is_finite() {
             return;
         }
-        for (value, (before, after)) in state.iter_mut().zip(self.ends.before.iter().zip(self.ends.after)) {
+        let (before, after) = (&self.ends.before[part.range()], &self.ends.after[part.range()]);
+        for (value, (before, after)) in part.values.iter_mut().zip(before.iter().zip(after)) {
             if !value.is_finite() {
                 *value = before + theta * (after - before);
             }
@@ -169,14 +209,14 @@ impl Step<'_> {
 }
 
 /// The cubic Hermite polynomial through both ends, written as corrections to the chord.
-pub(crate) fn cubic(ends: &Ends<'_>, theta: f64, result: &mut [f64]) {
-    dispatch(Cubic { ends, theta, result });
+pub(crate) fn cubic(ends: &Ends<'_>, theta: f64, part: Part<'_>) {
+    dispatch(Cubic { ends, theta, part });
 }
 
 struct Cubic<'a> {
     ends: &'a Ends<'a>,
     theta: f64,
-    result: &'a mut [f64],
+    part: Part<'a>,
 }
 
 impl Kernel for Cubic<'_> {
@@ -186,9 +226,11 @@ impl Kernel for Cubic<'_> {
     fn run(self) {
         let (h, theta) = (self.ends.h, self.theta);
         let there = theta * (1.0 - theta);
-        let states = self.ends.before.iter().zip(self.ends.after);
-        let rates = self.ends.rates_before.iter().zip(self.ends.rates_after);
-        for ((result, (before, after)), (leaving, arriving)) in self.result.iter_mut().zip(states).zip(rates) {
+        let Part { from, values } = self.part;
+        let ends = self.ends;
+        let states = ends.before[from..].iter().zip(&ends.after[from..]);
+        let rates = ends.rates_before[from..].iter().zip(&ends.rates_after[from..]);
+        for ((result, (before, after)), (leaving, arriving)) in values.iter_mut().zip(states).zip(rates) {
             let change = after - before;
             let bend_before = h * leaving - change;
             let bend_after = change - h * arriving;

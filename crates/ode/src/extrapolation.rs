@@ -5,7 +5,7 @@
 //! each other.
 
 use crate::control::Norm;
-use crate::dense::{Ends, Stepper, Trial};
+use crate::dense::{Ends, Part, Stepper, Trial};
 use crate::system::System;
 use crate::vector::add;
 
@@ -99,11 +99,11 @@ impl Stepper for Extrapolation {
     }
 
     /// A shorter step from the same start: as accurate as the step itself.
-    fn interpolate(&mut self, system: &dyn System, ends: &Ends<'_>, theta: f64, result: &mut [f64]) -> u64 {
+    fn interpolate(&mut self, system: &dyn System, ends: &Ends<'_>, theta: f64, part: Part<'_>) -> u64 {
         let from = Trial { state: ends.before, rates: ends.rates_before, h: theta * ends.h };
-        let mut change = vec![0.0; result.len()];
+        let mut change = vec![0.0; ends.before.len()];
         self.try_step(system, from, &mut change, None);
-        add(ends.before, &change, result);
+        add(&ends.before[part.range()], &change[part.range()], part.values);
         self.evaluations()
     }
 }

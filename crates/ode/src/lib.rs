@@ -28,3 +28,4 @@ pub use methods::Method;
 pub use observe::{MOST_STEPS, Mark, Observer, Pace, Place, Sampler, crossing_between, first_crossing};
 pub use shadow::Shadow;
 pub use system::{Burst, Group, Measure, System};
+pub use vector::largest;

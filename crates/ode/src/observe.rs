@@ -2,7 +2,7 @@
 
 use crate::dense::{Step, nearby};
 use crate::integrate::Statistics;
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 
 /// Sees every accepted step.
 pub trait Observer {
@@ -106,19 +106,49 @@ impl Sampler {
         self.next as f64 * self.interval
     }
 
+    /// The times of the first and of the last sample that [`Sampler::within`] would take.
+    pub fn span(&self, step: &Step<'_>, until: f64) -> Option<[f64; 2]> {
+        let (first, end) = (self.next(), last_moment(step, until));
+        if first > end {
+            return None;
+        }
+        let mut last = (end / self.interval) as u64;
+        // the quotient is rounded
+        last -= u64::from(last as f64 * self.interval > end);
+        last += u64::from((last + 1) as f64 * self.interval <= end);
+        Some([first, last as f64 * self.interval])
+    }
+
     /// Calls `take(t, state)` for every sample time within the step that is not after `until`.
     pub fn within(&mut self, step: &mut Step<'_>, until: f64, take: &mut dyn FnMut(f64, &[f64])) {
-        let end = if until < step.end { until } else { step.end + nearby(step.end, step.length()) };
+        let all = 0..self.state.len();
+        self.components_within(step, until, all, take);
+    }
+
+    /// The same where `take` looks at these components alone: the others of the state that it gets have no meaning.
+    pub fn components_within(
+        &mut self,
+        step: &mut Step<'_>,
+        until: f64,
+        range: Range<usize>,
+        take: &mut dyn FnMut(f64, &[f64]),
+    ) {
+        let end = last_moment(step, until);
         loop {
             let t = self.next();
             if t > end {
                 return;
             }
-            step.at(t, &mut self.state);
+            step.components_at(t, range.clone(), &mut self.state);
             take(t, &self.state);
             self.next += 1;
         }
     }
+}
+
+/// Up to when samples belong to a step.
+fn last_moment(step: &Step<'_>, until: f64) -> f64 {
+    if until < step.end { until } else { step.end + nearby(step.end, step.length()) }
 }
 
 /// The fraction of the step at which `value` first is negative, to the last bit of the fraction. Looked for in `parts`

@@ -1,7 +1,7 @@
 //! One step of any explicit Runge-Kutta method, and its interpolant.
 
 use crate::control::Norm;
-use crate::dense::{Ends, Stepper, Trial, cubic};
+use crate::dense::{Ends, Part, Stepper, Trial, cubic};
 use crate::system::System;
 use crate::tableau::{Interpolant, Row, Tableau};
 use crate::vector::{add, add_nested, add_weighted_sum, weighted_sum};
@@ -121,14 +121,15 @@ impl Stepper for RungeKutta {
         self.tableau.order
     }
 
-    fn interpolate(&mut self, system: &dyn System, ends: &Ends<'_>, theta: f64, result: &mut [f64]) -> u64 {
-        cubic(ends, theta, result);
+    fn interpolate(&mut self, system: &dyn System, ends: &Ends<'_>, theta: f64, part: Part<'_>) -> u64 {
+        let (from, values) = (part.from, part.values);
+        cubic(ends, theta, Part { from, values: &mut *values });
         let Interpolant::Nested { stages, .. } = self.tableau.interpolant else { return 0 };
         let evaluations = if self.nested_is_ready { 0 } else { stages.len() as u64 };
         if !self.nested_is_ready {
             self.prepare_nested(system, ends);
         }
-        add_nested(theta, &self.nested, result);
+        add_nested(theta, &self.nested, self.n, from, values);
         evaluations
     }
 }

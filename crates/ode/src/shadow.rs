@@ -6,43 +6,62 @@
 
 use crate::dense::Step;
 use crate::system::{Measure, System};
+use crate::taylor::Change;
 use crate::vector::largest;
+use math::simd::dispatch;
 
 /// The error of a solution, step by step.
 #[derive(Clone, Debug)]
 pub struct Shadow {
     /// The error where the shadow was expanded last.
     error: Vec<f64>,
-    /// What the steps since then have added.
+    /// What the steps since then have added, the last one included.
     added: Vec<f64>,
-    /// The orders of the shadow's difference from the solution, as series in time since then; none before the first error.
+    /// What the last step has added.
+    own: Vec<f64>,
+    /// The orders of the shadow's difference from the solution, as series in time since then, after a row of no meaning.
     rows: Vec<f64>,
+    /// Whether there is an error that they follow.
+    has_rows: bool,
     /// How many orders.
     orders: usize,
-    /// How much larger the difference is than the error.
+    /// How large the error is, and how much larger the difference.
+    size: f64,
     scale: f64,
     /// The unit of time of the series.
     unit: f64,
-    /// The time since then, and how far the series reach.
+    /// The time from then to the end of the last step, and how far the series reach.
     elapsed: f64,
     reach: f64,
-    /// The error at the end of the last step.
-    now: Vec<f64>,
-    own: Vec<f64>,
+    /// The length of the step of the expansion.
+    expanded: f64,
+    /// The length of the last step, and the power of it with which its own error grows.
+    length: f64,
+    power: usize,
 }
 
-/// Orders of the series of the difference at first, and how many more where these do not reach over a step.
+/// Orders of the series of the difference at first, how many more where these do not reach over a step, and the fewest.
 const ORDERS: usize = 6;
-const MORE: usize = 4;
+const MORE: usize = 2;
+const FEWEST: usize = 4;
+
+/// An expansion shall reach over so many steps: fewer, longer ones cost as much as many short ones, and lose less.
+const MARGIN: f64 = 2.2;
 
 /// So many steps an expansion lasts at most: what they add is carried on from the next one only.
 const LASTS: f64 = 6.0;
 
+/// Steps that have become shorter by this factor show something that the series does not: a sharp bend of the law.
+const SHORTER: f64 = 0.5;
+
+/// What steps have added is carried on once it is this part of the error.
+const FRESH: f64 = 0.25;
+
 /// The part of the difference that may be lost.
-const REST: f64 = 0.05;
+const REST: f64 = 0.01;
 
 /// The shadow is as far from the solution as this part of it, so that neither curvature nor rounding counts.
-const DISTANCE: f64 = 1e-6;
+const DISTANCE: f64 = 1e-9;
 
 /// What rounding adds in each step, relative to the change. Taken for an error that grows always.
 const ROUNDING: f64 = 0.5 * f64::EPSILON;
@@ -53,105 +72,133 @@ impl Shadow {
         let zeros = vec![0.0; error.len()];
         Shadow {
             added: zeros.clone(),
-            now: error.clone(),
             own: zeros,
             error,
             rows: Vec::new(),
+            has_rows: false,
             orders: ORDERS,
+            size: 0.0,
             scale: 0.0,
             unit: 1.0,
             elapsed: 0.0,
             reach: 0.0,
+            expanded: 0.0,
+            length: 0.0,
+            power: 1,
         }
-    }
-
-    /// The error at the end of the step looked at last, component by component.
-    pub fn now(&self) -> &[f64] {
-        &self.now
     }
 
     /// Goes along with a step; false for a method whose steps do not tell their error.
     pub fn follow(&mut self, step: &mut Step<'_>) -> bool {
-        let h = step.length();
         if !step.stepper.own_error(step.system, &step.ends, &mut self.own) {
             return false;
         }
-        if self.elapsed + h > self.reach {
+        self.advance(step);
+        self.power = step.stepper.error_power() + 1;
+        let states = step.ends.before.iter().zip(step.ends.after);
+        let errors = self.error.iter().zip(&mut self.own);
+        for ((added, (error, own)), (before, after)) in self.added.iter_mut().zip(errors).zip(states) {
+            *own += (ROUNDING * (after - before).abs()).copysign(*error);
+            *added += *own;
+        }
+        true
+    }
+
+    /// Goes along with a step that adds nothing: of the errors before it alone.
+    pub fn carry(&mut self, step: &mut Step<'_>) {
+        self.advance(step);
+        self.own.fill(0.0);
+    }
+
+    fn advance(&mut self, step: &mut Step<'_>) {
+        let h = step.length();
+        let adds_much = relative(step.system, step.ends.before, &self.added) > FRESH * self.size;
+        if adds_much || self.elapsed + h > self.reach || h < SHORTER * self.expanded {
             self.expand(step);
-            self.elapsed = 0.0;
+            (self.elapsed, self.expanded) = (0.0, h);
         }
         self.elapsed += h;
-        let states = step.ends.before.iter().zip(step.ends.after);
-        let errors = self.error.iter().zip(&self.own);
-        for ((added, (error, own)), (before, after)) in self.added.iter_mut().zip(errors).zip(states) {
-            *added += own + (ROUNDING * (after - before).abs()).copysign(*error);
-        }
-        self.evaluate();
-        true
+        self.length = h;
     }
 
     /// Expands the difference about the start of a step.
     fn expand(&mut self, step: &mut Step<'_>) {
-        self.error.copy_from_slice(&self.now);
+        let mut near = vec![0.0; self.error.len()];
+        self.at(1.0, &mut near);
+        self.error.copy_from_slice(&near);
         self.added.fill(0.0);
-        self.rows.clear();
         let h = step.length();
-        self.reach = LASTS * h;
-        let size = relative(step.system, step.ends.before, &self.error);
-        if size == 0.0 || !size.is_finite() {
+        // what the first steps add is carried on from the next one
+        self.reach = h;
+        self.size = relative(step.system, step.ends.before, &self.error);
+        self.scale = DISTANCE / self.size;
+        self.has_rows = self.scale.is_finite() && self.scale > 0.0;
+        if !self.has_rows {
             return;
         }
-        self.scale = DISTANCE / size;
-        let near: Vec<f64> =
-            step.ends.before.iter().zip(&self.error).map(|(state, error)| state + self.scale * error).collect();
+        near.iter_mut().zip(step.ends.before).for_each(|(near, state)| *near = state + self.scale * *near);
         loop {
             self.unit = step.stepper.difference(step.system, &near, self.orders, &mut self.rows);
-            let is_whole = self.rows.len() / self.error.len() < self.orders;
-            let reach = self.convergent(step);
+            let made = self.rows.len() / near.len() - 1;
+            let is_whole = made < self.orders;
+            let reach = self.convergent(step, made);
             if reach < h && !is_whole {
                 // a stiff system: the step itself is nearly as long as all its orders allow
                 self.orders += MORE;
                 continue;
             }
-            self.orders -= if reach > 2.0 * h && self.orders > ORDERS { MORE } else { 0 };
             // of all orders the step itself is made
             let reach = if reach > h { reach } else { h };
-            self.reach = if reach < self.reach { reach } else { self.reach };
+            self.reach = if reach < LASTS * h { reach } else { LASTS * h };
+            self.adapt(step, made, reach);
             return;
         }
     }
 
-    /// How far the series are worth while: to where the last two terms are as large as [`REST`] of the difference.
-    fn convergent(&self, step: &Step<'_>) -> f64 {
+    /// The orders of the next expansion: one more where these do not reach over [`MARGIN`] steps, one less where one less
+    /// does.
+    fn adapt(&mut self, step: &Step<'_>, made: usize, reach: f64) {
+        let enough = MARGIN * step.length();
+        self.orders = made;
+        if reach < enough {
+            self.orders += 1;
+        } else if made > FEWEST && self.convergent(step, made - 1) > enough {
+            self.orders -= 1;
+        }
+    }
+
+    /// How far so many orders of the series are worth while: to where the last two terms are as large as [`REST`] of the
+    /// difference.
+    fn convergent(&self, step: &Step<'_>, last: usize) -> f64 {
         let n = self.error.len();
-        let last = self.rows.len() / n;
         let limit = |k: usize| {
-            let term = relative(step.system, step.ends.before, &self.rows[(k - 1) * n..k * n]);
+            let term = relative(step.system, step.ends.before, &self.rows[k * n..(k + 1) * n]);
             if term > 0.0 { math::pow(REST * DISTANCE / term, 1.0 / k as f64) } else { f64::INFINITY }
         };
         self.unit * math::smaller(limit(last), limit(last - 1))
     }
 
-    /// The error at the present time.
-    fn evaluate(&mut self) {
-        let n = self.error.len();
-        if self.rows.is_empty() {
-            for ((now, error), added) in self.now.iter_mut().zip(&self.error).zip(&self.added) {
-                *now = error + added;
-            }
-            return;
+    /// Writes the error at the fraction `theta` of the step looked at last, component by component.
+    pub fn at(&self, theta: f64, result: &mut [f64]) {
+        if self.has_rows {
+            let h = (self.elapsed - (1.0 - theta) * self.length) / self.unit;
+            dispatch(Change::<false> { rows: &self.rows, n: result.len(), from: 0, h, result });
+            let share = 1.0 / self.scale;
+            result.iter_mut().for_each(|result| *result *= share);
+        } else {
+            result.fill(0.0);
         }
-        let h = self.elapsed / self.unit;
-        self.now.fill(0.0);
-        for row in self.rows.rchunks_exact(n) {
-            for (now, coefficient) in self.now.iter_mut().zip(row) {
-                *now = (*now + coefficient) * h;
-            }
+        // of the own error of the step, that of what lies before it is the rest
+        let rest = 1.0 - (0..self.power).fold(1.0, |power, _| power * theta);
+        let errors = self.error.iter().zip(&self.added).zip(&self.own);
+        for (result, ((error, added), own)) in result.iter_mut().zip(errors) {
+            *result += error + (added - rest * own);
         }
-        let share = 1.0 / self.scale;
-        for ((now, error), added) in self.now.iter_mut().zip(&self.error).zip(&self.added) {
-            *now = (error + added) + share * *now;
-        }
+    }
+
+    /// How many components it has.
+    pub fn dimension(&self) -> usize {
+        self.error.len()
     }
 }
 

@@ -6,7 +6,7 @@
 //! Experimental Mathematics 14 (2005) 99).
 
 use crate::control::{Control, Norm};
-use crate::dense::{Ends, Stepper, Trial};
+use crate::dense::{Ends, Part, Stepper, Trial};
 use crate::system::System;
 use math::lane;
 use math::simd::{Kernel, dispatch};
@@ -22,12 +22,16 @@ pub(crate) struct Taylor {
     next_unit: f64,
     /// Rows of coefficients, that of order 0 first.
     coefficients: Vec<f64>,
+    /// The size of the row of the last order, in units of the tolerance.
+    last_size: f64,
     /// The components that are not position-like: the others' rates bend nowhere.
     forced: Vec<Range<usize>>,
     /// Room for the defect at the end of a step; 0 for position-like components.
     defect: Vec<f64>,
     /// Whether it is that of the last step.
     has_defect: bool,
+    /// Room for what position-like components lack.
+    missing: Vec<f64>,
 }
 
 /// The order at a fixed step: higher ones gain nothing in double precision.
@@ -55,16 +59,18 @@ impl Taylor {
     pub(crate) fn new(system: &dyn System, control: Control) -> Taylor {
         let (order, dimension) = (order(control), system.dimension());
         let zeros = |count: usize| vec![0.0; count];
-        let (coefficients, defect) = (zeros((order + 1) * dimension), zeros(dimension));
+        let (coefficients, defect, missing) = (zeros((order + 1) * dimension), zeros(dimension), zeros(dimension));
         Taylor {
             order,
             dimension,
             unit: 1.0,
             next_unit: 1.0,
             coefficients,
+            last_size: 0.0,
             forced: forced(system),
             defect,
             has_defect: false,
+            missing,
         }
     }
 
@@ -90,14 +96,15 @@ impl Stepper for Taylor {
             self.expand(system, from.state, from.rates);
         }
         let h = from.h / self.unit;
-        dispatch(Change { coefficients: &self.coefficients[self.dimension..], h, change });
-        norm.map_or(0.0, |norm| (0..self.order).fold(norm.of(self.row(self.order)), |error, _| error * h))
+        dispatch(Change::<false> { rows: &self.coefficients, n: self.dimension, from: 0, h, result: change });
+        norm.map_or(0.0, |_| (0..self.order).fold(self.last_size, |error, _| error * h))
     }
 
     fn propose(&mut self, system: &dyn System, state: &[f64], rates: &[f64], norm: &Norm) -> Option<f64> {
         self.expand(system, state, rates);
-        let limit = |k: usize| step_of_term(norm.of(self.row(k)), k);
-        let (last, before) = (limit(self.order)?, limit(self.order - 1)?);
+        self.last_size = norm.of(self.row(self.order));
+        let last = step_of_term(self.last_size, self.order)?;
+        let before = step_of_term(norm.of(self.row(self.order - 1)), self.order - 1)?;
         let step = SAFETY * self.unit * if last < before { last } else { before };
         self.next_unit = power_of_two(step);
         Some(step)
@@ -127,36 +134,40 @@ impl Stepper for Taylor {
     }
 
     /// What follows the last order. Of components with a force the defect tells it, which has been found when the step was
-    /// accepted; of position-like ones it is known.
+    /// accepted. Of position-like ones two orders are known: the first follows from the last order of speeds, the second from
+    /// what the speeds lack. The first alone may vanish by chance, or by symmetry.
     fn own_error(&mut self, system: &dyn System, ends: &Ends<'_>, error: &mut [f64]) -> bool {
         if !self.has_defect {
             return false;
         }
         let (n, next) = (self.dimension, (self.order + 1) as f64);
         let h = ends.h / self.unit;
-        let power = (0..self.order).fold(ends.h / next, |power, _| power * h);
-        system.kinematics(&self.coefficients[self.order * n..], error);
-        error.iter_mut().for_each(|rate| *rate *= -power);
+        let first = (0..self.order).fold(-ends.h / next, |power, _| power * h);
+        let second = ends.h / ((next + 1.0) * next);
+        let last = &self.coefficients[self.order * n..];
         for range in self.forced.iter().cloned() {
-            for (error, defect) in error[range.clone()].iter_mut().zip(&self.defect[range]) {
+            let known = self.defect[range.clone()].iter().zip(&last[range.clone()]);
+            let own = error[range.clone()].iter_mut().zip(&mut self.missing[range]);
+            for ((defect, last), (error, missing)) in known.zip(own) {
                 *error = defect / next;
+                *missing = first * last + second * defect;
             }
         }
+        system.kinematics(&self.missing, error);
         true
     }
 
     fn difference(&mut self, system: &dyn System, near: &[f64], order: usize, rows: &mut Vec<f64>) -> f64 {
         let n = self.dimension;
         let order = if order < self.order { order } else { self.order };
-        rows.clear();
-        rows.extend_from_slice(near);
+        // all of them are written anew
         rows.resize((order + 1) * n, 0.0);
+        rows[..n].copy_from_slice(near);
         let (states, rates) = rows.split_at_mut(n);
         system.rates(states, &mut rates[..n]);
         rates[..n].iter_mut().for_each(|rate| *rate *= self.unit);
         system.series(order, self.unit, rows);
-        rows.drain(..n);
-        for (row, coefficient) in rows.iter_mut().zip(&self.coefficients[n..]) {
+        for (row, coefficient) in rows[n..].iter_mut().zip(&self.coefficients[n..]) {
             *row -= coefficient;
         }
         self.unit
@@ -166,12 +177,11 @@ impl Stepper for Taylor {
         self.order
     }
 
-    fn interpolate(&mut self, _system: &dyn System, ends: &Ends<'_>, theta: f64, result: &mut [f64]) -> u64 {
+    fn interpolate(&mut self, _system: &dyn System, ends: &Ends<'_>, theta: f64, part: Part<'_>) -> u64 {
         let h = theta * (ends.h / self.unit);
-        dispatch(Change { coefficients: &self.coefficients[self.dimension..], h, change: result });
-        for (result, before) in result.iter_mut().zip(ends.before) {
-            *result += before;
-        }
+        // row 0 is the state at the start of the step
+        let Part { from, values: result } = part;
+        dispatch(Change::<true> { rows: &self.coefficients, n: self.dimension, from, h, result });
         0
     }
 }
@@ -198,34 +208,50 @@ const LEAST: f64 = 1e-300;
 /// The step is so much shorter than that at which the last term meets the tolerance.
 const SAFETY: f64 = 0.95;
 
-/// Writes `c_1 h + c_2 h^2 + ...` (Horner).
-struct Change<'a> {
-    coefficients: &'a [f64],
-    h: f64,
-    change: &'a mut [f64],
+/// Writes `c_1 h + c_2 h^2 + ...` (Horner) of the components from `from` on, to which `WHOLE` adds `c_0`.
+pub(crate) struct Change<'a, const WHOLE: bool> {
+    pub(crate) rows: &'a [f64],
+    /// Length of a row.
+    pub(crate) n: usize,
+    pub(crate) from: usize,
+    pub(crate) h: f64,
+    pub(crate) result: &'a mut [f64],
 }
 
-impl Change<'_> {
+impl<const WHOLE: bool> Change<'_, WHOLE> {
     #[inline(always)]
     fn lanes<const LANES: usize>(&mut self, from: usize) {
         let mut sum = [0.0; LANES];
-        for row in self.coefficients.rchunks_exact(self.change.len()) {
-            for (sum, coefficient) in sum.iter_mut().zip(&row[from..][..LANES]) {
+        let (first, others) = self.rows.split_at(self.n);
+        for row in others.rchunks_exact(self.n) {
+            for (sum, coefficient) in sum.iter_mut().zip(&row[self.from + from..][..LANES]) {
                 *sum = (*sum + coefficient) * self.h;
             }
         }
-        self.change[from..][..LANES].copy_from_slice(&sum);
+        if WHOLE {
+            for (sum, before) in sum.iter_mut().zip(&first[self.from + from..][..LANES]) {
+                *sum += before;
+            }
+        }
+        self.result[from..][..LANES].copy_from_slice(&sum);
     }
 }
 
-impl Kernel for Change<'_> {
+impl<const WHOLE: bool> Kernel for Change<'_, WHOLE> {
     type Output = ();
 
     #[inline(always)]
     fn run(mut self) {
-        let n = self.change.len();
+        let n = self.result.len();
         if n < LANES {
             (0..n).for_each(|from| self.lanes::<1>(from));
+            return;
+        }
+        if n >= WIDE {
+            // each sum waits for itself: more of them at a time
+            for from in (0..n).step_by(WIDE) {
+                self.lanes::<WIDE>(from.min(n - WIDE));
+            }
             return;
         }
         for from in (0..n).step_by(LANES) {
@@ -291,3 +317,5 @@ fn forced(system: &dyn System) -> Vec<Range<usize>> {
 
 /// So many components at a time.
 const LANES: usize = 16;
+/// And so many of a sum over all orders.
+const WIDE: usize = 32;

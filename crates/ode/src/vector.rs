@@ -25,13 +25,13 @@ pub(crate) fn add_compensated(state: &[f64], change: &[f64], carry: &[f64], resu
 }
 
 /// Adds `theta^2 (1 - theta)^2 (r_0 + theta (r_1 + (1 - theta) (r_2 + theta r_3 ...)))` to `result`, where `r_j` is
-/// `nested[j * n .. (j + 1) * n]`, `n = result.len()`.
-pub(crate) fn add_nested(theta: f64, nested: &[f64], result: &mut [f64]) {
-    dispatch(Nested { theta, nested, result });
+/// `nested[j * n + first ..]`.
+pub(crate) fn add_nested(theta: f64, nested: &[f64], n: usize, first: usize, result: &mut [f64]) {
+    dispatch(Nested { theta, nested, n, first, result });
 }
 
 /// The largest absolute value; NaN if there is one.
-pub(crate) fn largest(values: &[f64]) -> f64 {
+pub fn largest(values: &[f64]) -> f64 {
     dispatch(Largest(values))
 }
 
@@ -145,17 +145,19 @@ impl Kernel for Compensated<'_> {
 struct Nested<'a> {
     theta: f64,
     nested: &'a [f64],
+    n: usize,
+    first: usize,
     result: &'a mut [f64],
 }
 
 impl Nested<'_> {
     #[inline(always)]
     fn lanes<const LANES: usize>(&mut self, from: usize) {
-        let (n, theta) = (self.result.len(), self.theta);
+        let (n, theta) = (self.n, self.theta);
         let mut sum = [0.0; LANES];
         for r in (0..self.nested.len() / n).rev() {
             let factor = if r % 2 == 0 { theta } else { 1.0 - theta };
-            let nested = &self.nested[r * n + from..][..LANES];
+            let nested = &self.nested[r * n + self.first + from..][..LANES];
             for lane in 0..LANES {
                 sum[lane] = nested[lane] + factor * sum[lane];
             }
@@ -194,19 +196,23 @@ impl Kernel for Largest<'_> {
         let (mut largest, mut sum) = ([0.0; LANES], [0.0; LANES]);
         let chunks = self.0.chunks_exact(LANES);
         let rest = chunks.remainder();
+        let mut take = |lane: usize, value: f64| {
+            let size = value.abs();
+            largest[lane] = if size > largest[lane] { size } else { largest[lane] };
+            sum[lane] += size;
+        };
         for chunk in chunks {
-            for lane in 0..LANES {
-                let size = chunk[lane].abs();
-                largest[lane] = if size > largest[lane] { size } else { largest[lane] };
-                sum[lane] += size;
-            }
+            chunk.iter().enumerate().for_each(|(lane, value)| take(lane, *value));
+        }
+        for (lane, value) in rest.iter().enumerate() {
+            take(lane, *value);
         }
         // the sums tell a number that is none, which no comparison finds
-        let sizes = largest.iter().zip(&sum).map(|(size, sum)| if sum.is_nan() { f64::NAN } else { *size });
-        sizes.chain(rest.iter().map(|value| value.abs())).fold(0.0, |largest: f64, size| {
-            let keeps = largest.is_nan() || largest >= size;
-            if keeps { largest } else { size }
-        })
+        let [a, b, c, d, e, f, g, h] = sum;
+        if (((a + b) + (c + d)) + ((e + f) + (g + h))).is_nan() {
+            return f64::NAN;
+        }
+        largest.iter().fold(0.0, |most, &size| if size > most { size } else { most })
     }
 }
 

@@ -47,6 +47,9 @@ struct PageArgs {
     /// Compare with the committed sum
     #[arg(long)]
     check: bool,
+    /// A WebAssembly module that the page carries and computes with; the sum is that of the page without it
+    #[arg(long, value_name = "FILE")]
+    module: Option<PathBuf>,
 }
 
 /// Runs a command line; the exit code.
@@ -69,6 +72,10 @@ fn carry_out(cli: Cli) -> Result<(), Failure> {
 fn write_page(paths: &Paths, arguments: &PageArgs) -> Result<(), Failure> {
     let html = page::render(paths)?;
     let hash = files::write::sha256(html.as_bytes());
+    let html = match &arguments.module {
+        Some(file) => page::module::embed(&html, &std::fs::read(file).map_err(Failure::at(file))?)?,
+        None => html,
+    };
     let list = paths.root.join(PAPER_SUMS);
     let shown = match &arguments.out {
         Some(file) => {

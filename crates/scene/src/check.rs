@@ -83,7 +83,7 @@ fn errors_seen(scene: &Scene, outcome: &Outcome, onlooker: &mut dyn Onlooker) ->
     Errors {
         cost: other.statistics.evaluations as f64 / outcome.statistics.evaluations as f64,
         std: (ends_alike && has_samples)
-            .then(|| std_error(&std(outcome), &std(&other)) + rounding(scene, outcome) + f64::MIN_POSITIVE),
+            .then(|| std_error(&std(outcome), &std(&other)) + rounding(scene, outcome, &second) + f64::MIN_POSITIVE),
         positions: state(|outcome| &outcome.positions).map(|error| error + ROUNDINGS * largest(&outcome.positions)),
         speeds: state(|outcome| &outcome.speeds).map(|error| error + desired),
         events: outcome
@@ -151,16 +151,45 @@ const HIGHEST_SEEN: usize = 8;
 /// The order of steps across a kink.
 const ACROSS_KINKS: usize = 2;
 
-fn has_kinks(model: &Model) -> bool {
+/// Whether the law has bends of no width.
+pub(crate) fn has_kinks(model: &Model) -> bool {
     matches!(model, Model::Formula(formula) if formula.has_kinks())
 }
 
 /// Fixed steps may be too long for their error to be that of their order.
 const CAUTION: f64 = 2.0;
 
-/// The rounding of the speeds, which the standard deviation inherits where they are not kept as deviations.
-fn rounding(scene: &Scene, outcome: &Outcome) -> f64 {
-    if scene.form == FormKind::Deviations { 0.0 } else { ROUNDINGS * largest(&outcome.speeds) }
+/// The rounding of the standard deviation: that of speeds where they are not kept as deviations; none where spacings lose
+/// the perturbation whole, so that all motion is one, and the second run does not.
+fn rounding(scene: &Scene, outcome: &Outcome, second: &Scene) -> f64 {
+    let shows_all = second.form == FormKind::Deviations;
+    match scene.form {
+        FormKind::Deviations => of_headway(scene) * largest_std(outcome),
+        _ if shows_all && loses_shift(scene) && largest_std(outcome) == 0.0 => 0.0,
+        _ => ROUNDINGS * largest(&outcome.speeds),
+    }
+}
+
+/// How much the headway, `L/N` to the nearest double, changes deviations that grow or fade by how the force answers to a
+/// spacing: much where that falls by a factor of `e` over a small part of the headway.
+pub(crate) fn of_headway(scene: &Scene) -> f64 {
+    const PART: f64 = 1e-9;
+    let Some(speed) = scene.steady_speed else { return 0.0 };
+    let headway = scene.ring.headway();
+    let [here, there] = [headway, headway * (1.0 + PART)].map(|headway| scene.model.linearise(headway, speed).phi);
+    let condition = ((there - here) / (PART * here)).abs();
+    if condition.is_finite() { 0.5 * f64::EPSILON * condition } else { 0.0 }
+}
+
+/// Whether spacings lose the shift of the start to the last digit.
+pub(crate) fn loses_shift(scene: &Scene) -> bool {
+    let (clearance, shift) = (scene.ring.headway() - scene.model.contact(), scene.start.shift);
+    scene.form == FormKind::Gaps && shift != 0.0 && clearance - shift == clearance && clearance + shift == clearance
+}
+
+/// The largest standard deviation in the table.
+pub(crate) fn largest_std(outcome: &Outcome) -> f64 {
+    outcome.std.rows().fold(0.0, |most, row| math::larger(most, row[1]))
 }
 
 /// What fixed steps, whose sums are not compensated, may gather of roundings: once motion is steady all have one sign.

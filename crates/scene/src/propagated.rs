@@ -1,6 +1,10 @@
 //! The errors of a run by Taylor's method, whose steps tell their own, carried along with it ([`ode::Shadow`]).
+//!
+//! Some runs by this method are run a second time like those by others ([`crate::check`]): those by steps of fixed length,
+//! whose errors are roundings that they do not tell; those of laws with kinks, which a step may cross unseen; and those that
+//! went on from a checkpoint, which does not keep the errors before it.
 
-use crate::check::{Errors, ROUNDINGS, largest};
+use crate::check::{Errors, ROUNDINGS, has_kinks, largest, largest_std, loses_shift, of_headway};
 use crate::run::Scene;
 use crate::simulation::{Onlooker, Outcome, Sight};
 use jam::events::{Event, Happening};
@@ -11,7 +15,18 @@ use ode::{Shadow, Step};
 #[derive(Clone, Debug)]
 pub struct Propagated {
     pedestrians: usize,
+    /// Everybody's clearance but for the shift, and that.
+    clearance: f64,
+    shift: f64,
+    headway: f64,
+    /// The size of the desired speed.
+    desired: f64,
+    /// Whether spacings lose the shift.
+    loses_shift: bool,
     shadow: Option<Shadow>,
+    /// What becomes of a shift that spacings lose to the last digit. All motion is then one, as are the errors of steps, in
+    /// which so small a difference would be lost again.
+    lost: Option<Shadow>,
     /// Whether a step did not tell its error.
     is_blind: bool,
     /// The largest error of the standard deviation so far.
@@ -23,47 +38,122 @@ pub struct Propagated {
 /// The first order left out is not all that a step leaves out.
 const CAUTION: f64 = 2.0;
 
+/// What a difference of two forces does not show, as a part of them and of the difference of their states.
+const UNSEEN: f64 = 1e-6;
+
 impl Onlooker for Propagated {
     fn seen(&mut self, step: &mut Step<'_>, sight: &mut Sight<'_, '_>) {
-        if self.is_blind {
+        if self.is_blind || !self.follow(step) {
+            self.is_blind = true;
+            return;
+        }
+        if sight.samples.is_none() && sight.new.is_empty() {
             return;
         }
         let (n, dimension) = (self.pedestrians, step.after().len());
-        let shadow = self.shadow.get_or_insert_with(|| Shadow::new(of_start(step.before(), n)));
-        if shadow.now().len() != dimension {
-            *shadow = Shadow::new(in_gaps(shadow.now(), n));
-        }
-        let before = if sight.new.is_empty() { Vec::new() } else { shadow.now().to_vec() };
-        self.is_blind = !shadow.follow(step);
-        if self.is_blind {
-            return;
-        }
-        if sight.has_sample {
-            let error = std_error(&step.after()[n..2 * n], &shadow.now()[n..2 * n]);
-            self.std = if error <= self.std { self.std } else { error };
+        let (mut error, mut state) = (vec![0.0; dimension], vec![0.0; dimension]);
+        // between samples of one step errors grow or fade; the ends of the span tell both
+        let samples = sight.samples.map_or(Vec::new(), |[first, last]| vec![first, last]);
+        for (index, time) in samples.iter().enumerate() {
+            if index > 0 && samples[0] == *time {
+                continue;
+            }
+            let place = step.fraction(*time);
+            // where the perturbation is lost all errors but its own are alike
+            self.lost.as_ref().or(self.shadow.as_ref()).into_iter().for_each(|shadow| shadow.at(place, &mut error));
+            let errors = &error[n..2 * n];
+            // no standard deviation is off by more than all of its numbers
+            if (1.0 + UNSURE) * largest(errors) <= self.std {
+                continue;
+            }
+            step.at_fraction(place, &mut state);
+            if self.lost.is_some() {
+                state[n..2 * n].fill(0.0);
+            }
+            self.std = math::larger(self.std, std_error(&state[n..2 * n], errors));
         }
         for happening in sight.new {
-            let mut change = |direction: &[f64]| {
-                sight.watch.change(happening.event, happening.pedestrian, step.after(), direction).abs()
-            };
-            let by_error = math::larger(change(&before), change(shadow.now()));
-            let place = (happening.time - step.start) / step.length();
-            let rate = (1.0 - place) * change(step.rates_before()) + place * change(step.rates_after());
-            self.events.push(if by_error == 0.0 { 0.0 } else { by_error / rate });
+            let place = step.fraction(happening.time);
+            error = self.error_at(place);
+            step.at_fraction(place, &mut state);
+            let mut rates = vec![0.0; dimension];
+            step.rates_of(&state, &mut rates);
+            let mut change =
+                |direction: &[f64]| sight.watch.change(happening.event, happening.pedestrian, &state, direction).abs();
+            let (by_error, rate) = (change(&error), change(&rates));
+            // what falls through 0 is a difference of larger numbers
+            let size = if happening.event == Event::NegativeSpeed { self.desired } else { self.headway };
+            self.events.push((by_error + f64::EPSILON * size) / rate);
         }
     }
 }
 
 impl Propagated {
-    /// Before the first step.
+    /// Before the first step. A step over a kink does not see what it leaves out.
     pub fn new(scene: &Scene) -> Propagated {
-        let (pedestrians, std) = (scene.ring.pedestrians, 0.0);
-        Propagated { pedestrians, shadow: None, is_blind: !scene.method.needs_series(), std, events: Vec::new() }
+        let clearance = scene.ring.headway() - scene.model.contact();
+        Propagated {
+            pedestrians: scene.ring.pedestrians,
+            clearance,
+            shift: scene.start.shift,
+            headway: scene.ring.headway(),
+            desired: scene.model.desired_speed().abs(),
+            loses_shift: loses_shift(scene),
+            shadow: None,
+            lost: None,
+            is_blind: !scene.method.needs_series() || has_kinks(&scene.model),
+            std: 0.0,
+            events: Vec::new(),
+        }
+    }
+
+    /// Goes along with a step; false if it does not tell its error.
+    fn follow(&mut self, step: &mut Step<'_>) -> bool {
+        let (n, dimension) = (self.pedestrians, step.after().len());
+        if self.shadow.is_none() {
+            let error = self.of_start(step.before());
+            self.lost = self.loses_shift.then(|| Shadow::new(error.clone()));
+            self.shadow = Some(Shadow::new(if self.loses_shift { vec![0.0; dimension] } else { error }));
+        }
+        if self.shadow.as_ref().is_some_and(|shadow| shadow.dimension() != dimension) {
+            self.shadow = Some(Shadow::new(in_gaps(&self.error_at(1.0), n)));
+        }
+        if self.lost.is_some() && !is_uniform(step.before(), n) {
+            (self.shadow, self.lost) = (Some(Shadow::new(self.error_at(1.0))), None);
+        }
+        if let Some(lost) = &mut self.lost {
+            lost.carry(step);
+        }
+        self.shadow.as_mut().is_some_and(|shadow| shadow.follow(step))
+    }
+
+    /// The error at a fraction of the step looked at last.
+    fn error_at(&self, place: f64) -> Vec<f64> {
+        let at = |shadow: &Shadow| {
+            let mut error = vec![0.0; shadow.dimension()];
+            shadow.at(place, &mut error);
+            error
+        };
+        let mut all = self.shadow.as_ref().map_or(Vec::new(), at);
+        if let Some(lost) = &self.lost {
+            all.iter_mut().zip(at(lost)).for_each(|(all, lost)| *all += lost);
+        }
+        all
+    }
+
+    /// What rounding has dropped at the start: nothing of deviations; of spacings what their difference tells exactly.
+    fn of_start(&self, state: &[f64]) -> Vec<f64> {
+        let (n, mut error) = (self.pedestrians, vec![0.0; state.len()]);
+        if state.len() == 2 * n + 1 {
+            error[0] = (state[0] - self.clearance) + self.shift;
+            error[n - 1] = (state[n - 1] - self.clearance) - self.shift;
+        }
+        error
     }
 
     /// The errors of the run that it has seen; `None` where steps did not tell theirs.
     pub fn errors(&self, scene: &Scene, outcome: &Outcome) -> Option<Errors> {
-        let error = self.shadow.as_ref().filter(|_| !self.is_blind)?.now();
+        let error = (!self.is_blind && self.shadow.is_some()).then(|| self.error_at(1.0))?;
         let n = self.pedestrians;
         // deviations have the speed of the uniform flow, too
         let (spacings, flow) = (&error[..n], error.get(2 * n + 2).copied().unwrap_or(0.0));
@@ -79,7 +169,11 @@ impl Propagated {
             .collect();
         let rounding = |numbers: &[f64]| ROUNDINGS * largest(numbers);
         let of_std = match scene.form {
-            FormKind::Deviations => ROUNDINGS * outcome.std.rows().fold(0.0, |most, row| math::larger(most, row[1])),
+            FormKind::Deviations => (ROUNDINGS + of_headway(scene)) * largest_std(outcome),
+            // where all motion is one, no rounding lies between speeds; but a weak force goes unseen beside the drive
+            _ if self.lost.is_some() && largest_std(outcome) == 0.0 => {
+                UNSEEN * scene.model.desired_speed().abs() * (self.shift / self.clearance).abs()
+            }
             _ => rounding(&outcome.speeds),
         };
         // at a blow-up a rounding of the time is a large part of the state
@@ -88,7 +182,8 @@ impl Propagated {
             |errors: &[f64], numbers: &[f64]| (!is_blow_up).then(|| CAUTION * largest(errors) + rounding(numbers));
         Some(Errors {
             std: Some(CAUTION * self.std + of_std + f64::MIN_POSITIVE),
-            positions: end(&positions, &outcome.positions).map(|error| error + 2.0 * rounding(&outcome.positions)),
+            positions: end(&positions, &outcome.positions)
+                .map(|error| error + 2.0 * rounding(&outcome.positions) + RELAXATION * UNSURE * largest(&speeds)),
             speeds: end(&speeds, &outcome.speeds).map(|error| error + ROUNDINGS * scene.model.desired_speed().abs()),
             events: self.of_events(&outcome.events),
             cost: 0.0,
@@ -106,14 +201,10 @@ impl Propagated {
     }
 }
 
-/// The rounding of the start: none in deviations; in spacings that of the two that differ from the rest.
-fn of_start(state: &[f64], n: usize) -> Vec<f64> {
-    let mut error = vec![0.0; state.len()];
-    if state.len() == 2 * n + 1 {
-        error[0] = 0.5 * f64::EPSILON * state[0].abs();
-        error[n - 1] = -0.5 * f64::EPSILON * state[n - 1].abs();
-    }
-    error
+/// Whether everybody has the same spacing and the same speed, to the last bit, in a state of spacings.
+fn is_uniform(state: &[f64], n: usize) -> bool {
+    let (spacings, speeds) = (&state[..n], &state[n..2 * n]);
+    state.len() == 2 * n + 1 && spacings.iter().all(|s| *s == spacings[0]) && speeds.iter().all(|v| *v == speeds[0])
 }
 
 /// An error in deviations as one in spacings and speeds.
@@ -124,8 +215,9 @@ fn in_gaps(error: &[f64], n: usize) -> Vec<f64> {
     gaps
 }
 
-/// By how much the standard deviation of speeds differs from that of the speeds less their errors. Scaled: speeds of 1e-200
-/// have squares.
+/// By how much the standard deviation of speeds is off: the difference from that of the speeds less their errors, and what
+/// is not sure of these errors. They may all but cancel in the sum, what is not sure of them does not. Scaled: speeds of
+/// 1e-200 have squares.
 fn std_error(speeds: &[f64], errors: &[f64]) -> f64 {
     let (count, scale) = (speeds.len() as f64, math::larger(largest(speeds), largest(errors)));
     if scale == 0.0 || !scale.is_finite() {
@@ -133,15 +225,59 @@ fn std_error(speeds: &[f64], errors: &[f64]) -> f64 {
     }
     let share = 1.0 / (scale * count);
     let (mean, shift) = (speeds.iter().sum::<f64>() * share, errors.iter().sum::<f64>() * share);
-    let (mut squares, mut others, mut between) = (0.0, 0.0, 0.0);
+    let (mut squares, mut others, mut between, mut offs) = (0.0, 0.0, 0.0, 0.0);
     for (speed, error) in speeds.iter().zip(errors) {
         let (own, off) = (speed / scale - mean, error / scale - shift);
         squares += own * own;
         others += (own - off) * (own - off);
         between += off * (2.0 * own - off);
+        offs += off * off;
     }
-    if between == 0.0 {
-        return 0.0;
+    let deviations = (squares / count).sqrt() + (others / count).sqrt();
+    let difference = if between == 0.0 { 0.0 } else { (between / count).abs() / deviations };
+    scale * (difference + UNSURE * (offs / count).sqrt())
+}
+
+/// What is not sure of speeds becomes an error of positions within a relaxation time.
+const RELAXATION: f64 = 1.0;
+
+/// The part of the errors of steps that is not sure: orders that follow the first that is left out are smaller by about this
+/// factor each, since the steps are as long as the series allow.
+const UNSURE: f64 = 0.2;
+
+#[cfg(test)]
+mod tests {
+    use super::{UNSURE, std_error};
+
+    /// The standard deviation of these.
+    fn std(values: &[f64]) -> f64 {
+        jam::observe::spread(values)
     }
-    scale * (between / count).abs() / ((squares / count).sqrt() + (others / count).sqrt())
+
+    #[test]
+    fn the_error_of_a_standard_deviation_is_its_change_and_a_part_of_the_errors() {
+        let speeds = [1.0, 1.25, 0.5, 2.0, 1.0];
+        let errors = [1e-3, -2e-3, 5e-4, 1e-3, -1e-3];
+        let right: Vec<f64> = speeds.iter().zip(&errors).map(|(speed, error)| speed - error).collect();
+        let expected = (std(&speeds) - std(&right)).abs() + UNSURE * std(&errors);
+        assert!((std_error(&speeds, &errors) / expected - 1.0).abs() < 1e-9);
+        // of any size, 1e-200 too
+        let tiny = |values: &[f64]| values.iter().map(|value| 1e-200 * value).collect::<Vec<f64>>();
+        assert!((std_error(&tiny(&speeds), &tiny(&errors)) / (1e-200 * expected) - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn errors_that_all_have_alike_do_not_count() {
+        assert!(std_error(&[1.0, 2.0, 4.0], &[0.125; 3]) < 1e-15);
+        assert_eq!(std_error(&[1.0, 2.0, 4.0], &[0.0; 3]), 0.0);
+    }
+
+    #[test]
+    fn errors_that_cancel_in_the_deviation_count_by_what_is_unsure() {
+        // across the deviation of the speeds
+        let (speeds, errors) = ([1.0, -1.0, 0.0], [1e-6, 1e-6, -2e-6]);
+        let error = std_error(&speeds, &errors);
+        let expected = UNSURE * std(&errors);
+        assert!((error / expected - 1.0).abs() < 1e-4, "{error:e} {expected:e}");
+    }
 }

@@ -93,6 +93,9 @@ pub trait Onlooker {
     /// Sees the same with what was found in it.
     fn seen(&mut self, _step: &mut Step<'_>, _sight: &mut Sight<'_, '_>) {}
 
+    /// Sees the tables whenever a sample was added to them.
+    fn sampled(&mut self, _std: &Table, _trajectories: &Table) {}
+
     /// Sees the run every few thousand steps.
     fn between(&mut self, _underway: &Underway<'_>) {}
 
@@ -120,8 +123,8 @@ pub struct Sight<'a, 'w> {
     pub new: &'a [Happening],
     /// The watch that found them.
     pub watch: &'a mut Watch<'w>,
-    /// Whether a sample is taken in it.
-    pub has_sample: bool,
+    /// The times of the first and the last sample that is taken in it.
+    pub samples: Option<[f64; 2]>,
 }
 
 /// Nobody looks on.
@@ -137,6 +140,11 @@ impl<A: Onlooker, B: Onlooker> Onlooker for (A, B) {
     fn seen(&mut self, step: &mut Step<'_>, sight: &mut Sight<'_, '_>) {
         self.0.seen(step, sight);
         self.1.seen(step, sight);
+    }
+
+    fn sampled(&mut self, std: &Table, trajectories: &Table) {
+        self.0.sampled(std, trajectories);
+        self.1.sampled(std, trajectories);
     }
 
     fn between(&mut self, underway: &Underway<'_>) {
@@ -158,6 +166,10 @@ impl<A: Onlooker> Onlooker for &mut A {
 
     fn seen(&mut self, step: &mut Step<'_>, sight: &mut Sight<'_, '_>) {
         (**self).seen(step, sight);
+    }
+
+    fn sampled(&mut self, std: &Table, trajectories: &Table) {
+        (**self).sampled(std, trajectories);
     }
 
     fn between(&mut self, underway: &Underway<'_>) {
@@ -284,6 +296,7 @@ impl<'a> Recorder<'a> {
             judge.start(&self.watch, &found);
         }
         self.record.take(0.0, state);
+        self.onlooker.sampled(&self.record.std, &self.record.trajectories);
         self.record.follow(0.0, state);
     }
 
@@ -447,7 +460,8 @@ impl<'a> Recorder<'a> {
         let scene = self.scene;
         let Some(speed) = scene.steady_speed else { return false };
         let least = NEAR_WALLS * scene.model.room(scene.ring.headway(), speed, speed);
-        scene.model.is_singular() && self.can_turn() && self.watch.rooms().iter().any(|&room| room < least)
+        let is_near = !self.watch.is_quiet() && scene.model.is_singular() && self.can_turn();
+        is_near && self.watch.rooms().iter().any(|&room| room < least)
     }
 }
 
@@ -469,7 +483,10 @@ fn advice(failure: &ode::Failure, scene: &Scene) -> Option<&'static str> {
 impl Observer for Recorder<'_> {
     fn after(&mut self, step: &mut Step<'_>) -> ControlFlow<()> {
         self.onlooker.after(step);
-        let new = self.watch.look(step);
+        let new = match &self.judge {
+            Some(_) => self.watch.look(step),
+            None => self.watch.look_for_new(step),
+        };
         if let Some(judge) = &mut self.judge {
             judge.look(&mut self.watch, step, &new);
             if self.onlooker.judging() == Judging::UntilCertain && judge.verdict().is_some() {
@@ -478,12 +495,17 @@ impl Observer for Recorder<'_> {
         }
         let stop = new.iter().find(|happening| self.stops(happening)).map(|happening| happening.time);
         let until = stop.unwrap_or(step.end);
-        let has_sample = !self.is_stopped && self.sampler.next() <= until;
-        self.onlooker.seen(step, &mut Sight { new: &new, watch: &mut self.watch, has_sample });
+        let samples = if self.is_stopped { None } else { self.sampler.span(step, until) };
+        self.onlooker.seen(step, &mut Sight { new: &new, watch: &mut self.watch, samples });
         if !self.is_stopped {
             let until = stop.unwrap_or(self.scene.t_end);
-            let record = &mut self.record;
-            self.sampler.within(step, until, &mut |t, state| record.take(t, state));
+            let (record, onlooker) = (&mut self.record, &mut *self.onlooker);
+            // of the standard deviation alone the speeds are enough
+            let wanted = if record.scene.keeps_trajectories { 0..step.before().len() } else { record.form.speeds() };
+            self.sampler.components_within(step, until, wanted, &mut |t, state| {
+                record.take(t, state);
+                onlooker.sampled(&record.std, &record.trajectories);
+            });
             self.is_stopped = stop.is_some();
             match stop {
                 Some(time) => record.follow_to(time, step),

@@ -1,7 +1,7 @@
 //! What the supplements are computed by: the tables of the report of accuracy, which are error against work
 //! ([`precision`], drawn by [`precision_panel`]), rounding and growth ([`studies`]) and hard cases ([`hard`]); what the jams
 //! depend on ([`parameters`]), where stability ends ([`thresholds`]), published curves beside runs by fixed steps
-//! ([`overlay`]), the laws as optimal-velocity models ([`optimal_velocity`]). No figure of the paper is built with it.
+//! ([`overlay`]), the laws as optimal-velocity models ([`optimal_velocity`]), waves without runs ([`travelling`]). No figure of the paper is built with it.
 
 pub mod draw;
 pub mod hard;
@@ -12,3 +12,4 @@ pub mod precision;
 pub mod precision_panel;
 pub mod studies;
 pub mod thresholds;
+pub mod travelling;

@@ -1,4 +1,4 @@
-//! Tables of accuracy compared with the committed ones, and what they say: which method buys which error at which cost.
+//! Compares tables of error against work with the committed ones, and names the cheapest method for an error.
 
 use crate::precision::{COARSE_TARGETS, COSTS, FIXED, Row, SCENES, Scene, TARGETS};
 use crate::rows::{Relation, first_stranger};

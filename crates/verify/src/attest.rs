@@ -1,4 +1,4 @@
-//! Who got which bits: `data/attestations.jsonl`, a line of JSON for each machine and result. No name of a host or of a
+//! Attestations of bits: `data/attestations.jsonl`, a line of JSON for each machine and result. No name of a host or of a
 //! user, no path, no time.
 
 use checkout::disk;

@@ -1,4 +1,4 @@
-//! Accepting what was made: shown against the last commit first, then its sums, samples, hashes of states and the ledger
+//! Accepts outputs: shows them against the last commit, then writes their sums, samples, hashes of states and the ledger
 //! are written.
 
 use crate::reference::Reference;

@@ -1,4 +1,4 @@
-//! How far the paper's scheme, word for word, is from the accurate runs and from the published curves: from tables alone.
+//! The distance of the paper's scheme from the accurate runs and from the published curves, from tables alone.
 
 use checkout::disk;
 use checkout::failure::Failure;

@@ -1,4 +1,4 @@
-//! Everything that a verification found, as text and as JSON.
+//! The findings of a verification, as text and as JSON.
 
 use crate::judgement::Judgement;
 use crate::verdict::Verdict;

@@ -1,4 +1,4 @@
-//! What was found of one figure.
+//! The judgement of one figure.
 
 use crate::moved::Moved;
 use crate::pictures::Picture;

@@ -1,4 +1,4 @@
-//! Events that are not as committed.
+//! Events that differ from the committed ones.
 
 use crate::numbers;
 use checkout::events::{Event, partner};

@@ -1,4 +1,4 @@
-//! How far two tables are from each other.
+//! The distance between two tables.
 
 use files::pairs::{KEYS, Pair, pairs};
 use files::table::{Cell, Sheet};

@@ -1,4 +1,4 @@
-//! What the tables of error against work say: the cheapest method for an error, and the least error of each method.
+//! Results of the tables of error against work: the cheapest method for an error, and the least error of each method.
 
 use checkout::disk;
 use checkout::failure::Failure;

@@ -1,4 +1,4 @@
-//! Hashes of the state of all pedestrians at checkpoints of each run: where, and with whom, two runs part.
+//! Hashes of the state of all pedestrians at checkpoints of each run, to find where two runs part, and with whom.
 //!
 //! `data/states/SCENE.csv` has a line for each checkpoint: `t`; `state`, the first 16 digits of a rolling SHA-256 over
 //! every sample (`t,n,x,v` as in a table of trajectories) from the start up to and with t; and `pedestrians`, four digits

@@ -1,4 +1,4 @@
-//! How far numbers may be from the committed ones on a machine whose bits differ: `data/tolerances.toml`.
+//! Tolerances for numbers on a machine whose bits differ: `data/tolerances.toml`.
 
 use crate::numbers::Tolerance;
 use checkout::disk;

@@ -1,4 +1,4 @@
-//! What the levels mean together.
+//! The verdict that the four levels give together.
 
 use crate::judgement::Judgement;
 use crate::tables::{Against, Compared};

@@ -1,4 +1,4 @@
-//! What differs, in lines for people.
+//! Differences in words.
 
 use crate::judgement::Judgement;
 use crate::moved::Moved;

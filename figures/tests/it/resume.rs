@@ -13,9 +13,21 @@ const END: &str = "20";
 
 /// `simulate` by the paper's scheme up to `end`, a checkpoint in its folder every tenth of a second.
 fn simulate(folder: &Path, end: &str) -> Command {
+    simulate_as(
+        folder,
+        &["figures/fig13-logarithmic-std/scene.toml", "--panel", "std", "--scheme", "paper", "--t-end", end],
+    )
+}
+
+/// The same of steps of adaptive length: some seconds, too.
+fn simulate_adaptive(folder: &Path) -> Command {
+    let scene = "figures/fig11-trajectories/scene.toml";
+    simulate_as(folder, &[scene, "--method", "bs32", "--tol", "1e-9", "--t-end", "3000", "--no-check"])
+}
+
+fn simulate_as(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_simulate"));
-    command.current_dir(root()).args(["figures/fig13-logarithmic-std/scene.toml", "--panel", "std"]);
-    command.args(["--scheme", "paper", "--t-end", end, "--tables-only", "--json", "--progress"]);
+    command.current_dir(root()).args(arguments).args(["--tables-only", "--json", "--progress"]);
     command.arg("--out").arg(folder.join("out")).arg("--checkpoint").arg(file(folder));
     command.args(["--checkpoint-every", "0.1"]).stdin(Stdio::null());
     command
@@ -27,8 +39,12 @@ fn file(folder: &Path) -> PathBuf {
 
 /// Starts a run and kills it (SIGKILL) once it has written a checkpoint and so much time has passed since.
 fn kill(folder: &Path, after: Duration) {
+    kill_as(folder, after, simulate(folder, END));
+}
+
+fn kill_as(folder: &Path, after: Duration, mut command: Command) {
     let before = std::fs::read(file(folder)).ok();
-    let mut child = simulate(folder, END).stderr(Stdio::null()).stdout(Stdio::null()).spawn().expect("it starts");
+    let mut child = command.stderr(Stdio::null()).stdout(Stdio::null()).spawn().expect("it starts");
     let start = Instant::now();
     while std::fs::read(file(folder)).ok() == before {
         assert!(start.elapsed() < Duration::from_secs(60), "no checkpoint in a minute");
@@ -41,7 +57,11 @@ fn kill(folder: &Path, after: Duration) {
 }
 
 fn finish(folder: &Path) -> (serde_json::Value, Output) {
-    let output = simulate(folder, END).output().expect("it starts");
+    finish_as(folder, simulate(folder, END))
+}
+
+fn finish_as(folder: &Path, mut command: Command) -> (serde_json::Value, Output) {
+    let output = command.output().expect("it starts");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(!file(folder).exists(), "a checkpoint is removed at the end");
     (serde_json::from_slice(&output.stdout).expect("JSON"), output)
@@ -74,6 +94,35 @@ fn a_run_killed_at_any_moment_goes_on_to_the_same_bytes() {
     for key in ["steps", "right_hand_sides", "t", "stop", "events", "jams"] {
         assert_eq!(resumed[key], summary[key], "{key}");
     }
+}
+
+#[test]
+fn a_run_of_adaptive_steps_killed_goes_on_to_the_same_bytes_and_tells_how_far_it_is() {
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    let [whole, killed] = ["whole", "killed"].map(|name| scratch.path().join(name));
+    for folder in [&whole, &killed] {
+        std::fs::create_dir(folder).expect("a folder");
+    }
+    let (summary, _) = finish_as(&whole, simulate_adaptive(&whole));
+    for after in [0, 137] {
+        kill_as(&killed, Duration::from_millis(after), simulate_adaptive(&killed));
+    }
+    let (resumed, output) = finish_as(&killed, simulate_adaptive(&killed));
+    let (steps, all) = (resumed["resumed_steps"].as_u64(), summary["steps"].as_u64());
+    println!("resumed at step {steps:?} of {all:?}");
+    assert!(steps > Some(0) && steps < all, "{steps:?} of {all:?}");
+    assert_eq!(sums(&killed), sums(&whole));
+    for key in ["steps", "right_hand_sides", "rejected", "t", "stop", "events", "jams"] {
+        assert_eq!(resumed[key], summary[key], "{key}");
+    }
+    // where it was, and where it is a second later, if it takes that long
+    let words = String::from_utf8_lossy(&output.stderr).into_owned();
+    let places = words.lines().map(|line| line.split_once(' ').and_then(|(_, place)| place.parse::<f64>().ok()));
+    let places: Vec<f64> = places.collect::<Option<_>>().expect("a number in each line");
+    assert!(
+        words.starts_with("resumed 0.") && places.is_sorted() && places.iter().all(|&place| place < 1.0),
+        "{words}"
+    );
 }
 
 #[test]

@@ -420,6 +420,7 @@ fn axes_that_are_no_parameters_are_named_with_what_is_valid() {
         (axis("x = { parameter = \"headway\", from = 1.0, to = 2.0, cells = 30 }"), vec!["ring.length", "axis"]),
         (replace(&scene, "t_end     = 60.0", "t_end     = 60.0\nsample = 1.0"), vec!["run.sample"]),
         (replace(&scene, "t_end     = 60.0", "t_end     = 60.0\nat_overlap = \"continue\""), vec!["run.at_overlap"]),
+        (replace(&scene, "[sweep]", "[uniform]\nd_gap = 1.0\n[sweep]"), vec!["uniform.d_gap", "headway"]),
         (replace(&scene, "[sweep]", "[swept]"), vec!["swept"]),
     ];
     for (scene, told) in cases {

@@ -1,4 +1,4 @@
-//! `test` and `ci`: what is run, in which order, and what was not tried here.
+//! `test` and `ci`: run the checks in order and list those that could not be tried.
 
 use super::{figures, publish, verify};
 use crate::cli::{BundleArgs, CiArgs, FiguresArgs, Selection};

@@ -2,6 +2,7 @@
 
 use crate::cli::JsonArgs;
 use crate::compile::{self, FONTS_REMEDY};
+use crate::module;
 use checkout::disk;
 use checkout::failure::Failure;
 use checkout::paths::{Paths, TOOLCHAIN};
@@ -81,6 +82,12 @@ fn findings(paths: &Paths) -> Result<Vec<Finding>, Failure> {
             false,
             process::first_line("typst", &["--version"]),
             "needed by paper, which installs it where there is Python 3.11 and a network",
+        ),
+        finding(
+            "WebAssembly",
+            false,
+            module::compiler(paths).map(|compiler| compiler.name().to_owned()),
+            "needed for the module of the page; rustup target add wasm32-unknown-unknown",
         ),
         finding("numpy", false, numpy(), "needed by spot checks of test; pip install numpy"),
     ])

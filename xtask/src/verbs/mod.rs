@@ -12,6 +12,7 @@ pub mod forward;
 pub mod judge;
 pub mod list;
 pub mod publish;
+pub mod receipt;
 pub mod status;
 pub mod summary;
 pub mod verify;

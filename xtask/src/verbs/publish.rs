@@ -5,6 +5,7 @@ use crate::cli::{BundleArgs, PaperArgs, ReportArgs};
 use crate::compile;
 use crate::gate;
 use crate::lock::Lock;
+use crate::module;
 use checkout::failure::Failure;
 use checkout::figure;
 use checkout::paths::Paths;
@@ -37,6 +38,9 @@ pub fn report(paths: &Paths, arguments: &ReportArgs) -> Result<(), Failure> {
     gate::figures_verify(paths, &figure::discover(paths)?)?;
     let mut page = program(paths)?;
     page.arg("page").args(arguments.check.then_some("--check"));
+    if let Some(file) = module::build(paths)? {
+        page.arg("--module").arg(file);
+    }
     if let Some(file) = &arguments.out {
         page.arg("--out").arg(file);
     }

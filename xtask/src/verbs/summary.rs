@@ -1,4 +1,4 @@
-//! What `figures` says at its end: a line for each figure, and whether everything is as committed.
+//! The summary of `figures`: a line for each figure, and whether everything is as committed.
 
 use crate::measured::Measured;
 use crate::record::{Records, Survey};

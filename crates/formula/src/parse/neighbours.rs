@@ -1,4 +1,4 @@
-//! What only a law has: quantities of neighbours, and sums over them.
+//! The parts of the grammar that only laws have: quantities of neighbours, and sums over them.
 
 use super::Parser;
 use crate::limits::FARTHEST;

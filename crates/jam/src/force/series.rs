@@ -31,7 +31,7 @@ pub struct Motion<'a> {
 }
 
 /// So many pedestrians at a time.
-const W: usize = 16;
+const W: usize = 24;
 
 /// As many operations that are not linear as a compiled formula has at most.
 const OPERATIONS: usize = 4;
@@ -66,10 +66,17 @@ impl Memory {
         self.speeds[n] = speeds[0];
     }
 
-    /// Goes on to the next order, whose speeds are there.
+    /// Goes on to the next order, whose speeds are there; writes its spacings to `row`, too.
     #[inline(always)]
-    fn advance(&mut self, n: usize, share: f64) {
-        for ((spacing, own), ahead) in self.spacings.iter_mut().zip(&self.speeds).zip(&self.speeds[1..]) {
+    fn advance(&mut self, share: f64, row: &mut [f64]) {
+        let n = row.len();
+        let pairs = self.speeds.iter().zip(&self.speeds[1..]);
+        for ((spacing, written), (own, ahead)) in self.spacings.iter_mut().zip(row).zip(pairs) {
+            *spacing = (ahead - own) * share;
+            *written = *spacing;
+        }
+        let pairs = self.speeds.iter().zip(&self.speeds[1..]);
+        for (spacing, (own, ahead)) in self.spacings.iter_mut().zip(pairs).skip(n) {
             *spacing = (ahead - own) * share;
         }
         std::mem::swap(&mut self.speeds, &mut self.next_speeds);
@@ -118,6 +125,7 @@ impl<L: Law> Coefficients<'_, '_, L> {
         }
         for k in 1..order {
             let share = unit / (k + 1) as f64;
+            let (spacings, row) = coefficients[(k + 1) * dimension..].split_at_mut(n);
             for (block, histories) in memory.histories.chunks_exact(size).take(blocks).enumerate() {
                 let from = block * W;
                 let place = Place::new(histories, order, k);
@@ -125,12 +133,15 @@ impl<L: Law> Coefficients<'_, '_, L> {
                 let v = place.variable(Lanes::of(&memory.speeds[from..]));
                 let w = place.variable(Lanes::of(&memory.speeds[from + 1..]));
                 let acceleration = law.acceleration(s, v, w).coefficient();
-                memory.next_speeds[from..from + W].copy_from_slice(&(acceleration * share).0);
+                let speeds = acceleration * share;
+                memory.next_speeds[from..from + W].copy_from_slice(&speeds.0);
+                if let Some(written) = row[..n].get_mut(from..from + W) {
+                    written.copy_from_slice(&speeds.0);
+                }
             }
-            memory.advance(n, share);
-            let row = &mut coefficients[(k + 1) * dimension..];
-            row[..n].copy_from_slice(&memory.spacings[..n]);
-            row[n..2 * n].copy_from_slice(&memory.speeds[..n]);
+            let last = n - n % W;
+            row[last..n].copy_from_slice(&memory.next_speeds[last..n]);
+            memory.advance(share, spacings);
         }
     }
 }
@@ -139,6 +150,9 @@ impl<L: Law> Coefficients<'_, '_, L> {
 #[inline(always)]
 fn start(spacings: &[f64], speeds: &[f64], from: usize) -> (Lanes<W>, Lanes<W>, Lanes<W>) {
     let n = spacings.len();
+    if from + W < n {
+        return (Lanes::of(&spacings[from..]), Lanes::of(&speeds[from..]), Lanes::of(&speeds[from + 1..]));
+    }
     let place = |lane: usize| if from + lane < n { from + lane } else { n - 1 };
     let next = |own: usize| if own + 1 < n { own + 1 } else { 0 };
     (

@@ -2,7 +2,7 @@
 
 use crate::force::{Force, Interpreted, Prepared, Source};
 use crate::stability::Response;
-use formula::{Error, Graph};
+use formula::{Definition, Error, Given, Graph, Place};
 use math::dual::Dual;
 use math::number::Number;
 use std::sync::Arc;
@@ -36,6 +36,32 @@ impl Formula {
     pub fn new(graph: Graph) -> Result<Formula, Error> {
         let values = graph.values();
         Formula::with_values(Arc::new(graph), values)
+    }
+
+    /// The law of these lines, each a name and what stands behind it, as in `[law]` of a scene file: `acceleration` and
+    /// `body`, the spacing at which two touch; `gap` and `scale` where wanted; parameters (numbers) and named expressions
+    /// (texts). The language is that of [`formula`].
+    ///
+    /// ```
+    /// let law = jam::laws::Formula::written(&[
+    ///     ("acceleration", "v0*(1 - exp(-(s - body)/length)) - v".into()),
+    ///     ("v0", 1.2.into()),
+    ///     ("length", 0.8.into()),
+    ///     ("body", 0.0.into()),
+    /// ])?;
+    /// assert_eq!(law.parameter("length"), Some(0.8));
+    /// let wrong = jam::laws::Formula::written(&[("acceleration", "1 - speed".into()), ("body", 0.0.into())]);
+    /// assert!(wrong.unwrap_err().to_string().starts_with("law:1"));
+    /// # Ok::<(), formula::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`formula::law`] and [`Formula::new`]; the number of a line counts from 1.
+    pub fn written(lines: &[(&str, Given<'_>)]) -> Result<Formula, Error> {
+        let place = |index: usize| Place { line: index as u32 + 1, column: 1 };
+        let definition = |(index, &(name, given))| Definition { name, key: place(index), value: place(index), given };
+        let definitions: Vec<Definition<'_>> = lines.iter().enumerate().map(definition).collect();
+        Formula::new(formula::law("law", place(0), &definitions)?)
     }
 
     fn with_values(graph: Arc<Graph>, values: Vec<f64>) -> Result<Formula, Error> {

@@ -46,6 +46,62 @@ pub struct Parameter<L> {
 const RAMP_WIDTH: f64 = 0.1;
 
 /// A law of motion as a formula.
+///
+/// ```
+/// use jam::force::Compiled;
+/// use jam::laws::{Law, Parameter, Range};
+/// use jam::ramp::Bend;
+/// use jam::ring::{Ring, Start};
+/// use jam::stability::Waves;
+/// use jam::states::{Deviations, Form};
+/// use math::number::Number;
+///
+/// /// `dv_n/dt = v_0 (1 - exp(-(s_n - 2) / l)) - v_n`.
+/// #[derive(Clone, Copy, Debug, Default)]
+/// struct Relaxing {
+///     desired_speed: f64,
+///     length: f64,
+/// }
+///
+/// impl Law for Relaxing {
+///     const PARAMETERS: &'static [Parameter<Relaxing>] = &[
+///         Parameter { name: "v0", range: Range::Positive, default: None, place: |law| &mut law.desired_speed },
+///         Parameter { name: "l", range: Range::Positive, default: None, place: |law| &mut law.length },
+///     ];
+///     const CONTACT: f64 = 2.0;
+///     const SINGULAR: bool = false;
+///
+///     #[inline(always)]
+///     fn acceleration<X: Number>(&self, net_gap: X, speed: X, _ahead: X) -> X {
+///         -(net_gap * (-1.0 / self.length)).exp_m1() * self.desired_speed - speed
+///     }
+///     #[inline(always)]
+///     fn effective_gap<X: Number>(&self, net_gap: X, _speed: X, _ahead: X) -> X {
+///         net_gap
+///     }
+///     fn uses_speeds(&self) -> bool {
+///         false
+///     }
+///     fn is_long(&self) -> bool {
+///         true
+///     }
+///     fn plain(&self) -> Option<Relaxing> {
+///         None
+///     }
+///     fn bend(&self) -> Option<Bend> {
+///         None
+///     }
+/// }
+///
+/// let law = Relaxing { desired_speed: 1.0, length: 3.0 };
+/// let ring = Ring { pedestrians: 50, length: 200.0 };
+/// let form = Deviations::new(Box::new(Compiled::new(law)), ring);
+/// let start = form.start(Start { shift: 0.1 });
+/// // the uniform flow is stable where the slope V'(s) of the steady speed is below 1/2
+/// let (speed, slope) = (1.0 - math::exp(-2.0 / 3.0), math::exp(-2.0 / 3.0) / 3.0);
+/// assert!(slope < 0.5 && law.response(ring.headway(), speed).margin(Waves::All).0 < 0.0);
+/// # assert_eq!(start.len(), 103);
+/// ```
 pub trait Law: Copy + Default + Send + Sync + std::fmt::Debug + 'static {
     /// Its parameters.
     const PARAMETERS: &'static [Parameter<Self>];
@@ -75,6 +131,16 @@ pub trait Law: Copy + Default + Send + Sync + std::fmt::Debug + 'static {
 
     /// Where the smooth ramp bends, if the law has one; where its argument is a quotient, its numerator.
     fn bend(&self) -> Option<Bend>;
+
+    /// The derivatives of the acceleration in the uniform flow of this headway and speed, from the formula.
+    fn response(&self, headway: f64, speed: f64) -> Response {
+        let net_gap = headway - Self::CONTACT;
+        let slope = |which: usize| {
+            let variable = |index: usize, value: f64| Dual { value, slope: if index == which { 1.0 } else { 0.0 } };
+            self.acceleration(variable(0, net_gap), variable(1, speed), variable(2, speed)).slope
+        };
+        Response { spacings: vec![(0, slope(0))], speeds: vec![(0, slope(1)), (1, slope(2))] }
+    }
 }
 
 /// A law with its parameters, as data.
@@ -215,7 +281,7 @@ impl Model {
 
     /// How the acceleration answers to spacings and speeds in this uniform flow. `None` where it has no derivative.
     pub fn response(&self, headway: f64, speed: f64) -> Option<Response> {
-        each!(self, law => Some(response_of(law, headway, speed)), formula => formula.response(headway, speed))
+        each!(self, law => Some(law.response(headway, speed)), formula => formula.response(headway, speed))
     }
 
     /// The coefficients of the linearised law about the uniform flow with this headway and speed; of a formula too, if it
@@ -228,14 +294,4 @@ impl Model {
             Model::Formula(law) => law.response(headway, speed).as_ref().map_or(Linear::NONE, Linear::of),
         }
     }
-}
-
-/// The derivatives of a law of one predecessor.
-fn response_of<L: Law>(law: &L, headway: f64, speed: f64) -> Response {
-    let net_gap = headway - L::CONTACT;
-    let slope = |which: usize| {
-        let variable = |index: usize, value: f64| Dual { value, slope: if index == which { 1.0 } else { 0.0 } };
-        law.acceleration(variable(0, net_gap), variable(1, speed), variable(2, speed)).slope
-    };
-    Response { spacings: vec![(0, slope(0))], speeds: vec![(0, slope(1)), (1, slope(2))] }
 }

@@ -8,7 +8,6 @@ use crate::events::{Event, Happening, Watch};
 use crate::laws::Model;
 use crate::observe::spread;
 use crate::ring::Ring;
-use crate::stability::Waves;
 use ode::Step;
 
 /// Looks at every step of a run and says what became of it.
@@ -375,7 +374,7 @@ impl Flow {
         let response = model.response(headway, speed)?;
         let gap = model.room(headway, speed, speed);
         let room = if gap < headway { gap } else { headway };
-        let margin = response.margin(Waves::Ring(ring.pedestrians)).0;
-        Some(Flow { headway, speed, room, margin, growth_rate: response.fastest(ring.pedestrians).0 })
+        let (margin, growth_rate) = response.of_ring(ring.pedestrians);
+        Some(Flow { headway, speed, room, margin, growth_rate })
     }
 }

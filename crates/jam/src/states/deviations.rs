@@ -4,7 +4,7 @@
 //! distance `X` and speed `V` of the uniform flow, `dX/dt = V`, `dV/dt = f(V, V, Delta y)`. A perturbation of any size
 //! keeps all its digits, and an error is one of the perturbation, not of the state.
 
-use super::{Form, LEAST_SIZE, closing_rates};
+use super::{FlowAlong, Form, LEAST_SIZE, closing_rates};
 use crate::force::{Flow, Force, Motion};
 use crate::observe::spread;
 use crate::ring::{Ring, Start};
@@ -158,6 +158,16 @@ impl Form for Deviations {
             *position = moved + (n as f64 * headway + ahead);
             ahead += state[n];
         }
+    }
+
+    fn speeds(&self) -> Range<usize> {
+        let n = self.pedestrians;
+        n..2 * n
+    }
+
+    fn flow_along(&self, state: &[f64], rates: &[f64]) -> Option<FlowAlong> {
+        let (_, _, speed) = self.extras();
+        Some(FlowAlong { net_gap: self.net_gap, speed: state[speed], acceleration: rates[speed] })
     }
 
     fn speed_deviation(&self, state: &[f64]) -> f64 {

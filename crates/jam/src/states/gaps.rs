@@ -129,6 +129,11 @@ impl Form for Gaps {
         }
     }
 
+    fn speeds(&self) -> Range<usize> {
+        let n = self.pedestrians;
+        n..2 * n
+    }
+
     fn speed_deviation(&self, state: &[f64]) -> f64 {
         spread(&state[self.pedestrians..2 * self.pedestrians])
     }

@@ -18,6 +18,7 @@ pub use positions::Positions;
 use crate::laws::Model;
 use crate::ring::{Ring, Start};
 use math::simd::{Kernel, dispatch};
+use std::ops::Range;
 
 /// A ring in one of the forms. Pedestrian `n` follows `n + 1`, the last follows the first.
 pub trait Form: ode::System {
@@ -33,8 +34,28 @@ pub trait Form: ode::System {
     /// Writes the `N` positions, unwrapped: they start in [0, L) and grow as the pedestrians walk.
     fn write_positions(&self, state: &[f64], positions: &mut [f64]);
 
+    /// Where the speeds stand in a state, or their deviations from one speed.
+    fn speeds(&self) -> Range<usize>;
+
+    /// For states of deviations from a uniform flow, which stand first, those of gaps before those of speeds: that flow.
+    /// `None` for others.
+    fn flow_along(&self, _state: &[f64], _rates: &[f64]) -> Option<FlowAlong> {
+        None
+    }
+
     /// The standard deviation of the speeds over the pedestrians (divided by `N`).
     fn speed_deviation(&self, state: &[f64]) -> f64;
+}
+
+/// A uniform flow that is integrated along.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FlowAlong {
+    /// Its spacing less that at contact.
+    pub net_gap: f64,
+    /// Its speed.
+    pub speed: f64,
+    /// How fast that changes.
+    pub acceleration: f64,
 }
 
 /// Perturbations and clearances keep their relative precision down to this size; below it the tolerance of their errors

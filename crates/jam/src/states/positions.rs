@@ -122,6 +122,11 @@ impl Form for Positions {
         positions.copy_from_slice(&state[..self.ring.pedestrians]);
     }
 
+    fn speeds(&self) -> Range<usize> {
+        let n = self.ring.pedestrians;
+        n..2 * n
+    }
+
     fn speed_deviation(&self, state: &[f64]) -> f64 {
         spread(&state[self.ring.pedestrians..])
     }

@@ -61,6 +61,9 @@ impl Form for Swing {
     fn write_positions(&self, _state: &[f64], positions: &mut [f64]) {
         positions.fill(0.0);
     }
+    fn speeds(&self) -> Range<usize> {
+        0..1
+    }
     fn speed_deviation(&self, _state: &[f64]) -> f64 {
         0.0
     }

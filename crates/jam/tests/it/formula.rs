@@ -148,3 +148,35 @@ fn the_response_of_a_formula_is_that_of_the_compiled_law() {
         }
     }
 }
+
+#[test]
+fn a_uniform_flow_relaxes_as_the_speeds_of_its_formula_say() {
+    let force = Given::Text("(1 + tanh(s - 2))");
+    // with speeds of others; as quotients and with a factor; the relaxation itself alone
+    for (acceleration, expected) in [
+        ("0.7*(V - v)", -0.7),
+        ("0.7*(V - v) + 0.3*(v[1] - v)", -0.7),
+        ("0.7*(V - v) - 0.25*v[1] + v[-1]/8", -0.825),
+        ("V - (v + v[1])/4", -0.5),
+    ] {
+        let law = law(&[
+            ("acceleration", Given::Text(acceleration)),
+            ("V", force),
+            ("scale", Given::Number(1.0)),
+            ("body", Given::Number(0.0)),
+        ]);
+        let built = law.force();
+        assert!(!built.uses_speeds(), "{acceleration}: speeds enter linearly");
+        let rate = |speed: f64| {
+            let mut rates = [0.0; 4];
+            built.deviations(Flow { net_gap: 2.5, speed }, &[0.0; 4], &[0.0; 4], &mut rates)
+        };
+        for speed in [0.0, 0.4] {
+            let relaxation = built.relaxation(Flow { net_gap: 2.5, speed });
+            assert!((relaxation - expected).abs() < 1e-14, "{acceleration}: {relaxation}, right {expected}");
+            // the same from the acceleration of the flow at two speeds
+            let slope = (rate(speed + 0.5) - rate(speed)) / 0.5;
+            assert!((slope - expected).abs() < 1e-14, "{acceleration}: {slope}, right {expected}");
+        }
+    }
+}

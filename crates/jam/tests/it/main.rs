@@ -13,6 +13,7 @@ mod jams;
 mod linear;
 mod precise;
 mod presets;
+mod public;
 mod ring;
 mod rings;
 mod sample;

@@ -53,8 +53,9 @@ impl<'t, const W: usize> History<'t, W> {
         let mut sum = Lanes::default();
         if self.order > 1 {
             let (a, b) = (&self.row(a)[1..self.order], &self.row(b)[1..self.order]);
-            for (a, b) in a.iter().zip(b.iter().rev()) {
-                sum = sum + Lanes(a.get()) * Lanes(b.get());
+            // by index: iterators that run against each other cost several times the sum
+            for i in 0..a.len() {
+                sum = sum + Lanes(a[i].get()) * Lanes(b[a.len() - 1 - i].get());
             }
         }
         sum
@@ -126,9 +127,11 @@ fn next_power<const W: usize>(h: History<'_, W>, a: Lanes<W>, q: f64) -> Lanes<W
     let mut sum = h.first(1) * a * (q * k);
     if order > 1 {
         let (powers, numbers) = (&h.row(1)[1..order], &h.row(0)[1..order]);
-        for (i, (f, a)) in powers.iter().zip(numbers.iter().rev()).enumerate() {
-            let j = (i + 1) as f64;
-            sum = sum + (Lanes(f.get()) * Lanes(a.get())) * (q * (k - j) - j);
+        let mut j = 1.0;
+        for i in 0..powers.len() {
+            let (f, a) = (Lanes(powers[i].get()), Lanes(numbers[powers.len() - 1 - i].get()));
+            sum = sum + (f * a) * (q * (k - j) - j);
+            j += 1.0;
         }
     }
     let f = sum * (h.first(2) * (1.0 / k));

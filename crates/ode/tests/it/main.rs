@@ -12,5 +12,6 @@ mod order_conditions;
 mod pedestrians;
 mod problems;
 mod resume;
+mod shadow;
 mod taylor;
 mod trees;

@@ -1,11 +1,10 @@
-//! The numbers that the page carries: maps, curves, trajectories, published values. As base64 of small binary numbers,
-//! lowest byte first; what they are stands in an index in JSON.
+//! The numbers that the page carries: maps, curves, trajectories, published values, packed ([`super::pack`]); what they are
+//! stands in an index in JSON.
 
 use super::html::symbol;
-use super::scenes;
+use super::pack::Numbers;
 use super::source::Source;
-use base64::Engine as _;
-use base64::prelude::BASE64_STANDARD;
+use super::{laws, scenes, sums};
 use checkout::failure::Failure;
 use checkout::figure::Figure;
 use files::recipe::{Kind, Panel, Recipe};
@@ -48,33 +47,26 @@ fn panels(figure: &Figure) -> impl Iterator<Item = &Panel> {
 /// # Errors
 /// A table is missing, or not what its scene says.
 pub fn collect(source: &Source<'_>) -> Result<Data, Failure> {
-    let mut data = Data::default();
+    let mut numbers = Numbers::default();
     let (mut maps, mut curves) = (Vec::new(), Vec::new());
     for figure in &source.figures {
         let Ok(recipe) = &figure.recipe else { continue };
         if has_maps(figure) {
             let limit = colors(source, figure, recipe)?.limit();
             for panel in &recipe.panels {
-                maps.push(map(source, figure, (recipe, panel), limit, &mut data.elements)?);
+                maps.push(map(source, figure, (recipe, panel), limit, &mut numbers)?);
             }
         } else if has_curves(figure) {
-            curves.extend(figure_curves(source, figure, recipe, &mut data.elements)?);
+            curves.extend(figure_curves(source, figure, recipe, &mut numbers)?);
         }
     }
-    data.index = json!({
-        "maps": maps, "curves": curves, "ring": ring(source, &mut data.elements)?, "published": published_json(source)?,
+    let ring = ring(source, &mut numbers)?;
+    let index = json!({
+        "maps": maps, "curves": curves, "ring": ring, "numbers": numbers.index(), "published": published_json(source)?,
+        "recomputed": sums::recomputed(source)?, "presets": laws::presets(source)?,
         "diverging": ColorScale::diverging("", []).stops(), "sequential": ColorScale::sequential("", []).stops(),
     });
-    Ok(data)
-}
-
-fn element(id: &str, bytes: &[u8]) -> String {
-    format!("<script type=\"text/plain\" id=\"{id}\">{}</script>\n", BASE64_STANDARD.encode(bytes))
-}
-
-/// Numbers as four bytes each: seven digits.
-fn singles(values: impl Iterator<Item = f64>) -> Vec<u8> {
-    values.flat_map(|value| (value as f32).to_le_bytes()).collect()
+    Ok(Data { index, elements: numbers.element()? })
 }
 
 /// The colours that a figure's maps share.
@@ -92,7 +84,7 @@ fn map(
     figure: &Figure,
     (recipe, panel): (&Recipe, &Panel),
     limit: f64,
-    elements: &mut String,
+    numbers: &mut Numbers,
 ) -> Result<Value, Failure> {
     let name = format!("{}/{}", figure.id, panel.name);
     let table = source.table(&name)?;
@@ -102,7 +94,7 @@ fn map(
         return Err(Failure::failed(format!("data/{name}.csv: {} rows for a map of {cells} cells", table.len())));
     }
     let id = format!("values-{}-{}", figure.id, panel.name);
-    elements.push_str(&element(&id, &singles(table.rows().map(|row| row[2]))));
+    numbers.singles(&id, y["cells"].as_u64().unwrap_or(1) as usize, table.rows().map(|row| row[2]));
     let column = &table.columns[2];
     Ok(json!({
         "figure": figure.id, "panel": panel.name.replace('_', " "), "id": id, "table": format!("data/{name}.csv"),
@@ -131,7 +123,7 @@ fn figure_curves(
     source: &Source<'_>,
     figure: &Figure,
     recipe: &Recipe,
-    elements: &mut String,
+    numbers: &mut Numbers,
 ) -> Result<Vec<Value>, Failure> {
     let mut curves = Vec::new();
     for file in checkout::outputs::tables(source.paths, figure)? {
@@ -141,7 +133,7 @@ fn figure_curves(
         let (x, y) = (table.columns[0].clone(), table.columns[table.columns.len() - 1].clone());
         let (abscissae, ordinates) = (column(&table, &x)?, column(&table, &y)?);
         let id = format!("values-{}-{short}", figure.id);
-        elements.push_str(&element(&id, &singles(abscissae.into_iter().chain(ordinates))));
+        numbers.singles(&id, table.len().max(1), abscissae.into_iter().chain(ordinates));
         let panel = recipe.panels.iter().find(|panel| panel.name == short);
         curves.push(json!({
             "figure": figure.id, "panel": short.replace('_', " "), "id": id, "table": file, "rows": table.len(),
@@ -159,15 +151,15 @@ fn column(table: &Table, name: &str) -> Result<Vec<f64>, Failure> {
 
 /// The trajectories of figure 11: positions as steps from one sample to the next, and speeds, in whole multiples of
 /// [`STEP`].
-fn ring(source: &Source<'_>, elements: &mut String) -> Result<Value, Failure> {
+fn ring(source: &Source<'_>, numbers: &mut Numbers) -> Result<Value, Failure> {
     let table = source.table("fig11/trajectories")?;
     let times = column(&table, "t")?;
     let count = times.iter().take_while(|&&time| time == times[0]).count();
     let positions = whole(&column(&table, "x")?);
     let speeds = whole(&column(&table, "v")?);
     let steps = (count..positions.len()).map(|row| positions[row] - positions[row - count]);
-    elements.push_str(&element("ring-steps", &shorts(steps)?));
-    elements.push_str(&element("ring-speeds", &shorts(speeds.iter().copied())?));
+    numbers.shorts("ring-steps", count, steps)?;
+    numbers.shorts("ring-speeds", count, speeds.iter().copied())?;
     let recipe =
         source.figures.iter().find(|figure| figure.id == "fig11").and_then(|figure| figure.recipe.as_ref().ok());
     let length = recipe.and_then(|recipe| scenes::shared(recipe).get("ring.length")?.parse::<f64>().ok());
@@ -180,15 +172,6 @@ fn ring(source: &Source<'_>, elements: &mut String) -> Result<Value, Failure> {
 
 fn whole(values: &[f64]) -> Vec<i64> {
     values.iter().map(|value| (value * PER_UNIT).round() as i64).collect()
-}
-
-fn shorts(values: impl Iterator<Item = i64>) -> Result<Vec<u8>, Failure> {
-    let mut bytes = Vec::new();
-    for value in values {
-        let bad = |_| Failure::failed(format!("trajectories: {value} steps of {STEP} do not fit into two bytes"));
-        bytes.extend(i16::try_from(value).map_err(bad)?.to_le_bytes());
-    }
-    Ok(bytes)
 }
 
 /// Published beside regenerated numbers.

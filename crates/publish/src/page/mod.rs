@@ -3,6 +3,18 @@
 //! `source` reads what it is made from, `figures`, `claims` and `accuracy` write HTML, `data` the numbers for the
 //! script; `parts` holds the template, the style sheet and the script as they are. Every measured number comes from a
 //! table, the manifest or the ledger.
+//!
+//! The page computes: `crates/browser`, built with the profile `page` for `wasm32-unknown-unknown` by the runner, lies in it
+//! packed. Where no compiler has that target the page is written without, and says how to get it. Its committed sum is that of
+//! the page without the module, whose bytes belong to a compiler; `checks/browser` compares the sum of every table that the
+//! module computes.
+//!
+//! ```text
+//! module -> worker (engine.js, worker.js) -> sums of a figure's tables -> verify.js, receipt.js -> cargo xtask verify --receipt FILE
+//! fields (own.js, dial.js) -> text of a scene file (scene-text.js) -> module: stability, at once -> worker: run -> run-view.js
+//! ```
+//!
+//! The text of the scene file is all that goes into the module, so the file that a reader saves is what was run.
 
 pub mod accuracy;
 pub mod claims;
@@ -10,9 +22,13 @@ pub mod data;
 pub mod figures;
 pub mod formula;
 pub mod html;
+pub mod laws;
 pub mod machines;
+pub mod module;
+pub mod pack;
 pub mod scenes;
 pub mod source;
+pub mod sums;
 
 use checkout::failure::Failure;
 use checkout::figure::Figure;
@@ -25,15 +41,32 @@ pub const TEMPLATE: &str = include_str!("parts/template.html");
 /// How it looks.
 pub const STYLE: &str = include_str!("parts/style.css");
 /// What it does, in the order in which it is read.
-pub const SCRIPTS: [(&str, &str); 7] = [
+pub const SCRIPTS: [(&str, &str); 20] = [
     ("base.js", include_str!("parts/base.js")),
+    ("numbers.js", include_str!("parts/numbers.js")),
     ("map.js", include_str!("parts/map.js")),
     ("chart.js", include_str!("parts/chart.js")),
     ("ring.js", include_str!("parts/ring.js")),
     ("published.js", include_str!("parts/published.js")),
     ("claims.js", include_str!("parts/claims.js")),
+    ENGINE,
+    ("module.js", include_str!("parts/module.js")),
+    ("difference.js", include_str!("parts/difference.js")),
+    ("receipt.js", include_str!("parts/receipt.js")),
+    ("verify.js", include_str!("parts/verify.js")),
+    ("scene-text.js", include_str!("parts/scene-text.js")),
+    ("dial.js", include_str!("parts/dial.js")),
+    ("motion.js", include_str!("parts/motion.js")),
+    ("run-view.js", include_str!("parts/run-view.js")),
+    ("fields.js", include_str!("parts/fields.js")),
+    ("flow-view.js", include_str!("parts/flow-view.js")),
+    ("own.js", include_str!("parts/own.js")),
     ("start.js", include_str!("parts/start.js")),
 ];
+/// What its workers do.
+pub const WORKER: [(&str, &str); 2] = [ENGINE, ("worker.js", include_str!("parts/worker.js"))];
+/// How the module is called, by the page and by its workers.
+const ENGINE: (&str, &str) = ("engine.js", include_str!("parts/engine.js"));
 /// How the slugs of supplements about error against work begin, after the number.
 const PRECISION: &str = "-precision-";
 
@@ -47,8 +80,9 @@ pub fn render(paths: &Paths) -> Result<String, Failure> {
     let mut slots = sections(&source)?;
     // inside a script, `<` could end it
     let index = data.index.to_string().replace('<', "\\u003c");
-    let script: String = SCRIPTS.iter().map(|(_, text)| *text).collect();
-    slots.extend([("style", STYLE.to_owned()), ("script", script), ("index", index), ("elements", data.elements)]);
+    let joined = |files: &[(&str, &str)]| files.iter().map(|(_, text)| *text).collect::<String>();
+    slots.extend([("style", STYLE.to_owned()), ("script", joined(&SCRIPTS)), ("worker", joined(&WORKER))]);
+    slots.extend([("index", index), ("elements", data.elements)]);
     html::fill(TEMPLATE, &slots)
 }
 

@@ -4,20 +4,135 @@ use super::sheet::Sheet;
 use super::{Quantities, Source};
 use checkout::failure::Failure;
 
-/// Adds all of it: of each plane the part of its unstable cells that has an outcome, in percent.
+/// Adds all of it: of each plane the part of its unstable cells that has an outcome, in percent, and how many of its cells were
+/// run; where waves lie; how sure that is; how waves of the algebraic law begin.
 ///
 /// # Errors
 /// A table is missing, or lacks a column or a row.
 pub fn collect(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
-    let shares = Sheet::read(source.paths, "data/s18/shares.csv")?;
-    for plane in ["logarithmic", "exponential", "relative", "plain"] {
-        for outcome in ["contact", "blow_up", "waves", "waves_backwards", "decays", "undecided"] {
-            let rows = shares.only(&[("plane", plane), ("flow", "unstable"), ("outcome", outcome)]);
-            let share = rows.and_then(|rows| rows.first("share")).unwrap_or(0.0);
-            let name = format!("outcomes.{plane}.{}", outcome.replace('_', "-"));
-            all.rounded(&name, 100.0 * share, 2, &shares.name);
+    for (figure, planes) in PLANES {
+        let shares = Sheet::read(source.paths, &format!("data/{figure}/shares.csv"))?;
+        for plane in planes {
+            for outcome in ["contact", "blow_up", "waves", "waves_backwards", "decays", "undecided"] {
+                let rows = shares.only(&[("plane", plane), ("flow", "unstable"), ("outcome", outcome)]);
+                let share = rows.and_then(|rows| rows.first("share")).unwrap_or(0.0);
+                let name = format!("outcomes.{plane}.{}", outcome.replace('_', "-"));
+                all.rounded(&name, 100.0 * share, 2, &shares.name);
+            }
+            let cells = Sheet::read(source.paths, &format!("data/{figure}/{plane}.csv"))?;
+            let decided = cells.words("decided_by")?;
+            let filled = decided.iter().filter(|by| *by == "neighbours").count();
+            all.exact(&format!("outcomes.{plane}.run"), (decided.len() - filled) as f64, &cells.name);
+            all.rounded(
+                &format!("outcomes.{plane}.filled"),
+                100.0 * filled as f64 / decided.len() as f64,
+                2,
+                &cells.name,
+            );
         }
     }
+    how_sure(source, all)?;
+    bands(source, all)?;
+    begin(source, all)?;
+    waves(source, all)
+}
+
+/// The planes of each supplement.
+const PLANES: [(&str, &[&str]); 3] = [
+    ("s18", &["logarithmic", "exponential", "relative", "plain"]),
+    ("s21", &["logarithmic_headway", "logarithmic_wide", "relative_widened"]),
+    (
+        "s22",
+        &[
+            "exponential_far",
+            "exponential_middle",
+            "exponential_near",
+            "exponential_widened_far",
+            "exponential_widened_middle",
+            "exponential_widened_near",
+        ],
+    ),
+];
+
+/// Of the samples of the planes of supplement 18: how many filled cells were run, and how many of all samples have another
+/// outcome, decided both times.
+fn how_sure(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
+    let table = Sheet::read(source.paths, "data/s18/how_sure.csv")?;
+    let name = &table.name;
+    let sum = |rows: &Sheet, column: &str| Ok::<f64, Failure>(rows.numbers(column)?.iter().sum());
+    let filled = table.only(&[("change", "filled_cells_run")])?;
+    all.exact("how-sure.filled", sum(&filled, "cells")?, name);
+    all.exact("how-sure.filled.differ", sum(&filled, "differ")?, name);
+    for plane in PLANES[0].1 {
+        let rows = table.only(&[("plane", plane), ("change", "tolerance_1e-8")])?;
+        all.exact(&format!("how-sure.{plane}.cells"), rows.first("cells")?, name);
+        for (change, short) in [("tolerance_1e-8", "tolerance"), ("t_end_12000", "time"), ("dop853", "method")] {
+            let rows = table.only(&[("plane", plane), ("change", change)])?;
+            all.exact(&format!("how-sure.{plane}.{short}"), rows.first("differ")?, name);
+        }
+        all.exact(
+            &format!("how-sure.{plane}.decided"),
+            sum(&table.only(&[("plane", plane)])?, "decided_differ")?,
+            name,
+        );
+    }
+    Ok(())
+}
+
+/// The band of waves of the logarithmic law.
+fn bands(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
+    let band = Sheet::read(source.paths, "data/s18/bands.csv")?;
+    let (widenings, widths) = (band.numbers("value")?, band.numbers("width")?);
+    let widest = widenings.iter().zip(&widths).filter(|(_, width)| **width > 0.0).map(|(a_v, _)| *a_v);
+    let largest = widest.fold(0.0, |largest, a_v| if a_v > largest { a_v } else { largest });
+    all.rounded("band.largest-widening", largest, 2, &band.name);
+    // the first column with a widening of at least so much
+    for (label, from) in [("0", 0.0), ("0-1", 0.1), ("0-2", 0.2)] {
+        let row = widenings.iter().position(|a_v| *a_v >= from).unwrap_or(0);
+        all.uncertain(&format!("band.widening-{label}"), widths[row], band.numbers("error")?[row], &band.name);
+    }
+    let band = Sheet::read(source.paths, "data/s21/bands.csv")?;
+    let (headways, widths) = (band.numbers("value")?, band.numbers("width")?);
+    for (label, from) in [("1-2", 1.2), ("1-5", 1.5), ("1-9", 1.9)] {
+        let row = headways.iter().position(|headway| *headway >= from).unwrap_or(0);
+        all.uncertain(&format!("band.headway-{label}"), widths[row], band.numbers("error")?[row], &band.name);
+    }
+    all.rounded("band.headway.last", band.largest("last")?, 3, &band.name);
+    let places = headways.iter().zip(&widths).filter(|(_, width)| **width > 0.0).map(|(headway, _)| *headway);
+    let places: Vec<f64> = places.collect();
+    all.rounded("band.headway.from", places.first().copied().unwrap_or(f64::NAN), 2, &band.name);
+    all.rounded("band.headway.to", places.last().copied().unwrap_or(f64::NAN), 3, &band.name);
+    Ok(())
+}
+
+/// How waves of the algebraic law begin.
+fn begin(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
+    let turns = Sheet::read(source.paths, "data/s24/turns.csv")?;
+    all.rounded("turns.infinite", turns.first("infinite")?, 5, &turns.name);
+    for count in ["67", "134", "268"] {
+        let row = turns.only(&[("pedestrians", count)])?;
+        all.rounded(&format!("turns.{count}.threshold"), row.first("threshold")?, 5, &turns.name);
+        all.rounded(&format!("turns.{count}.onset"), row.first("onset")?, 2, &turns.name);
+        for column in ["highest", "lowest"] {
+            if let Ok(value) = row.first(column) {
+                all.rounded(&format!("turns.{count}.{column}"), value, 4, &turns.name);
+            }
+        }
+    }
+    let runs = Sheet::read(source.paths, "data/s24/runs.csv")?.only(&[("pedestrians", "268")])?;
+    all.rounded("turns.268.run.mu", runs.first("mu")?, 5, &runs.name);
+    all.rounded("turns.268.run.before", runs.first("std_start")?, 3, &runs.name);
+    all.rounded("turns.268.run.after", runs.first("std")?, 3, &runs.name);
+    let presets = Sheet::read(source.paths, "data/s24/presets.csv")?;
+    for preset in ["HFV", "SEY", "GUO"] {
+        let row = presets.only(&[("preset", preset)])?;
+        all.rounded(&format!("presets.{preset}.mu"), row.first("mu")?, 3, &presets.name);
+    }
+    Ok(())
+}
+
+/// The waves of supplement 19.
+fn waves(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
     let varied = Sheet::read(source.paths, "data/s19/varied.csv")?;
     let name = &varied.name;
     let run = |what: &str, value: &str| varied.only(&[("varied", what), ("value", value)]);
@@ -37,6 +152,10 @@ pub fn collect(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure>
         let row = run("pedestrians", count)?;
         all.rounded(&format!("waves.{count}.speed"), row.first("wave_speed")?, 3, name);
         all.rounded(&format!("waves.{count}.slowest"), row.first("least_speed")?, 2, name);
+    }
+    for mu in ["0.36", "0.4"] {
+        let row = run("mu_narrow", mu)?;
+        all.rounded(&format!("waves.narrow-{}.std", mu.replace('.', "-")), row.first("std")?, 2, name);
     }
     for mu in ["0.28", "0.3", "0.34", "0.36"] {
         let row = run("mu", mu)?;

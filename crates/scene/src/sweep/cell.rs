@@ -119,7 +119,7 @@ impl Sweep {
         if let Some(headway) = value("headway") {
             ring.length = headway * ring.pedestrians as f64;
         }
-        if let Some(gap) = value("d_gap") {
+        if let Some(gap) = value("d_gap").or(self.gap) {
             let Ok(headway) = uniform::headway_of_gap(&model, gap) else { return Ok(Err(Class::NoUniformFlow)) };
             ring.length = headway * ring.pedestrians as f64;
         }

@@ -47,6 +47,7 @@ pub fn read(file: &str, tables: &Section) -> Result<Sweep, RecipeError> {
         }
         hold_place(file, &mut tables, axis, section)?;
     }
+    let gap = gap(file, &mut tables, [&x, &y])?;
     let mut held = Reader::new(file, "scene", &tables);
     let model = law::read(file, held.section("law")?)?;
     if matches!(model, Model::Formula(_)) {
@@ -67,14 +68,45 @@ pub fn read(file: &str, tables: &Section) -> Result<Sweep, RecipeError> {
     let mut reader = Reader::new(file, "start", held.section("start")?);
     let start = Start { shift: reader.number("shift", FINITE)? };
     reader.finish()?;
-    let speed = match &model {
-        Model::Formula(_) if held.has("uniform") => run::uniform_speed(file, held.section("uniform")?)?,
-        _ => None,
+    let speed = match (&model, held.has("uniform")) {
+        (_, false) => None,
+        (Model::Formula(_), _) => run::uniform_speed(file, held.section("uniform")?)?,
+        // read above
+        (_, true) => held.section("uniform").map(|_| None)?,
     };
     let settings = settings(file, held.section("run")?, &model)?;
     held.section("sweep")?;
     held.finish()?;
-    Ok(Sweep { x, y, refine, model, ring, start, speed, settings })
+    Ok(Sweep { x, y, refine, model, ring, gap, start, speed, settings })
+}
+
+/// The effective gap of the uniform flow, where `[uniform]` gives it in place of the ring's length: any length stands for
+/// that until the cells set it. Of a formula `[uniform]` says which steady speed is meant.
+fn gap(file: &str, tables: &mut Section, axes: [&Axis; 2]) -> Result<Option<f64>, RecipeError> {
+    let (Some(law), Some(uniform)) = (tables.section("law").and_then(law::built_in), tables.section("uniform")) else {
+        return Ok(None);
+    };
+    let mut reader = Reader::new(file, "uniform", uniform);
+    let (gap, line) = (reader.number("d_gap", POSITIVE)?, uniform.line);
+    if !law.has_effective_gap() {
+        let problem = format!("the {} law needs the headway, not d_gap: give ring.length", law.name());
+        return Err(reader.complaint("d_gap", &problem));
+    }
+    if let Some(axis) = axes.into_iter().find(|axis| ["headway", "d_gap"].contains(&axis.parameter.as_str())) {
+        let problem = format!("is set by the axis {} of the sweep: leave it out here", axis.parameter);
+        return Err(reader.complaint("d_gap", &problem));
+    }
+    reader.finish()?;
+    let ring = tables.entries.entry("ring".to_owned());
+    let ring = ring.or_insert_with(|| Entry::new(line, Value::Section(Section::default())));
+    if let Value::Section(ring) = &mut ring.value {
+        if ring.entries.contains_key("length") {
+            let problem = "is set by uniform.d_gap: leave it out here";
+            return Err(Reader::new(file, "ring", ring).complaint("length", problem));
+        }
+        ring.entries.insert("length".to_owned(), Entry::new(line, Value::Number(gap)));
+    }
+    Ok(Some(gap))
 }
 
 /// `[run]` of a sweep: nothing is sampled and nothing recorded.

@@ -1,9 +1,10 @@
 //! Errors as estimated against errors as they are, in random scenes.
 
 use ode::{Control, Method};
-use scene::check::errors;
+use scene::check::{errors, errors_of};
+use scene::propagated::Propagated;
 use scene::run::{Scene, read};
-use scene::simulation::{Outcome, run};
+use scene::simulation::{Outcome, run, run_from};
 
 /// Numbers drawn at random, always the same (Knuth's generator of 64 bits).
 struct Draw(u64);
@@ -103,3 +104,78 @@ fn estimates_are_honest_and_not_too_shy() {
 
 /// So many scenes are drawn.
 const SCENES: usize = 300;
+
+/// True errors over those that the steps of a run by Taylor's method tell: of std, of positions and of speeds at the end.
+fn told(scene: &Scene) -> Option<[(f64, f64); 3]> {
+    let mut propagated = Propagated::new(scene);
+    let outcome = run_from(scene, None, &mut propagated).ok()?;
+    let told = propagated.errors(scene, &outcome).expect("steps that tell their errors");
+    let control = Control::Adaptive { tolerance: 1e-14 };
+    let t_end = outcome.statistics.time;
+    let exact =
+        run(&Scene { method: Method::Verner98, control, t_end, most_steps: 2_000_000, ..scene.clone() }).ok()?;
+    let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0, |most: f64, (a, b)| math::larger(most, (a - b).abs()));
+    let std = |outcome: &Outcome| outcome.std.rows().map(|row| row[1]).collect::<Vec<f64>>();
+    let whole = exact.statistics.time == t_end;
+    let is_blow_up = told.positions.is_none();
+    (whole && !is_blow_up).then(|| {
+        [
+            (apart(&std(&outcome), &std(&exact)), told.std.expect("a number")),
+            (apart(&outcome.positions, &exact.positions), told.positions.expect("a number")),
+            (apart(&outcome.speeds, &exact.speeds), told.speeds.expect("a number")),
+        ]
+    })
+}
+
+#[test]
+fn errors_that_steps_tell_are_honest_and_not_too_shy() {
+    let mut random = Draw(11);
+    let mut ratios = Vec::new();
+    for seed in 0..SCENES {
+        let Some(scene) = draw(&mut random) else { continue };
+        let scene = Scene { method: Method::Taylor, ..scene };
+        if !Method::Taylor.suits(&*scene.form.build(&scene.model, scene.ring)) {
+            continue;
+        }
+        for (what, (error, stated)) in
+            ["std", "positions", "speeds"].into_iter().zip(told(&scene).into_iter().flatten())
+        {
+            // the other run has errors of its own
+            if error > 1e-12 {
+                let ratio = error / stated;
+                if !(0.01..3.0).contains(&ratio) {
+                    println!("scene {seed}: {what} off by {error:e}, stated {stated:e} {scene:?}");
+                }
+                ratios.push(ratio);
+            }
+        }
+    }
+    ratios.sort_by(f64::total_cmp);
+    let (count, at) = (ratios.len(), |part: f64| ratios[((ratios.len() - 1) as f64 * part) as usize]);
+    println!("{count} numbers; true over stated: {:e} {:e} {:e} {:e}", at(0.1), at(0.5), at(0.99), at(1.0));
+    assert!(count > 150, "{count}");
+    assert!(at(1.0) < 10.0 && at(0.99) < 3.0 && at(0.1) > 0.01, "{:e} {:e} {:e}", at(1.0), at(0.99), at(0.1));
+}
+
+#[test]
+fn laws_with_kinks_and_other_methods_tell_nothing() {
+    let text = |law: &str, method: &str| {
+        let text = format!(
+            "[law]\n{law}\n[ring]\npedestrians = 5\nlength = 20.0\n[start]\nshift = 0.1\n[run]\nt_end = 5.0\nsample = 1.0\n\
+             method = \"{method}\"\ntolerance = 1e-8\n"
+        );
+        let recipe = files::recipe::parse("my.toml", &text).expect("a scene");
+        read("my.toml", &recipe.panels[0].tables).expect("a run")
+    };
+    let smooth = "kind = \"exponential\"\na = 3.0\nb = 1.5\nv0 = 1.2";
+    let kinked = "kind = \"formula\"\nacceleration = \"v0 - v - max(0, 3 - s)^2\"\nv0 = 1.2\nbody = 0.0";
+    for (law, method, tells) in [(smooth, "taylor", true), (smooth, "dop853", false), (kinked, "taylor", false)] {
+        let scene = text(law, method);
+        let mut propagated = Propagated::new(&scene);
+        let outcome = run_from(&scene, None, &mut propagated).expect("it runs");
+        assert_eq!(propagated.errors(&scene, &outcome).is_some(), tells, "{law} {method}");
+        // then a second run tells them
+        let errors = errors_of(&scene, &outcome, Some(&propagated), &mut ());
+        assert!(errors.std.is_some_and(|error| error > 0.0) && (errors.cost > 0.0) != tells, "{law} {method}");
+    }
+}

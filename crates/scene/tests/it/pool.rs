@@ -56,3 +56,32 @@ fn it_ends_when_it_is_stopped_and_when_who_hears_of_a_cell_cannot_go_on() {
     let failed = pool.compute(2, &|([i, j], _)| Err(format!("no room for {i}, {j}")));
     assert!(failed.expect_err("it cannot go on").starts_with("no room for "));
 }
+
+/// A plane of the algebraic law with widening; `uniform` gives the flow, or an axis does.
+fn widened(uniform: &str, y: &str) -> Result<Sweep, String> {
+    let text = format!(
+        "[law]\nkind = \"algebraic\"\nq = 2.0\nv0 = 3.0\nepsilon = 0.1\nmu = 0.4\n{uniform}\n[start]\nshift = 0.1\n[run]\nt_end = 20.0\nmethod = \"dop853\"\ntolerance = 1e-6\n[sweep]\nx = {{ parameter = \"a_v\", from = 0.0, to = 0.3, cells = 3 }}\ny = {y}\n"
+    );
+    let recipe = recipe::parse("own.toml", &text).expect("TOML");
+    read("own.toml", &recipe.panels[0].tables).map_err(|error| error.to_string())
+}
+
+#[test]
+fn a_gap_of_the_uniform_flow_gives_each_cell_the_ring_that_an_axis_of_gaps_gives_it() {
+    let delta = "{ parameter = \"delta\", from = 0.0, to = 0.5, cells = 2 }";
+    let given = widened("[uniform]\nd_gap = 1.5\n[ring]\npedestrians = 6", delta).expect("a sweep").compute([2, 0]);
+    let gaps = "{ parameter = \"d_gap\", from = 1.0, to = 2.0, cells = 1 }";
+    let axis = widened("delta = 0.125\n[ring]\npedestrians = 6", gaps).expect("a sweep").compute([2, 0]);
+    assert_eq!(format!("{given:?}"), format!("{axis:?}"));
+    let length = widened("[ring]\npedestrians = 6\nlength = 30.0", delta).expect("a sweep").compute([2, 0]);
+    assert_ne!(format!("{given:?}"), format!("{length:?}"));
+    for (uniform, y, told) in [
+        ("[uniform]\nd_gap = 1.5\n[ring]\npedestrians = 6\nlength = 30.0", delta, "own.toml:11: ring.length"),
+        ("[uniform]\nd_gap = 1.5\n[ring]\npedestrians = 6", gaps, "own.toml:8: uniform.d_gap = 1.5"),
+        ("[uniform]\nd_gap = -1.5\n[ring]\npedestrians = 6", delta, "own.toml:8: uniform.d_gap = -1.5"),
+        ("[uniform]\nheadway = 1.5\n[ring]\npedestrians = 6", delta, "uniform.d_gap"),
+    ] {
+        let complaint = widened(uniform, y).expect_err("a complaint");
+        assert!(complaint.contains(told), "{told}: {complaint}");
+    }
+}

@@ -3,18 +3,6 @@
 
 const index = JSON.parse(document.getElementById('index').textContent);
 
-/** The bytes that an element of the page holds as base64. */
-function bytesOf(id) {
-  const text = atob(document.getElementById(id).textContent);
-  const bytes = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; i += 1) bytes[i] = text.charCodeAt(i);
-  return bytes.buffer;
-}
-
-// every browser that runs this keeps the lowest byte first, as the numbers are stored
-const singles = (id) => new Float32Array(bytesOf(id));
-const shorts = (id) => new Int16Array(bytesOf(id));
-
 /** An element with attributes (`on…` are listeners) and children. */
 function make(tag, attributes = {}, ...children) {
   const element = document.createElement(tag);

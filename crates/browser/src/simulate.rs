@@ -1,0 +1,91 @@
+//! A run of a scene that somebody watches: samples and events as they come, the summary at the end.
+
+use crate::given::{FILE, complaint, panel};
+use files::table::Table;
+use files::write::sha256;
+use jam::events::Happening;
+use ode::Step;
+use scene::check;
+use scene::propagated::Propagated;
+use scene::run::Scene;
+use scene::simulation::{Judging, Onlooker, Sight, run_from};
+use scene::summary::{self, Ended};
+use scene::uniform::stability;
+use serde_json::{Value, json};
+
+/// Hears of a run as it goes.
+pub trait Hearer {
+    /// A sample: `t`, the standard deviation, then `x` of everybody and `v` of everybody, if the scene keeps them.
+    fn sample(&mut self, numbers: &[f64]);
+    /// An event: `event`, `t` and `n` as JSON.
+    fn event(&mut self, event: &str);
+    /// The run has ended; the second one, which estimates its errors, begins.
+    fn checking(&mut self);
+}
+
+/// Runs a scene as `cargo xtask simulate` does, to the same bits: what `summary.json` says (without the seconds: nobody
+/// has a clock here), and `sums` with the SHA-256 of each table.
+///
+/// # Errors
+/// The scene is wrong; see [`complaint`].
+pub fn run(text: &str, hearer: &mut dyn Hearer) -> Result<Value, Value> {
+    let panel = panel(text)?;
+    let scene = scene::run::read(FILE, &panel.tables).map_err(|error| complaint(&error))?;
+    let mut watch = Watch { pedestrians: scene.ring.pedestrians, numbers: Vec::new(), hearer };
+    let ended = end(&scene, &mut watch);
+    watch.hearer.checking();
+    let errors = check::errors_of(&scene, &ended.outcome, ended.propagated.as_ref(), &mut ());
+    let mut told = summary::of_run(&scene, &ended, stability(&scene), Some(&errors));
+    let mut sums = json!({ "std.csv": sha256(&ended.outcome.std.to_csv()) });
+    if scene.keeps_trajectories {
+        sums["trajectories.csv"] = json!(sha256(&ended.outcome.trajectories.to_csv()));
+    }
+    if let Value::Object(told) = &mut told {
+        told.remove("seconds");
+        told.insert("sums".to_owned(), sums);
+    }
+    Ok(told)
+}
+
+/// Runs to the end, with the errors that the steps tell where the method has them.
+fn end(scene: &Scene, watch: &mut Watch<'_>) -> Ended {
+    let mut propagated = scene.method.needs_series().then(|| Propagated::new(scene));
+    let made = match &mut propagated {
+        Some(propagated) => run_from(scene, None, &mut (watch, propagated)),
+        None => run_from(scene, None, watch),
+    };
+    let (outcome, broken) = match made {
+        Ok(outcome) => (outcome, None),
+        Err(broken) => (*broken.outcome.clone(), Some(broken)),
+    };
+    Ended { outcome, broken, seconds: 0.0, resumed_steps: 0, propagated }
+}
+
+/// Tells what is seen.
+struct Watch<'a> {
+    pedestrians: usize,
+    numbers: Vec<f64>,
+    hearer: &'a mut dyn Hearer,
+}
+
+impl Onlooker for Watch<'_> {
+    fn seen(&mut self, _step: &mut Step<'_>, sight: &mut Sight<'_, '_>) {
+        for Happening { event, time, pedestrian, .. } in sight.new {
+            self.hearer.event(&json!({ "event": event.name(), "t": time, "n": pedestrian }).to_string());
+        }
+    }
+
+    fn sampled(&mut self, std: &Table, trajectories: &Table) {
+        self.numbers.clear();
+        self.numbers.extend(std.row(std.len() - 1));
+        let first = trajectories.len().saturating_sub(self.pedestrians);
+        for column in [2, 3] {
+            self.numbers.extend((first..trajectories.len()).map(|row| trajectories.row(row)[column]));
+        }
+        self.hearer.sample(&self.numbers);
+    }
+
+    fn judging(&self) -> Judging {
+        Judging::Along
+    }
+}

@@ -1,0 +1,61 @@
+//! Steps near a uniform flow, in which nothing can happen: seen from the sizes of the deviations alone.
+
+use super::Watch;
+use crate::states::FlowAlong;
+use ode::{Step, largest};
+
+/// A flow, and how large the deviations from it are.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Near {
+    time: f64,
+    flow: FlowAlong,
+    /// The largest deviation of a gap, of a speed, and of their rates.
+    gap: f64,
+    speed: f64,
+    gap_rate: f64,
+    speed_rate: f64,
+}
+
+impl Watch<'_> {
+    /// Whether the bounds that events are looked for by hold for everybody, since they do for the largest deviations
+    /// from a uniform flow.
+    pub(super) fn nothing_can_happen(&mut self, step: &Step<'_>) -> bool {
+        let before = match self.near {
+            Some(near) if near.time == step.start => Some(near),
+            _ => self.near(step.start, step.before(), step.rates_before()),
+        };
+        self.near = self.near(step.end, step.after(), step.rates_after());
+        let (Some(before), Some(after)) = (before, self.near) else { return false };
+        !step.is_beyond() && are_clear(&before, &after, step.length(), self.bound())
+    }
+
+    fn near(&self, time: f64, state: &[f64], rates: &[f64]) -> Option<Near> {
+        // effective gaps that are gaps less a constant
+        if !self.has_plain_rooms {
+            return None;
+        }
+        let flow = self.form.flow_along(state, rates)?;
+        let count = self.before.gaps.len();
+        let size = |values: &[f64], from: usize| largest(&values[from..from + count]);
+        let ([gap, speed], [gap_rate, speed_rate]) =
+            ([0, count].map(|from| size(state, from)), [0, count].map(|from| size(rates, from)));
+        Some(Near { time, flow, gap, speed, gap_rate, speed_rate })
+    }
+}
+
+/// What rounding may add to a bound.
+const ROUNDING: f64 = 1e-9;
+
+/// The bounds of [`super::may_be_negative`], for the largest deviations; false where one is no number.
+fn are_clear(before: &Near, after: &Near, h: f64, blow_up: f64) -> bool {
+    let third = h / 3.0;
+    let [start, end] = [before.flow, after.flow];
+    let gap = third * math::larger(before.gap_rate, after.gap_rate) + math::larger(before.gap, after.gap);
+    let speed = third * math::larger(before.speed_rate, after.speed_rate) + math::larger(before.speed, after.speed);
+    let speeds =
+        [start.speed, start.speed + third * start.acceleration, end.speed - third * end.acceleration, end.speed];
+    let [low, high] = [math::smaller, math::larger].map(|choose| speeds.into_iter().fold(start.speed, choose));
+    let is_clear = |low: f64, high: f64| low - (high - low) > ROUNDING * high.abs();
+    let net_gap = start.net_gap;
+    is_clear(net_gap - gap, net_gap + gap) && is_clear(low - speed, high + speed) && high + speed < blow_up
+}

@@ -1,0 +1,136 @@
+//! Errors that are carried along with a solution by Taylor's method, against exact ones.
+
+use ode::{Control, Group, Measure, Method, Problem, Shadow, Step, System, integrate};
+use std::ops::{ControlFlow, Range};
+
+/// `dx/dt = v`, `dv/dt = -x - 2 a v`, without or with friction, or driven if `a < 0`; the tolerance is relative to the state.
+struct Pendulum {
+    friction: f64,
+}
+
+impl System for Pendulum {
+    fn dimension(&self) -> usize {
+        2
+    }
+
+    fn kinematics(&self, state: &[f64], rates: &mut [f64]) {
+        rates[0] = state[1];
+    }
+
+    fn dynamics(&self, state: &[f64], rates: &mut [f64]) {
+        rates[1] = -state[0] - 2.0 * self.friction * state[1];
+    }
+
+    fn positions(&self) -> Vec<Range<usize>> {
+        std::iter::once(0..1).collect()
+    }
+
+    fn groups(&self) -> Vec<Group> {
+        vec![Group { range: 0..2, measure: Measure::Largest, floor: 1e-300 }]
+    }
+
+    fn has_series(&self) -> bool {
+        true
+    }
+
+    fn series(&self, order: usize, unit: f64, c: &mut [f64]) {
+        for k in 1..order {
+            let share = unit / (k + 1) as f64;
+            c[2 * k + 2] = share * c[2 * k + 1];
+            c[2 * k + 3] = share * (-c[2 * k] - 2.0 * self.friction * c[2 * k + 1]);
+        }
+    }
+}
+
+impl Pendulum {
+    /// The exact solution from a start; what a small error at the start becomes, too.
+    fn exact(&self, [x, v]: [f64; 2], t: f64) -> [f64; 2] {
+        let a = self.friction;
+        let w = (1.0 - a * a).sqrt();
+        let (sin, cos) = (math::sin(w * t), math::cos(w * t));
+        let damping = math::exp(-a * t);
+        let more = (v + a * x) / w;
+        [damping * (x * cos + more * sin), damping * (v * cos - (a * more + w * x) * sin)]
+    }
+}
+
+/// Goes along with a solution from `[1, 0]` to 20 and shows every step with the shadow.
+fn follow(friction: f64, tolerance: f64, error: [f64; 2], look: &mut dyn FnMut(&mut Step<'_>, &Shadow)) {
+    let system = Pendulum { friction };
+    let control = Control::Adaptive { tolerance };
+    let problem =
+        Problem { system: &system, start: &[1.0, 0.0], begin: 0.0, end: 20.0, method: Method::Taylor, control };
+    let mut shadow = Shadow::new(error.to_vec());
+    let mut observer = |step: &mut Step<'_>| {
+        assert!(shadow.follow(step), "Taylor's method tells its errors");
+        look(step, &shadow);
+        ControlFlow::Continue(())
+    };
+    integrate(&problem, &mut observer).expect("nothing stands in the way");
+}
+
+#[test]
+fn errors_of_steps_are_those_against_the_exact_solution() {
+    for friction in [0.0, 0.3, -0.1] {
+        for tolerance in [1e-4, 1e-7, 1e-10] {
+            let system = Pendulum { friction };
+            let (mut steps, mut worst) = (0, 0.0);
+            follow(friction, tolerance, [0.0; 2], &mut |step, shadow| {
+                let (mut error, mut state) = ([0.0; 2], [0.0; 2]);
+                for place in [0.5, 0.9, 1.0] {
+                    shadow.at(place, &mut error);
+                    step.at_fraction(place, &mut state);
+                    let exact = system.exact([1.0, 0.0], step.start + place * step.length());
+                    let off = [state[0] - exact[0], state[1] - exact[1]];
+                    let apart = math::larger((off[0] - error[0]).abs(), (off[1] - error[1]).abs());
+                    let size = math::larger(off[0].abs(), off[1].abs());
+                    // below this the exact solution has roundings of its own
+                    if size > 1e-13 {
+                        worst = math::larger(worst, apart / size);
+                        steps += 1;
+                    }
+                }
+            });
+            println!("{friction} {tolerance:e}: {steps} places, worst {worst}");
+            assert!(steps > 20, "{friction} {tolerance:e}: {steps} places");
+            // whoever states twice the error is honest still; among the first steps what the last one adds is much
+            assert!(worst < 0.5, "{friction} {tolerance:e}: a shadow off by {worst} of the error");
+        }
+    }
+}
+
+#[test]
+fn an_error_at_the_start_becomes_what_the_exact_solution_makes_of_it() {
+    for friction in [0.0, 0.3, -0.1] {
+        let system = Pendulum { friction };
+        let start = [1e-7, -2e-7];
+        let mut steps = 0;
+        follow(friction, 1e-13, start, &mut |step, shadow| {
+            let mut error = [0.0; 2];
+            shadow.at(1.0, &mut error);
+            let right = system.exact(start, step.end);
+            let size = math::larger(right[0].abs(), right[1].abs());
+            let apart = math::larger((right[0] - error[0]).abs(), (right[1] - error[1]).abs());
+            // each expansion may lose a twentieth
+            assert!(apart < 0.05 * size, "{friction}, t = {}: {error:?}, right {right:?}", step.end);
+            steps += 1;
+        });
+        assert!(steps > 5, "{steps}");
+    }
+}
+
+#[test]
+fn other_methods_and_fixed_steps_tell_nothing() {
+    let system = Pendulum { friction: 0.0 };
+    for (method, control) in
+        [(Method::Dop853, Control::Adaptive { tolerance: 1e-8 }), (Method::Heun, Control::Fixed { step: 0.1 })]
+    {
+        let problem = Problem { system: &system, start: &[1.0, 0.0], begin: 0.0, end: 1.0, method, control };
+        let mut shadow = Shadow::new(vec![0.0; 2]);
+        let mut observer = |step: &mut Step<'_>| {
+            assert!(!shadow.follow(step), "{method:?}");
+            ControlFlow::Continue(())
+        };
+        integrate(&problem, &mut observer).expect("nothing stands in the way");
+    }
+}

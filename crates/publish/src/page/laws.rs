@@ -1,0 +1,66 @@
+//! Scenes that a reader can start from: those of the gallery, and the runs of the figures.
+
+use super::figures::name;
+use super::source::Source;
+use checkout::failure::Failure;
+use files::reader::{Section, Value as Toml};
+use files::recipe::{self, Kind, Panel, Recipe};
+use serde_json::{Value, json};
+
+/// The folder of the gallery.
+const GALLERY: &str = "scenes/gallery";
+
+/// Every run, one for each panel: `name`, `source`, and the tables `law`, `ring`, `start`, `uniform`, `run` as lists of key and value
+/// in the order of the file.
+///
+/// # Errors
+/// A scene of the gallery is missing or malformed.
+pub fn presets(source: &Source<'_>) -> Result<Value, Failure> {
+    let mut groups = Vec::new();
+    let of_paper = source.figures.iter().filter(|figure| !figure.is_supplement()).filter_map(|figure| {
+        let recipe = figure.recipe.as_ref().ok()?;
+        Some(runs(recipe, &format!("{}: {}", name(figure), recipe.title)))
+    });
+    groups.push(json!({ "name": "Runs of the paper", "scenes": of_paper.flatten().collect::<Vec<Value>>() }));
+    let mut files: Vec<_> = std::fs::read_dir(source.paths.root.join(GALLERY))
+        .map_err(Failure::at(&source.paths.root.join(GALLERY)))?
+        .filter_map(|entry| Some(entry.ok()?.path()))
+        .filter(|path| path.extension().is_some_and(|ending| ending == "toml"))
+        .collect();
+    files.sort();
+    let mut gallery = Vec::new();
+    for file in files {
+        let recipe = recipe::read(&file).map_err(|error| Failure::failed(error.to_string()))?;
+        gallery.extend(runs(&recipe, &recipe.title));
+    }
+    groups.push(json!({ "name": "Gallery of published laws", "scenes": gallery }));
+    Ok(Value::Array(groups))
+}
+
+fn runs(recipe: &Recipe, title: &str) -> Vec<Value> {
+    let panels: Vec<&Panel> = recipe.panels.iter().filter(|panel| panel.kind == Kind::Run).collect();
+    let one = |panel: &&Panel| {
+        let name = match panels.len() {
+            1 => title.to_owned(),
+            _ => format!("{title} ({})", panel.name.replace(['_', '-'], " ")),
+        };
+        let table = |key: &str| panel.tables.section(key).map_or_else(Vec::new, entries);
+        json!({
+            "name": name, "title": recipe.title, "source": recipe.source, "law": table("law"), "ring": table("ring"),
+            "start": table("start"), "uniform": table("uniform"), "run": table("run"),
+        })
+    };
+    panels.iter().map(one).collect()
+}
+
+/// Key and value of each entry that is a number or a text, in the order of the file.
+fn entries(section: &Section) -> Vec<(String, Value)> {
+    let mut entries: Vec<_> = section.entries.iter().collect();
+    entries.sort_by_key(|(_, entry)| entry.place);
+    let value = |value: &Toml| match value {
+        Toml::Number(number) => Some(json!(number)),
+        Toml::Text(text) => Some(json!(text)),
+        Toml::Flag(_) | Toml::Section(_) | Toml::Other(_) => None,
+    };
+    entries.into_iter().filter_map(|(key, entry)| Some((key.clone(), value(&entry.value)?))).collect()
+}

@@ -1,0 +1,53 @@
+// Small waves on the uniform flow of a reader's scene: the verdict in words, growth rates over the wave number.
+
+/** Wave numbers of the curve of growth rates. */
+const WAVE_NUMBERS = 200;
+
+class FlowView {
+  constructor(host) {
+    this.verdict = make('output', { id: 'own-verdict', 'aria-live': 'polite' });
+    this.rates = make('div', {});
+    host.append(make('h3', {}, 'Small waves on the uniform flow'), this.verdict, this.rates);
+  }
+
+  clear() {
+    this.verdict.textContent = '';
+    this.rates.hidden = true;
+  }
+
+  draw() {
+    this.chart?.draw();
+  }
+
+  /** What the module tells of a flow, on a ring of so many pedestrians. */
+  show({ speed, uniform_flow: flow, k, rate, waves, error }, pedestrians) {
+    this.rates.hidden = !flow || !k;
+    if (this.rates.hidden) {
+      this.verdict.textContent = speed === null ? 'There is no uniform flow; the run goes on in spacings.'
+        : `The uniform flow (speed ${words(speed)}) answers to small waves with no derivative: it lies on a kink of the law.`;
+      return;
+    }
+    this.verdict.textContent = `By the exact criterion the uniform flow at speed ${words(speed, 6)} is ${FlowView.all(flow)}; `
+      + `${FlowView.onRing(flow, pedestrians)}. Rates are off by at most ${words(error, 1)}.`;
+    const series = [{ name: 'all waves', x: k, y: rate }];
+    if (waves.k.length) series.push({ name: 'waves of the ring', x: waves.k, y: waves.rate, points: true });
+    const spec = { name: 'Growth rate against wave number', x: 'k', y: 'Re z⁺', series };
+    if (this.chart) this.chart.show(spec);
+    else this.chart = new Chart(this.rates, spec);
+  }
+
+  static all({ growing_k: growing, margin }) {
+    if (growing) {
+      const from = growing[0] === 0 ? 'from long ones' : `from k = ${words(growing[0], 4)}`;
+      return `unstable (margin ${words(margin, 4)}): waves ${from} to k = ${words(growing[1], 4)} grow`;
+    }
+    if (margin === 0) return 'neutral (margin 0): no wave grows, but not all decay';
+    return `stable (margin ${words(margin, 4)}) for waves of all lengths`;
+  }
+
+  static onRing({ margin_on_ring: margin, waves, growth_rate: rate }, pedestrians) {
+    const wave = `${waves} in ${pedestrians}`;
+    if (margin > 0) return `of the waves on this ring ${wave} grow fastest, at rate ${words(rate, 4)}`;
+    return `on this ring all decay, ${wave} slowest, at rate ${words(rate, 4)}`;
+  }
+}

@@ -1,0 +1,27 @@
+//! Supplement 21: what a flow becomes over further planes: of the logarithmic law over headway and the axes of figure 10,
+//! of the algebraic law with relative speed over widening. The tables are committed, as those of supplement 18.
+
+use figures::outcomes::{self, Titled};
+use figures::{Failure, Job, figure};
+use plot::Picture;
+use plot::style::FULL_WIDTH;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    figure(env!("CARGO_BIN_NAME"), tables, picture)
+}
+
+const PLANES: [Titled<'_>; 3] = [
+    ("logarithmic_headway", "logarithmic"),
+    ("logarithmic_wide", "logarithmic, axes of figure 10"),
+    ("relative_widened", "$\\langle\\mu, 1, 2, \\tilde a_v\\rangle$, $d' = 0.5$"),
+];
+
+fn tables(job: &mut Job) -> Result<(), Failure> {
+    outcomes::tables(job, &PLANES)?;
+    outcomes::bands(job, &["logarithmic_headway"])
+}
+
+fn picture(job: &Job) -> Result<Picture, Failure> {
+    outcomes::picture(job, &PLANES, 3, [FULL_WIDTH, 75.0])
+}
