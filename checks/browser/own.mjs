@@ -122,6 +122,33 @@ async function underway(harness) {
   }
 }
 
+/** Claims of the paper on the reader's run: as in the ledger with the paper's numbers; without growth that of growth fails. */
+async function rejudged(harness, page) {
+  const told = async (name, change = async () => {}) => {
+    await choose(page, name);
+    await change();
+    await ended(page);
+    return JSON.parse((await page.locator('#own-law .rejudged').getAttribute('data-claims')) || '[]');
+  };
+  for (const [name, least] of [['Figure 4: ', 1], ['(unstable)', 1], ['Figure 7: ', 1], ['Figure 11: ', 2]]) {
+    const claims = await told(name);
+    harness.check(`${name}: there are claims`, claims.length >= least, claims.length);
+    for (const { id, before, now, tests } of claims) harness.equal(`${name}: ${id} with the paper's numbers`, now, before, JSON.stringify(tests));
+  }
+  const memory = await harness.memory();
+  harness.check('claims on trajectories keep to the memory', memory < 500e6, memory);
+  const claims = await told('(unstable)', async () => move(dial(page, 'mu'), 0.4));
+  const growth = claims.find(({ id }) => id === 'algebraic-perturbation-grows');
+  harness.equal('mu = 0.4: the claim of growth held', growth?.before, 'holds');
+  harness.equal('mu = 0.4: it does not hold', growth?.now, 'does not hold');
+  const table = page.locator('#own-law .rejudged table', { hasText: growth?.says });
+  harness.check('both verdicts are said', (await table.locator('caption').textContent()).includes('holds. For yours: does not hold.'));
+  harness.equal('its tests have headers', await table.locator('tbody th[scope=row]').count(), growth?.tests.length);
+  await choose(page, '(two phases)');
+  await ended(page);
+  harness.equal('a scene of the gallery has no claims', await page.locator('#own-law .rejudged').isVisible(), false);
+}
+
 async function address(harness, page) {
   await choose(page, '(two phases)');
   await move(dial(page, 'kappa'), 1.7);
@@ -147,6 +174,7 @@ export default async function own(harness) {
   await saved(harness, page, 'Figure 7: ', async () => move(dial(page, 'a'), 1.2));
   await saved(harness, page, '(two phases)', async () => { await move(dial(page, 'pedestrians'), 30); await move(dial(page, 'kappa'), 1.23); });
   harness.check('the ring shows the last sample', Number(await page.locator('#own-law .run [data-outcome]').getAttribute('data-t')) > 0);
+  await rejudged(harness, page);
   await address(harness, page);
   await underway(harness);
   await harness.close('a law of one\'s own', opened);

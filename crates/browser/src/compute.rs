@@ -68,7 +68,7 @@ impl Tables {
 }
 
 /// The rows `n, x, v` of one time from trajectories `t, n, x, v`.
-fn at(trajectories: &Table, time: f64) -> Table {
+pub(crate) fn at(trajectories: &Table, time: f64) -> Table {
     let mut table = Table::new(&["n", "x", "v"]);
     trajectories.rows().filter(|row| row[0] == time).for_each(|row| table.push(&row[1..]));
     table

@@ -6,12 +6,14 @@
 use crate::compute::Tables;
 use crate::figures::FIGURES;
 use crate::page::Page;
-use crate::{flow, simulate};
-use serde_json::Value;
+use crate::rejudge::Ran;
+use crate::{flow, rejudge, simulate};
+use serde_json::{Value, json};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 static TABLES: Mutex<Tables> = Mutex::new(Tables::new());
 static ANSWER: Mutex<Vec<u8>> = Mutex::new(Vec::new());
+static RAN: Mutex<Option<Ran>> = Mutex::new(None);
 static GIVEN: Mutex<Vec<u8>> = Mutex::new(Vec::new());
 
 /// The number of figures; they are counted from 0.
@@ -64,7 +66,20 @@ pub extern "C" fn stability(count: usize) -> isize {
 /// Runs the scene in the room and tells the page as it goes; the answer is JSON, see [`simulate::run`].
 #[unsafe(no_mangle)]
 pub extern "C" fn run() -> isize {
-    with_given(|text| simulate::run(text, &mut Page))
+    with_given(|text| {
+        let (told, ran) = simulate::run_kept(text, &mut Page)?;
+        *lock(&RAN) = Some(ran);
+        Ok(told)
+    })
+}
+
+/// Judges the claims in the room on the run before; the answer is JSON, see [`rejudge::judge`].
+#[unsafe(no_mangle)]
+pub extern "C" fn judge() -> isize {
+    with_given(|text| match &*lock(&RAN) {
+        Some(ran) => rejudge::judge(text, ran),
+        None => Err(json!({ "problem": "there was no run" })),
+    })
 }
 
 /// SHA-256 of the bytes in the room, as hexadecimal digits.

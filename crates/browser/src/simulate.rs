@@ -1,6 +1,7 @@
 //! A run of a scene that somebody watches: samples and events as they come, the summary at the end.
 
 use crate::given::{FILE, complaint, panel};
+use crate::rejudge::Ran;
 use files::table::Table;
 use files::write::sha256;
 use jam::events::Happening;
@@ -29,6 +30,14 @@ pub trait Hearer {
 /// # Errors
 /// The scene is wrong; see [`complaint`].
 pub fn run(text: &str, hearer: &mut dyn Hearer) -> Result<Value, Value> {
+    run_kept(text, hearer).map(|(told, _)| told)
+}
+
+/// The same, with the run itself.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_kept(text: &str, hearer: &mut dyn Hearer) -> Result<(Value, Ran), Value> {
     let panel = panel(text)?;
     let scene = scene::run::read(FILE, &panel.tables).map_err(|error| complaint(&error))?;
     let mut watch = Watch { pedestrians: scene.ring.pedestrians, numbers: Vec::new(), hearer };
@@ -44,7 +53,7 @@ pub fn run(text: &str, hearer: &mut dyn Hearer) -> Result<Value, Value> {
         told.remove("seconds");
         told.insert("sums".to_owned(), sums);
     }
-    Ok(told)
+    Ok((told, Ran { outcome: ended.outcome, errors }))
 }
 
 /// Runs to the end, with the errors that the steps tell where the method has them.

@@ -32,6 +32,7 @@
 //! A claim has `[[claim.test]]` of the statement as it is written and perhaps `[[claim.under]]`, of the statement under
 //! its `condition`. The verdict follows from them ([`report::verdict`]); the one in the file is what is expected.
 
+pub mod again;
 pub mod check;
 pub mod entry;
 pub mod expression;

@@ -173,9 +173,14 @@ fn or_infinite<'de, D: Deserializer<'de>>(value: D) -> Result<f64, D::Error> {
 /// The verdict of a claim's tests. A failure of the statement as written is only told apart from a condition when
 /// there are tests under one.
 pub fn verdict(tests: &[Tested]) -> Verdict {
-    let outcome = |under: bool| {
+    verdict_of(&tests.iter().map(|test| (test.under, test.outcome)).collect::<Vec<_>>())
+}
+
+/// The same, from whether each test is one under the condition, and its outcome.
+pub(crate) fn verdict_of(tests: &[(bool, Option<Outcome>)]) -> Verdict {
+    let outcome = |of: bool| {
         let outcomes: Vec<Outcome> =
-            tests.iter().filter(|test| test.under == under).filter_map(|test| test.outcome).collect();
+            tests.iter().filter(|(under, _)| *under == of).filter_map(|(_, outcome)| *outcome).collect();
         match () {
             () if outcomes.is_empty() => None,
             () if outcomes.contains(&Outcome::False) => Some(Outcome::False),

@@ -1,4 +1,4 @@
-//! The tables that the ledger reads: where each lies, and what error is stated for its columns.
+//! The tables that the ledger reads: where each lies, or that it was handed over, and what error is stated for its columns.
 
 use crate::sheet::{Sheet, Stated};
 use checkout::failure::Failure;
@@ -12,12 +12,20 @@ use std::rc::Rc;
 /// The method of tables whose manifest states the error relative to numbers above 1, not to the range of the column.
 const CLOSED_FORM: &str = "closed form";
 
+/// The table of the events of all runs.
+pub const EVENTS: &str = "events";
+
 /// Tables by name, each read once.
 pub struct Tables<'a> {
+    /// Where those lie that are not read yet; nothing when all were handed over.
+    files: Option<Files<'a>>,
+    read: RefCell<BTreeMap<String, Rc<Sheet>>>,
+}
+
+struct Files<'a> {
     paths: &'a Paths,
     made: &'a Paths,
     entries: BTreeMap<String, Entry>,
-    read: RefCell<BTreeMap<String, Rc<Sheet>>>,
 }
 
 /// The figure or supplement that makes a table of this name; none for a table that is committed.
@@ -35,18 +43,20 @@ impl<'a> Tables<'a> {
     /// # Errors
     /// Usage: the manifest is malformed.
     pub fn new(paths: &'a Paths, made: &'a Paths) -> Result<Tables<'a>, Failure> {
-        Ok(Tables { paths, made, entries: manifest::read(paths)?, read: RefCell::default() })
+        let files = Files { paths, made, entries: manifest::read(paths)? };
+        Ok(Tables { files: Some(files), read: RefCell::default() })
     }
 
-    /// Where a table lies.
-    pub fn path(&self, table: &str) -> PathBuf {
-        let base = if figure_of(table).is_some() { self.made } else { self.paths };
-        base.output(&Paths::table(table))
+    /// These tables by name, and no others.
+    pub fn of_memory(sheets: impl IntoIterator<Item = (String, Sheet)>) -> Tables<'static> {
+        let read = sheets.into_iter().map(|(name, sheet)| (name, Rc::new(sheet))).collect();
+        Tables { files: None, read: RefCell::new(read) }
     }
 
     /// Whether it is there.
     pub fn has(&self, table: &str) -> bool {
-        self.path(table).is_file()
+        let is_file = || self.files.as_ref().is_some_and(|files| files.path(table).is_file());
+        self.read.borrow().contains_key(table) || is_file()
     }
 
     /// A table.
@@ -57,6 +67,23 @@ impl<'a> Tables<'a> {
         if let Some(sheet) = self.read.borrow().get(table) {
             return Ok(Rc::clone(sheet));
         }
+        let sheet = match &self.files {
+            Some(files) => Rc::new(files.read(table)?),
+            None => return Err(format!("no table {table}")),
+        };
+        self.read.borrow_mut().insert(table.to_owned(), Rc::clone(&sheet));
+        Ok(sheet)
+    }
+}
+
+impl Files<'_> {
+    /// Where a table lies.
+    fn path(&self, table: &str) -> PathBuf {
+        let base = if figure_of(table).is_some() { self.made } else { self.paths };
+        base.output(&Paths::table(table))
+    }
+
+    fn read(&self, table: &str) -> Result<Sheet, String> {
         let path = self.path(table);
         if !path.is_file() {
             return Err(match figure_of(table) {
@@ -73,8 +100,6 @@ impl<'a> Tables<'a> {
             let of_size = entry.counts.get("method").is_some_and(|method| method == CLOSED_FORM);
             Some(if of_size { Stated::OfSize(part) } else { Stated::OfRange(part) })
         };
-        let sheet = Rc::new(Sheet::new(cells, &error));
-        self.read.borrow_mut().insert(table.to_owned(), Rc::clone(&sheet));
-        Ok(sheet)
+        Ok(Sheet::new(cells, &error))
     }
 }

@@ -1,5 +1,6 @@
 //! Tests of the browser crate.
 
+use browser::rejudge;
 use browser::simulate::{self, Hearer};
 use browser::{FIGURES, Tables, exports, flow};
 use files::recipe;
@@ -130,4 +131,45 @@ fn a_scene_of_the_room_is_answered_in_json() {
     exports::room(text.len());
     assert!(exports::stability(10) < 0);
     assert!(exports::run() < 0);
+}
+
+/// Claims of the ledger by id, judged on the run of a panel with one text in its scene put in the place of another.
+fn judged(figure: &str, panel: &str, change: [&str; 2]) -> Vec<serde_json::Value> {
+    struct Deaf;
+    impl Hearer for Deaf {
+        fn sample(&mut self, _: &[f64]) {}
+        fn event(&mut self, _: &str) {}
+        fn checking(&mut self) {}
+    }
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let claims = std::fs::read_to_string(root.join("paper/claims.toml")).expect("the claims");
+    let scene = FIGURES.iter().find(|one| one.id == figure).expect("a figure").scene;
+    // one panel's tables in the place of all panels
+    let (before, after) = scene.split_once("\n[panel.").unwrap_or((scene, ""));
+    let own = after.split("\n[").find_map(|part| part.split_once(&format!("{panel}.law]\n"))).map_or("", |own| own.1);
+    let before = before.split("\n[origin]").next().expect("a scene").replace("[law]", &format!("[law]\n{own}"));
+    let text = before.replace(change[0], change[1]);
+    let (_, ran) = simulate::run_kept(&text, &mut Deaf).unwrap_or_else(|told| panic!("{text}: {told}"));
+    let told = rejudge::judge(&format!("{figure} {panel}\n{claims}"), &ran).expect("verdicts");
+    told.as_array().expect("a list").clone()
+}
+
+#[test]
+fn claims_on_the_papers_numbers_are_those_of_the_ledger() {
+    let panels = [("fig04", "stable", 1), ("fig04", "unstable", 1), ("fig07", "stable", 1), ("fig07", "unstable", 1)];
+    for (figure, panel, least) in panels {
+        let told = judged(figure, panel, ["", ""]);
+        assert!(told.len() >= least, "{figure} {panel}: {told:?}");
+        for claim in told {
+            assert_eq!(claim["before"], claim["now"], "{claim:#}");
+        }
+    }
+}
+
+#[test]
+fn without_growth_the_claim_of_growth_does_not_hold() {
+    let told = judged("fig04", "unstable", ["mu = 0.55", "mu = 0.40"]);
+    let growth = told.iter().find(|claim| claim["id"] == "algebraic-perturbation-grows").expect("the claim");
+    assert_eq!(growth["before"], "holds");
+    assert_eq!(growth["now"], "does not hold", "{growth:#}");
 }

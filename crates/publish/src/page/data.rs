@@ -4,7 +4,7 @@
 use super::html::symbol;
 use super::pack::Numbers;
 use super::source::Source;
-use super::{laws, scenes, sums};
+use super::{laws, rejudged, scenes, sums};
 use checkout::failure::Failure;
 use checkout::figure::Figure;
 use files::recipe::{Kind, Panel, Recipe};
@@ -64,6 +64,7 @@ pub fn collect(source: &Source<'_>) -> Result<Data, Failure> {
     let index = json!({
         "maps": maps, "curves": curves, "ring": ring, "numbers": numbers.index(), "published": published_json(source)?,
         "recomputed": sums::recomputed(source)?, "presets": laws::presets(source)?,
+        "rejudged": rejudged::text(source)?,
         "diverging": ColorScale::diverging("", []).stops(), "sequential": ColorScale::sequential("", []).stops(),
     });
     Ok(Data { index, elements: numbers.element()? })

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 /// The folder of the gallery.
 const GALLERY: &str = "scenes/gallery";
 
-/// Every run, one for each panel: `name`, `source`, and the tables `law`, `ring`, `start`, `uniform`, `run` as lists of key and value
+/// Every run, one for each panel: `name`, `source`, `origin` (of a run of the paper: figure and panel), and the tables `law`, `ring`, `start`, `uniform`, `run` as lists of key and value
 /// in the order of the file.
 ///
 /// # Errors
@@ -19,7 +19,7 @@ pub fn presets(source: &Source<'_>) -> Result<Value, Failure> {
     let mut groups = Vec::new();
     let of_paper = source.figures.iter().filter(|figure| !figure.is_supplement()).filter_map(|figure| {
         let recipe = figure.recipe.as_ref().ok()?;
-        Some(runs(recipe, &format!("{}: {}", name(figure), recipe.title)))
+        Some(runs(recipe, &format!("{}: {}", name(figure), recipe.title), Some(&figure.id)))
     });
     groups.push(json!({ "name": "Runs of the paper", "scenes": of_paper.flatten().collect::<Vec<Value>>() }));
     let mut files: Vec<_> = std::fs::read_dir(source.paths.root.join(GALLERY))
@@ -31,13 +31,14 @@ pub fn presets(source: &Source<'_>) -> Result<Value, Failure> {
     let mut gallery = Vec::new();
     for file in files {
         let recipe = recipe::read(&file).map_err(|error| Failure::failed(error.to_string()))?;
-        gallery.extend(runs(&recipe, &recipe.title));
+        gallery.extend(runs(&recipe, &recipe.title, None));
     }
     groups.push(json!({ "name": "Gallery of published laws", "scenes": gallery }));
     Ok(Value::Array(groups))
 }
 
-fn runs(recipe: &Recipe, title: &str) -> Vec<Value> {
+/// `figure`: the one of the paper that it is a run of.
+fn runs(recipe: &Recipe, title: &str, figure: Option<&str>) -> Vec<Value> {
     let panels: Vec<&Panel> = recipe.panels.iter().filter(|panel| panel.kind == Kind::Run).collect();
     let one = |panel: &&Panel| {
         let name = match panels.len() {
@@ -48,6 +49,7 @@ fn runs(recipe: &Recipe, title: &str) -> Vec<Value> {
         json!({
             "name": name, "title": recipe.title, "source": recipe.source, "law": table("law"), "ring": table("ring"),
             "start": table("start"), "uniform": table("uniform"), "run": table("run"),
+            "origin": figure.map(|figure| format!("{figure} {}", panel.name)),
         })
     };
     panels.iter().map(one).collect()

@@ -12,6 +12,7 @@
 //! ```text
 //! module -> worker (engine.js, worker.js) -> sums of a figure's tables -> verify.js, receipt.js -> cargo xtask verify --receipt FILE
 //! fields (own.js, dial.js) -> text of a scene file (scene-text.js) -> module: stability, at once -> worker: run -> run-view.js
+//! claims (rejudged) and the panel that the scene began from -> worker: judge, after the run -> rejudged.js
 //! ```
 //!
 //! The text of the scene file is all that goes into the module, so the file that a reader saves is what was run.
@@ -26,6 +27,7 @@ pub mod laws;
 pub mod machines;
 pub mod module;
 pub mod pack;
+pub mod rejudged;
 pub mod scenes;
 pub mod source;
 pub mod sums;
@@ -41,7 +43,7 @@ pub const TEMPLATE: &str = include_str!("parts/template.html");
 /// How it looks.
 pub const STYLE: &str = include_str!("parts/style.css");
 /// What it does, in the order in which it is read.
-pub const SCRIPTS: [(&str, &str); 20] = [
+pub const SCRIPTS: [(&str, &str); 21] = [
     ("base.js", include_str!("parts/base.js")),
     ("numbers.js", include_str!("parts/numbers.js")),
     ("map.js", include_str!("parts/map.js")),
@@ -57,6 +59,7 @@ pub const SCRIPTS: [(&str, &str); 20] = [
     ("scene-text.js", include_str!("parts/scene-text.js")),
     ("dial.js", include_str!("parts/dial.js")),
     ("motion.js", include_str!("parts/motion.js")),
+    ("rejudged.js", include_str!("parts/rejudged.js")),
     ("run-view.js", include_str!("parts/run-view.js")),
     ("fields.js", include_str!("parts/fields.js")),
     ("flow-view.js", include_str!("parts/flow-view.js")),

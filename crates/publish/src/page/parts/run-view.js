@@ -30,7 +30,9 @@ class RunView {
       make('h4', {}, 'Standard deviation of the speeds'),
       make('div', { class: 'controls' }, make('label', {}, make('input', {
         type: 'checkbox', onchange: (event) => { this.log = event.target.checked; this.drawDeviation(); },
-      }), 'logarithmic')), this.deviation, this.sums);
+      }), 'logarithmic')), this.deviation);
+    this.rejudged = new Rejudged(host);
+    host.append(this.sums);
     this.still = matchMedia('(prefers-reduced-motion: reduce)');
   }
 
@@ -50,7 +52,7 @@ class RunView {
     // who was overtaken while starting ends at once
     if (turn !== this.turn) { worker?.terminate(); return; }
     this.worker = worker;
-    worker?.postMessage({ work: 'run', given: state.text().text });
+    worker?.postMessage({ work: 'run', given: { scene: state.text().text, origin: state.origin, claims: index.rejudged } });
   }
 
   /** Ends the run under way; what is shown belongs to another scene from here on. */
@@ -65,6 +67,7 @@ class RunView {
     this.host.classList.add('stale');
     this.bar.hidden = this.button.hidden = true;
     this.events.replaceChildren();
+    this.rejudged.clear();
     this.sums.replaceChildren();
   }
 
@@ -88,7 +91,7 @@ class RunView {
       this.bar.value = 1;
     }
     if (answer.failure) this.fail(answer.failure);
-    if (answer.done === 'run' && answer.summary) this.end(answer.summary);
+    if (answer.done === 'run' && answer.summary) this.end(answer.summary, answer.claims);
     else if (answer.samples) this.drawSoon();
   }
 
@@ -137,7 +140,7 @@ class RunView {
     this.status.setAttribute('aria-live', 'polite');
   }
 
-  end(summary) {
+  end(summary, claims) {
     const time = (performance.now() - this.started) / 1000;
     this.worker?.terminate();
     this.worker = undefined;
@@ -154,6 +157,7 @@ class RunView {
       this.shapeRing();
     }
     this.draw();
+    this.rejudged.show(claims);
     this.tellSums(summary);
     this.stage.dataset.outcome = JSON.stringify(summary);
   }

@@ -14,6 +14,8 @@ class SceneState {
   /** Tables as lists of key and value. */
   constructor(given) {
     this.title = String(given.title || 'A law of my own');
+    // figure and panel of the paper that the scene began from
+    this.origin = given.origin ? String(given.origin) : undefined;
     for (const table of TABLES) this[table] = (given[table] || []).map(([key, value]) => [String(key), typeof value === 'number' ? value : String(value)]);
   }
 
@@ -56,9 +58,9 @@ class SceneState {
   }
 
   toHash() {
-    const { title } = this;
+    const { title, origin } = this;
     const tables = Object.fromEntries(TABLES.map((table) => [table, this[table]]));
-    return MARK + encodeURIComponent(JSON.stringify({ title, ...tables }));
+    return MARK + encodeURIComponent(JSON.stringify({ title, origin, ...tables }));
   }
 
   /** The state that an address holds; undefined if it holds none. */

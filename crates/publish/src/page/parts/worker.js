@@ -36,8 +36,20 @@ let engine;
 const works = {
   sums: (figure) => ({ lines: engine.text('sums', figure) }),
   table: ([figure, table]) => ({ csv: engine.text('table', figure, table) }),
-  run: (scene) => ({ summary: engine.about(scene, 'run') }),
+  run: ({ scene, origin, claims }) => {
+    const summary = engine.about(scene, 'run');
+    return { summary, claims: origin && judged(`${origin}\n${claims}`) };
+  },
 };
+
+/** Claims on the run before; a text when they cannot be judged, which does not spoil the run. */
+function judged(text) {
+  try {
+    return engine.about(text, 'judge');
+  } catch (error) {
+    return error.message;
+  }
+}
 
 onmessage = ({ data: { module, work, given } }) => {
   const started = performance.now();

@@ -1,0 +1,126 @@
+//! The claims of the paper, judged anew on the tables of a run that began from one of its scenes.
+
+use crate::compute::at;
+use crate::figures::{Content, Entry, FIGURES};
+use claims::again;
+use claims::sheet::{Sheet, Stated};
+use claims::source::Sources;
+use claims::tables::{EVENTS, Tables};
+use files::recipe;
+use files::table::{self, Cell, Table};
+use scene::check::Errors;
+use scene::simulation::Outcome;
+use serde_json::{Value, json};
+
+/// A run that has ended, and the errors of its numbers.
+#[derive(Debug)]
+pub struct Ran {
+    /// Its tables and events.
+    pub outcome: Outcome,
+    /// Those of positions and speeds are those at the end; they stand for all samples here.
+    pub errors: Errors,
+}
+
+/// Judges on a run in the place of the one that a panel asks for. The first line of the text is the panel, `fig04
+/// unstable`, the others are claims as in `paper/claims.toml`; those that read tables of this run alone are told: `id`,
+/// `says`, `before` and `now` (verdicts), `tests` with `words`, `is`, `outcome`, `value` and `error` (null: not bounded) or
+/// `problem`.
+///
+/// # Errors
+/// There is no such panel, or a claim is malformed; `problem` in words.
+pub fn judge(text: &str, ran: &Ran) -> Result<Value, Value> {
+    told(text, ran).map_err(|problem| json!({ "problem": problem }))
+}
+
+fn told(text: &str, ran: &Ran) -> Result<Value, String> {
+    let (panel, claims) = text.split_once('\n').unwrap_or((text, ""));
+    let (figure, panel) = panel.split_once(' ').ok_or_else(|| format!("{panel:?}: must be a figure and a panel"))?;
+    let failed = |failure: checkout::failure::Failure| failure.text().to_owned();
+    let sources = Sources::parse([claims, "", ""]).map_err(failed)?;
+    let tables = Tables::of_memory(sheets(figure, panel, ran)?);
+    let mut told = Vec::new();
+    for claim in again::about(&sources, &|table| tables.has(table)).map_err(failed)? {
+        let (verdict, tests) = again::judge(claim, &tables).map_err(failed)?;
+        let tests: Vec<Value> = tests.iter().map(test).collect();
+        told.push(json!({
+            "id": claim.id, "says": claim.says, "before": claim.verdict, "now": verdict, "tests": tests,
+        }));
+    }
+    Ok(Value::Array(told))
+}
+
+fn test(test: &again::Again) -> Value {
+    let mut told = json!({ "words": test.words, "is": test.is, "under": test.under, "outcome": test.outcome });
+    match &test.value {
+        Ok(value) => {
+            told["value"] = json!(value.value);
+            told["error"] = json!(value.error);
+        }
+        Err(problem) => told["problem"] = json!(problem),
+    }
+    told
+}
+
+/// The tables of all figures that are made from the run of this panel, and its events.
+fn sheets(figure: &str, panel: &str, ran: &Ran) -> Result<Vec<(String, Sheet)>, String> {
+    let wanted = determinants(figure, panel)?;
+    let mut sheets = vec![(EVENTS.to_owned(), events(&format!("{figure}-{panel}"), ran))];
+    for figure in &FIGURES {
+        for entry in figure.tables {
+            if determinants(figure.id, entry.panel)? == wanted
+                && let Some(sheet) = sheet(entry, ran)
+            {
+                sheets.push((format!("{}/{}", figure.id, entry.name), sheet));
+            }
+        }
+    }
+    Ok(sheets)
+}
+
+fn determinants(id: &str, panel: &str) -> Result<String, String> {
+    let figure = FIGURES.iter().find(|figure| figure.id == id).ok_or_else(|| format!("no figure {id}"))?;
+    let recipe = recipe::parse(id, figure.scene).map_err(|error| error.to_string())?;
+    Ok(recipe.panel(panel).map_err(|error| error.to_string())?.determinants())
+}
+
+/// A table of the run; nothing where the run does not keep what it holds.
+fn sheet(entry: &Entry, ran: &Ran) -> Option<Sheet> {
+    let Ran { outcome, errors } = ran;
+    let table = match entry.content {
+        Content::Std => outcome.std.clone(),
+        Content::Trajectories => outcome.trajectories.clone(),
+        Content::At(time) => at(&outcome.trajectories, time),
+        Content::Map | Content::Curve => return None,
+    };
+    if entry.content != Content::Std && outcome.trajectories.is_empty() {
+        return None;
+    }
+    let error = |column: &str| {
+        let error = match column {
+            "std" => errors.std,
+            "x" => errors.positions,
+            "v" => errors.speeds,
+            _ => return None,
+        };
+        Some(Stated::Absolute(error.unwrap_or(f64::INFINITY)))
+    };
+    Some(Sheet::new(cells(&table), &error))
+}
+
+fn cells(table: &Table) -> table::Sheet {
+    let names: Vec<&str> = table.columns.iter().map(String::as_str).collect();
+    let mut sheet = table::Sheet::new(&names);
+    table.rows().for_each(|row| sheet.push(row.iter().map(|&number| Cell::from(number)).collect::<Vec<Cell>>()));
+    sheet
+}
+
+/// The events of the run, in the columns of `data/events.csv`.
+fn events(scene: &str, ran: &Ran) -> Sheet {
+    let mut sheet = table::Sheet::new(&["scene", "event", "t", "n", "uncertainty"]);
+    for (happening, error) in ran.outcome.events.iter().zip(&ran.errors.events) {
+        let error = error.map_or(Cell::Empty, Cell::from);
+        let (event, time) = (Cell::from(happening.event.name()), Cell::from(happening.time));
+        sheet.push(vec![Cell::from(scene), event, time, Cell::from(happening.pedestrian), error]);
+    }
+    Sheet::new(sheet, &|_| None)
+}

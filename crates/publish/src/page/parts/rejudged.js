@@ -1,0 +1,45 @@
+// What the paper says of the figure that a scene began from, judged on the reader's run.
+
+class Rejudged {
+  constructor(host) {
+    this.status = make('output', { 'aria-live': 'polite' });
+    this.list = make('div', {});
+    this.host = make('div', { class: 'rejudged', hidden: true }, make('h4', {}, 'What the paper says of this figure, with your numbers'), this.status, this.list);
+    host.append(this.host);
+  }
+
+  clear() {
+    this.host.hidden = true;
+    this.status.textContent = '';
+    this.list.replaceChildren();
+    delete this.host.dataset.claims;
+  }
+
+  /** `claims` as the module tells them; a text is why there are none; undefined: the scene is none of the paper. */
+  show(claims) {
+    this.clear();
+    if (claims === undefined) return;
+    this.host.hidden = false;
+    if (typeof claims === 'string') { this.status.textContent = `The claims could not be judged: ${claims}`; return; }
+    this.host.dataset.claims = JSON.stringify(claims);
+    const changed = claims.filter(({ before, now }) => before !== now).length;
+    this.status.textContent = claims.length
+      ? `${claims.length} ${claims.length === 1 ? 'claim rests' : 'claims rest'} on this run alone; ${changed || 'none'} of them ${changed === 1 ? 'has' : 'have'} another verdict with your numbers.`
+      : 'No claim rests on this run alone.';
+    this.list.replaceChildren(...claims.map((claim) => this.claim(claim)));
+  }
+
+  claim({ says, before, now, tests }) {
+    const head = make('tr', {}, ...['Test', 'Must be', 'With your numbers', 'Outcome'].map((text) => make('th', { scope: 'col' }, text)));
+    const caption = `${says} For the paper’s numbers: ${before}. For yours: ${now}.`;
+    return make('div', { class: 'wide', role: 'group', tabindex: 0, 'aria-label': says },
+      make('table', {}, make('caption', {}, caption), make('thead', {}, head), make('tbody', {}, ...tests.map((test) => this.test(test)))));
+  }
+
+  test({ words: measure, under, is, value, error, problem, outcome }) {
+    const size = error === null ? ' (error unknown)' : error ? ` ± ${words(error, 1)}` : '';
+    const found = problem === undefined ? `${value === null ? 'no number' : words(value)}${size}` : `no value: ${problem}`;
+    return make('tr', {}, make('th', { scope: 'row' }, under ? `under the condition: ${measure}` : measure),
+      make('td', {}, is || '–'), make('td', {}, found), make('td', {}, outcome || '–'));
+  }
+}
