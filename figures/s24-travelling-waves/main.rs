@@ -18,7 +18,7 @@ fn tables(job: &mut Job) -> Result<(), Failure> {
 const RINGS: [f64; 3] = [67.0, 134.0, 268.0];
 
 fn picture(job: &Job) -> Result<Picture, Failure> {
-    Ok(Picture::new(COLUMN_WIDTH, 125.0)
+    Ok(Picture::new(COLUMN_WIDTH, 110.0)
         .columns(1)
         .row_shares(&[1.2, 1.0])
         .titled("waves along their branch", strength(job)?)

@@ -40,7 +40,7 @@ pub fn collect(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure>
 /// The planes of each supplement.
 const PLANES: [(&str, &[&str]); 3] = [
     ("s18", &["logarithmic", "exponential", "relative", "plain"]),
-    ("s21", &["logarithmic_headway", "logarithmic_wide", "relative_widened"]),
+    ("s21", &["logarithmic_shift", "logarithmic_headway", "logarithmic_wide", "relative_widened"]),
     (
         "s22",
         &[
@@ -91,13 +91,17 @@ fn bands(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
         let row = widenings.iter().position(|a_v| *a_v >= from).unwrap_or(0);
         all.uncertain(&format!("band.widening-{label}"), widths[row], band.numbers("error")?[row], &band.name);
     }
-    let band = Sheet::read(source.paths, "data/s21/bands.csv")?;
+    let further = Sheet::read(source.paths, "data/s21/bands.csv")?;
+    let band = further.only(&[("plane", "logarithmic_headway")])?;
     let (headways, widths) = (band.numbers("value")?, band.numbers("width")?);
     for (label, from) in [("1-2", 1.2), ("1-5", 1.5), ("1-9", 1.9)] {
         let row = headways.iter().position(|headway| *headway >= from).unwrap_or(0);
         all.uncertain(&format!("band.headway-{label}"), widths[row], band.numbers("error")?[row], &band.name);
     }
     all.rounded("band.headway.last", band.largest("last")?, 3, &band.name);
+    let shifts = further.only(&[("plane", "logarithmic_shift")])?;
+    all.rounded("band.shift.narrowest", shifts.least("width")?, 2, &shifts.name);
+    all.rounded("band.shift.widest", shifts.largest("width")?, 2, &shifts.name);
     let places = headways.iter().zip(&widths).filter(|(_, width)| **width > 0.0).map(|(headway, _)| *headway);
     let places: Vec<f64> = places.collect();
     all.rounded("band.headway.from", places.first().copied().unwrap_or(f64::NAN), 2, &band.name);
