@@ -202,8 +202,8 @@ impl Kernel for Largest<'_> {
             sum[lane] += size;
         };
         for chunk in chunks {
-            for lane in 0..LANES {
-                take(lane, chunk[lane]);
+            for (lane, value) in chunk.iter().enumerate() {
+                take(lane, *value);
             }
         }
         for (lane, value) in rest.iter().enumerate() {

@@ -73,7 +73,7 @@ fn read_run(text: &str) -> Result<Scene, String> {
 fn read_sweep(text: &str) -> Result<Sweep, String> {
     let text = text.replace("sample = 1.0\n", "").replace("record = \"std\"\n", "").replace("mu = 0.45\n", "");
     let tables = Section::parse("cells", &text).map_err(|error| error.to_string())?;
-    sweep::read(&"cells".to_owned(), &tables).map_err(|error| error.to_string())
+    sweep::read("cells", &tables).map_err(|error| error.to_string())
 }
 
 /// One run; its right-hand sides.
