@@ -53,10 +53,10 @@ impl<'t, const W: usize> History<'t, W> {
         let mut sum = Lanes::default();
         if self.order > 1 {
             let (a, b) = (&self.row(a)[1..self.order], &self.row(b)[1..self.order]);
-            // one of them by index: iterators that run against each other cost several times the sum
-            let last = a.len() - 1;
-            for (i, a) in a.iter().enumerate() {
-                sum = sum + Lanes(a.get()) * Lanes(b[last - i].get());
+            // by index: iterators that run against each other cost several times the sum
+            #[allow(clippy::needless_range_loop)]
+            for i in 0..a.len() {
+                sum = sum + Lanes(a[i].get()) * Lanes(b[a.len() - 1 - i].get());
             }
         }
         sum
@@ -129,9 +129,9 @@ fn next_power<const W: usize>(h: History<'_, W>, a: Lanes<W>, q: f64) -> Lanes<W
     if order > 1 {
         let (powers, numbers) = (&h.row(1)[1..order], &h.row(0)[1..order]);
         let mut j = 1.0;
-        let last = powers.len() - 1;
-        for (i, f) in powers.iter().enumerate() {
-            let (f, a) = (Lanes(f.get()), Lanes(numbers[last - i].get()));
+        #[allow(clippy::needless_range_loop)]
+        for i in 0..powers.len() {
+            let (f, a) = (Lanes(powers[i].get()), Lanes(numbers[powers.len() - 1 - i].get()));
             sum = sum + (f * a) * (q * (k - j) - j);
             j += 1.0;
         }
