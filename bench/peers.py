@@ -177,6 +177,7 @@ def arguments():
     parser.add_argument("--quick", action="store_true", help="fewer tolerances, 3 rounds")
     parser.add_argument("--cases", type=names, help=f"of {', '.join(case.name for case in CASES)}; all by default")
     parser.add_argument("--peers", type=names, help=f"of {', '.join(peer.name for peer in PEERS)}; all by default")
+    parser.add_argument("--methods", type=names, help="of ours; all by default")
     parser.add_argument("--before", type=Path, help="the program `simulate` of an earlier commit, measured in turn with ours")
     parser.add_argument("--install", action="store_true", help="install missing system packages (apt-get, as root)")
     options = parser.parse_args()
@@ -192,7 +193,7 @@ def compare(runner, options):
     wanted = [
         [Setting(peer, "", "deviation", method, f"1e-{k}", "") for k in exponents(options.quick)]
         for peer in runner.simulate
-        for method in runner.our_methods()
+        for method in (options.methods or runner.our_methods())
     ]
     wanted += [one for one in series(options.quick) if not options.peers or one[0].peer in options.peers]
     tables, truths = [], {}
@@ -232,7 +233,7 @@ def main(options):
 def chosen(options):
     """The options that change the tables, to make them again."""
     given = ["--quick"] if options.quick else ["--rounds", str(options.rounds)]
-    for name, value in [("--cases", options.cases), ("--peers", options.peers)]:
+    for name, value in [("--cases", options.cases), ("--peers", options.peers), ("--methods", options.methods)]:
         given += [name, ",".join(value)] if value else []
     return given
 

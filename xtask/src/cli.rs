@@ -43,13 +43,13 @@ pub enum Verb {
     Paper(PaperArgs),
     /// Write one deterministic archive: sources, crates, tables, pictures, descriptions
     Bundle(BundleArgs),
-    /// Run a scene: cargo xtask simulate SCENE.toml [options]; --help shows the options
+    /// Run a scene: cargo xtask simulate SCENE.toml; --help shows the options
     #[command(disable_help_flag = true)]
     Simulate(ForwardArgs),
-    /// Compute a stability map: cargo xtask map SCENE.toml [options]; --help shows the options
+    /// Compute a stability map: cargo xtask map SCENE.toml; --help shows the options
     #[command(disable_help_flag = true)]
     Map(ForwardArgs),
-    /// Classify the runs of a plane by outcome: cargo xtask sweep SCENE.toml --out DIR [options]; --help shows the options
+    /// Classify the runs of a plane by outcome: cargo xtask sweep SCENE.toml --out DIR; --help shows the options
     #[command(disable_help_flag = true)]
     Sweep(ForwardArgs),
     /// Run a scene or a figure and write its trajectories in metres, as PedPy and JuPedSim read them

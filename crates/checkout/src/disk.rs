@@ -83,7 +83,7 @@ pub fn clear_for_file(path: &Path) -> Result<(), Failure> {
 /// Writes a file unless it holds these bytes already, so that an unchanged file keeps its date.
 ///
 /// # Errors
-/// As [`write`].
+/// As [`write()`].
 pub fn write_if_changed(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     match fs::read(path) {
         Ok(old) if old == bytes => Ok(()),

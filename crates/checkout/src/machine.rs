@@ -15,7 +15,7 @@ pub fn facts() -> [(&'static str, String); 3] {
     [("processor", processor()), ("system", system()), ("rustc", rustc())]
 }
 
-/// The versions of [`KEY_CRATES`] in a lock file.
+/// The versions of the crates that results depend on in a lock file.
 pub fn crate_versions(lock: &str) -> BTreeMap<String, String> {
     let mut versions = BTreeMap::new();
     let mut name = "";

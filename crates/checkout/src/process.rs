@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 /// Runs a program that shares our stdout and stderr.
 ///
 /// # Errors
-/// As [`run_logged`], without a text when the program has ended badly: it has said why itself.
+/// It cannot be started; or it ended badly and has said why itself.
 pub fn run_shown(command: &mut Command) -> Result<(), Failure> {
     let name = command.get_program().to_string_lossy().into_owned();
     let status = command.status().map_err(|error| not_started(&name, &error))?;

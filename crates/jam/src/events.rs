@@ -296,7 +296,10 @@ impl<'a> Watch<'a> {
                 may_be_negative((&before.speeds, &before.speed_rates), (&after.speeds, &after.speed_rates), h)
             }
             Event::Exchange => may_be_negative((&before.gaps, &before.gap_rates), (&after.gaps, &after.gap_rates), h),
-            Event::BlowUp => after.speeds.iter().any(|speed| speed.abs() > self.bound()),
+            Event::BlowUp => {
+                let bound = self.bound();
+                after.speeds.iter().any(|speed| speed.abs() > bound)
+            }
             Event::Undefined => false,
         }
     }

@@ -1,5 +1,5 @@
 //! Seconds of CPU and instructions of the parts that runs consist of; against another commit, ratios. A program that the
-//! runner starts ([`bench`]).
+//! runner starts ([`mod@bench`]).
 
 pub mod bench;
 pub mod benchmarks;

@@ -202,7 +202,9 @@ impl Kernel for Largest<'_> {
             sum[lane] += size;
         };
         for chunk in chunks {
-            chunk.iter().enumerate().for_each(|(lane, value)| take(lane, *value));
+            for (lane, value) in chunk.iter().enumerate() {
+                take(lane, *value);
+            }
         }
         for (lane, value) in rest.iter().enumerate() {
             take(lane, *value);

@@ -1,7 +1,7 @@
 //! Comparing what was made with what is committed, on four levels: bytes, numbers, pixels, claims. A program that the
 //! runner starts ([`cli`]).
 //!
-//! [`reference`] finds what is committed; [`tables`] with [`numbers`], [`states`], [`moved`] and [`pictures`] compare it
+//! [`mod@reference`] finds what is committed; [`tables`] with [`numbers`], [`states`], [`moved`] and [`pictures`] compare it
 //! with what was made; [`verdict`] says what that means together, [`words`], [`json`] and [`page`] tell it. The ledger is
 //! judged by the crate `claims`. [`bless`] shows the same judgement before it writes.
 

@@ -152,7 +152,7 @@ fn course(committed: &Sheet, pairs: &[Pair<'_, Cell>], column: &str) -> Option<C
 }
 
 impl Course {
-    /// `growing` when the last quarter has [`CLEARLY`] larger differences than the first, `shrinking` the other way
+    /// `growing` when the last quarter has clearly larger differences than the first, `shrinking` the other way
     /// round, else `constant`.
     pub fn word(quarters: &[f64; 4]) -> &'static str {
         let [first, .., last] = *quarters;

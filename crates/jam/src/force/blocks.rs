@@ -82,18 +82,34 @@ fn inside<const W: usize, B: Block>(
     end
 }
 
-/// The last block, which the first pedestrian closes; filled up.
+/// The last block, which the first pedestrian closes. It begins earlier rather than be cut, since what is written twice is the
+/// same; on a ring of fewer it is filled up.
 #[inline(always)]
 fn last<const W: usize, B: Block>(block: &B, begin: usize, first: &[f64], second: &[f64], result: &mut [f64]) {
-    let rest = first.len() - begin;
+    let n = first.len();
     let [filler, speed] = B::FILLER;
     let (mut own, mut speeds, mut ahead) = ([filler; W], [speed; W], [speed; W]);
-    own[..rest].copy_from_slice(&first[begin..]);
-    speeds[..rest].copy_from_slice(&second[begin..]);
-    ahead[..rest - 1].copy_from_slice(&second[begin + 1..]);
-    ahead[rest - 1] = second[0];
+    let is_whole = n >= W;
+    if is_whole {
+        // lengths that the compiler knows
+        let from = n - W;
+        own.copy_from_slice(&first[from..]);
+        speeds.copy_from_slice(&second[from..]);
+        ahead[..W - 1].copy_from_slice(&second[from + 1..]);
+        ahead[W - 1] = second[0];
+    } else {
+        let rest = n - begin;
+        own[..rest].copy_from_slice(&first[begin..]);
+        speeds[..rest].copy_from_slice(&second[begin..]);
+        ahead[..rest - 1].copy_from_slice(&second[begin + 1..]);
+        ahead[rest - 1] = second[0];
+    }
     let value = block.value(Lanes(own), Lanes(speeds), Lanes(ahead));
-    result[begin..].copy_from_slice(&value.0[..rest]);
+    if is_whole {
+        result[n - W..].copy_from_slice(&value.0);
+    } else {
+        result[begin..].copy_from_slice(&value.0[..n - begin]);
+    }
 }
 
 /// Replaces the entries of a row by the function of them, the speed at the same place and the next one.

@@ -8,14 +8,64 @@ pub(super) struct Ends<'a> {
     pub(super) h: f64,
 }
 
+use math::simd::{Kernel, dispatch};
+
 /// The lowest number of a list; infinity of none.
 pub(super) fn lowest(numbers: &[f64]) -> f64 {
+    if numbers.len() < LANES { lower(numbers) } else { dispatch(Lowest(numbers)) }
+}
+
+fn lower(numbers: &[f64]) -> f64 {
     numbers.iter().fold(f64::INFINITY, |least, &next| if next < least { next } else { least })
 }
 
 /// The highest.
 pub(super) fn highest(numbers: &[f64]) -> f64 {
-    numbers.iter().fold(f64::NEG_INFINITY, |most, &next| if next > most { next } else { most })
+    dispatch(Highest(numbers))
+}
+
+/// So many at a time: one after another, each would wait for the one before.
+const LANES: usize = 16;
+
+struct Lowest<'a>(&'a [f64]);
+
+impl Kernel for Lowest<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run(self) -> f64 {
+        let mut least = [f64::INFINITY; LANES];
+        let chunks = self.0.chunks_exact(LANES);
+        let rest = lower(chunks.remainder());
+        for chunk in chunks {
+            for (least, &next) in least.iter_mut().zip(chunk) {
+                *least = if next < *least { next } else { *least };
+            }
+        }
+        lower(&[lower(&least), rest])
+    }
+}
+
+struct Highest<'a>(&'a [f64]);
+
+impl Kernel for Highest<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run(self) -> f64 {
+        let upper = |numbers: &[f64]| {
+            numbers.iter().fold(f64::NEG_INFINITY, |most, &next| if next > most { next } else { most })
+        };
+        let mut most = [f64::NEG_INFINITY; LANES];
+        let chunks = self.0.chunks_exact(LANES);
+        let rest = upper(chunks.remainder());
+        for chunk in chunks {
+            for (most, &next) in most.iter_mut().zip(chunk) {
+                *most = if next > *most { next } else { *most };
+            }
+        }
+        upper(&[upper(&most), rest])
+    }
 }
 
 impl Ends<'_> {

@@ -84,12 +84,19 @@ impl Stretch {
 /// The sums for [`Stretch::label_speed`] at one instant: slopes along the ring by differences of fourth order.
 pub(super) fn drift(speeds: &[f64], accelerations: &[f64]) -> (f64, f64) {
     let count = speeds.len();
-    let at = |n: usize| speeds[if n >= count { n % count } else { n }];
     let (mut product, mut square) = (0.0, 0.0);
     for (n, acceleration) in accelerations.iter().enumerate() {
-        let near = at(n + 1) - at(n + count - 1);
-        let far = at(n + 2) - at(n + 2 * count - 2);
-        let slope = (8.0 * near - far) / 12.0;
+        let slope = match speeds.get(n.wrapping_sub(2)..n + 3) {
+            Some([behind, close_behind, _, ahead, far_ahead]) => {
+                (8.0 * (ahead - close_behind) - (far_ahead - behind)) / 12.0
+            }
+            _ => {
+                // the neighbours around the ring
+                let at = |n: usize| speeds[n % count];
+                let (near, far) = (at(n + 1) - at(n + count - 1), at(n + 2) - at(n + 2 * count - 2));
+                (8.0 * near - far) / 12.0
+            }
+        };
         product -= acceleration * slope;
         square += slope * slope;
     }

@@ -54,6 +54,7 @@ impl<'t, const W: usize> History<'t, W> {
         if self.order > 1 {
             let (a, b) = (&self.row(a)[1..self.order], &self.row(b)[1..self.order]);
             // by index: iterators that run against each other cost several times the sum
+            #[allow(clippy::needless_range_loop)]
             for i in 0..a.len() {
                 sum = sum + Lanes(a[i].get()) * Lanes(b[a.len() - 1 - i].get());
             }
@@ -128,6 +129,7 @@ fn next_power<const W: usize>(h: History<'_, W>, a: Lanes<W>, q: f64) -> Lanes<W
     if order > 1 {
         let (powers, numbers) = (&h.row(1)[1..order], &h.row(0)[1..order]);
         let mut j = 1.0;
+        #[allow(clippy::needless_range_loop)]
         for i in 0..powers.len() {
             let (f, a) = (Lanes(powers[i].get()), Lanes(numbers[powers.len() - 1 - i].get()));
             sum = sum + (f * a) * (q * (k - j) - j);
