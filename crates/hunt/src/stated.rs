@@ -84,13 +84,18 @@ pub fn of(scene: &Scene, outcome: &Outcome, propagated: &Propagated) -> Stated {
     let or_none = |error: Option<f64>| error.unwrap_or(f64::INFINITY);
     let end = [or_none(errors.positions), or_none(errors.speeds)];
     let table = difference(scene, outcome).table;
-    // the last row of the table is the end; two methods may agree by chance
-    let with_end = |i: usize| if end[i].is_finite() { math::larger(table[i], end[i]) } else { table[i] };
+    // the last row of the table is the end; two methods may agree by chance. A run whose check ended elsewhere states nothing
+    let with_end = |i: usize| match errors.std {
+        None => f64::INFINITY,
+        Some(_) if end[i].is_finite() => math::larger(table[i], end[i]),
+        Some(_) => table[i],
+    };
+    let table = [with_end(0), with_end(1)];
     Stated {
         std: or_none(errors.std),
         end,
         events: errors.events.into_iter().map(or_none).collect(),
-        table: [with_end(0), with_end(1)],
+        table,
         cost: errors.cost,
     }
 }

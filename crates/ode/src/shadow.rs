@@ -6,7 +6,7 @@
 
 use crate::dense::Step;
 use crate::system::{Measure, System};
-use crate::taylor::Change;
+use crate::taylor::{Change, forced};
 use crate::vector::largest;
 use math::simd::dispatch;
 
@@ -38,6 +38,9 @@ pub struct Shadow {
     /// The length of the last step, and the power of it with which its own error grows.
     length: f64,
     power: usize,
+    is_sure: bool,
+    /// What the next rounding is drawn by.
+    lot: u64,
 }
 
 /// Orders of the series of the difference at first, how many more where these do not reach over a step, and the fewest.
@@ -45,8 +48,8 @@ const ORDERS: usize = 6;
 const MORE: usize = 2;
 const FEWEST: usize = 4;
 
-/// An expansion shall reach over so many steps: fewer, longer ones cost as much as many short ones, and lose less.
-const MARGIN: f64 = 2.2;
+/// An expansion shall reach over so many steps: over more, what the first of them add would wait too long.
+const MARGIN: f64 = 1.15;
 
 /// So many steps an expansion lasts at most: what they add is carried on from the next one only.
 const LASTS: f64 = 6.0;
@@ -58,7 +61,10 @@ const SHORTER: f64 = 0.5;
 const FRESH: f64 = 0.25;
 
 /// The part of the difference that may be lost.
-const REST: f64 = 0.01;
+const REST: f64 = 0.005;
+
+/// So far beyond their reach series are believed: the last two terms are then a few tenths of the difference at most.
+const BEYOND: f64 = 1.5;
 
 /// The shadow is as far from the solution as this part of it, so that neither curvature nor rounding counts.
 const DISTANCE: f64 = 1e-9;
@@ -85,11 +91,14 @@ impl Shadow {
             expanded: 0.0,
             length: 0.0,
             power: 1,
+            is_sure: true,
+            lot: 0,
         }
     }
 
-    /// Goes along with a step; false for a method whose steps do not tell their error.
-    pub fn follow(&mut self, step: &mut Step<'_>) -> bool {
+    /// Goes along with a step, in which rates are rounded by so much, of each component with a force by itself; false for a
+    /// method whose steps do not tell their error.
+    pub fn follow(&mut self, step: &mut Step<'_>, rounding: f64) -> bool {
         if !step.stepper.own_error(step.system, &step.ends, &mut self.own) {
             return false;
         }
@@ -101,7 +110,30 @@ impl Shadow {
             *own += (ROUNDING * (after - before).abs()).copysign(*error);
             *added += *own;
         }
+        self.round(step, rounding);
         true
+    }
+
+    /// Roundings of rates are as if drawn by lot: a step pushes each component one way or the other.
+    fn round(&mut self, step: &Step<'_>, rounding: f64) {
+        if rounding == 0.0 {
+            return;
+        }
+        for range in forced(step.system) {
+            for (own, added) in self.own[range.clone()].iter_mut().zip(&mut self.added[range]) {
+                // Knuth's generator of 64 bits
+                self.lot = self.lot.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                let push = self.length * if self.lot >> 63 == 0 { rounding } else { -rounding };
+                *own += push;
+                *added += push;
+            }
+        }
+    }
+
+    /// Whether the series of the error have reached over every step so far. Where motion is much stiffer for an error than
+    /// for the solution, they do not, and the error says nothing.
+    pub fn is_sure(&self) -> bool {
+        self.is_sure
     }
 
     /// Goes along with a step that adds nothing: of the errors before it alone.
@@ -147,6 +179,7 @@ impl Shadow {
                 self.orders += MORE;
                 continue;
             }
+            self.is_sure &= h < BEYOND * reach;
             // of all orders the step itself is made
             let reach = if reach > h { reach } else { h };
             self.reach = if reach < LASTS * h { reach } else { LASTS * h };

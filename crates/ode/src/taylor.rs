@@ -307,7 +307,7 @@ impl Kernel for Defect<'_> {
 }
 
 /// The components that are not position-like.
-fn forced(system: &dyn System) -> Vec<Range<usize>> {
+pub(crate) fn forced(system: &dyn System) -> Vec<Range<usize>> {
     let mut positions = system.positions();
     positions.sort_by_key(|range| range.start);
     let starts = std::iter::once(0).chain(positions.iter().map(|range| range.end));

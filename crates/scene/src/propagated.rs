@@ -1,8 +1,8 @@
 //! The errors of a run by Taylor's method, whose steps tell their own, carried along with it ([`ode::Shadow`]).
 //!
 //! Some runs by this method are run a second time like those by others ([`crate::check`]): those by steps of fixed length,
-//! whose errors are roundings that they do not tell; those of laws with kinks, which a step may cross unseen; and those that
-//! went on from a checkpoint, which does not keep the errors before it.
+//! whose errors are roundings that they do not tell; those of laws with kinks, which a step may cross unseen; those whose
+//! errors move much faster than they; and those that went on from a checkpoint, which does not keep the errors before it.
 
 use crate::check::{Errors, ROUNDINGS, has_kinks, largest, largest_std, loses_shift, of_headway};
 use crate::run::Scene;
@@ -107,7 +107,7 @@ impl Propagated {
         }
     }
 
-    /// Goes along with a step; false if it does not tell its error.
+    /// Goes along with a step; false if it does not tell its error, or nobody can tell what becomes of it.
     fn follow(&mut self, step: &mut Step<'_>) -> bool {
         let (n, dimension) = (self.pedestrians, step.after().len());
         if self.shadow.is_none() {
@@ -124,7 +124,11 @@ impl Propagated {
         if let Some(lost) = &mut self.lost {
             lost.carry(step);
         }
-        self.shadow.as_mut().is_some_and(|shadow| shadow.follow(step))
+        // deviations are rounded as parts of themselves, equal motion alike; else drive, speed and force each are
+        let is_in_gaps = dimension == 2 * n + 1;
+        let rounding = if is_in_gaps && self.lost.is_none() { f64::EPSILON * self.desired } else { 0.0 };
+        let is_sure = self.lost.as_ref().is_none_or(Shadow::is_sure);
+        is_sure && self.shadow.as_mut().is_some_and(|shadow| shadow.follow(step, rounding) && shadow.is_sure())
     }
 
     /// The error at a fraction of the step looked at last.

@@ -109,7 +109,7 @@ const SCENES: usize = 300;
 fn told(scene: &Scene) -> Option<[(f64, f64); 3]> {
     let mut propagated = Propagated::new(scene);
     let outcome = run_from(scene, None, &mut propagated).ok()?;
-    let told = propagated.errors(scene, &outcome).expect("steps that tell their errors");
+    let told = propagated.errors(scene, &outcome)?;
     let control = Control::Adaptive { tolerance: 1e-14 };
     let t_end = outcome.statistics.time;
     let exact =
