@@ -25,7 +25,7 @@ impl Figure {
     /// The paper's label, `fig:stdv_rec`; empty for a scene without one or one that cannot be read.
     pub fn label(&self) -> &str {
         let source = self.recipe.as_ref().map_or("", |recipe| recipe.source.as_str());
-        source.split_whitespace().next().unwrap_or("")
+        source.split_whitespace().next().unwrap_or("").trim_end_matches([',', ':'])
     }
 
     /// What it shows, in words.

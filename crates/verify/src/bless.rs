@@ -39,9 +39,11 @@ pub fn run(paths: &Paths, request: &Request, numbers: bool) -> Result<(), Failur
     }
     let claims = match paths.scheme == Scheme::Adaptive && claims::is_complete(paths)? {
         true => Some(claims::judge(paths, paths, None)?),
-        // tables that it reads are missing
         false => None,
     };
+    if claims.is_none() && paths.scheme == Scheme::Adaptive {
+        eprintln!("claims are not judged: tables that they read are missing; cargo xtask figures --all makes them");
+    }
     let changed = claims.as_ref().map(claims::Verdicts::differences).unwrap_or_default();
     print::out(&changed.iter().map(|line| format!("{line}\n")).collect::<String>())?;
     if !changed.is_empty() && !numbers {

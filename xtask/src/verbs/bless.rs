@@ -4,7 +4,7 @@ use super::judge;
 use crate::cli::BlessArgs;
 use crate::gate;
 use crate::lock::Lock;
-use crate::record::{self, Records, Survey};
+use crate::record::{self, Records};
 use crate::sources::Sources;
 use checkout::failure::Failure;
 use checkout::figure;
@@ -25,21 +25,12 @@ pub fn run(paths: &Paths, arguments: &BlessArgs) -> Result<(), Failure> {
     refuse_modified(paths)?;
     let sources = Sources::read(paths)?;
     let surveys = record::survey(paths, &selected, &sources, &Records::read(paths)?)?;
-    refuse_stale(&surveys)?;
+    gate::fresh(&surveys)?;
     let whole = arguments.selection.ids.is_empty();
     let request = Request { whole, ..judge::about(paths, &all, &sources, &surveys) };
     let mut verify = judge::program(paths)?;
     verify.arg("bless").arg("--request").arg(judge::request(paths, &request)?);
     judge::run(verify.args(arguments.numbers.then_some("--numbers")))
-}
-
-fn refuse_stale(surveys: &[Survey<'_>]) -> Result<(), Failure> {
-    let stale: Vec<&str> =
-        surveys.iter().filter(|survey| !survey.reasons.is_empty()).map(|survey| &*survey.figure.id).collect();
-    match stale.is_empty() {
-        true => Ok(()),
-        false => Err(Failure::Stale(format!("stale: {}; run cargo xtask figures first", stale.join(" ")))),
-    }
 }
 
 /// Sums stand for sources that anyone can get back: tracked files that are no outputs must be as committed.
