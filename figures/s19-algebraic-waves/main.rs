@@ -5,12 +5,12 @@ use figures::panels::{points, trajectories};
 use figures::{Failure, Job, figure};
 use files::table::{Cell, Sheet, Table};
 use jam::ring::{Ring, Start};
-use jam::states::FormKind;
+use jam::states::StateVariables;
 use ode::{Control, Method};
 use plot::style::COLUMN_WIDTH;
 use plot::{Axis, ColorScale, Lines, Picture, Series, SpaceTime};
 use scene::run::Scene;
-use scene::simulation::{Judging, Onlooker, run_from};
+use scene::simulation::{Judging, RunObserver, run_from};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -65,7 +65,8 @@ fn varied(scene: &Scene) -> Result<Sheet, Failure> {
         sheet.push(&row[..]);
         Ok::<(), Failure>(())
     };
-    for (method, form) in [(Method::Dop853, base.form), (Method::Verner87, base.form), (Method::Taylor, FormKind::Gaps)]
+    for (method, form) in
+        [(Method::Dop853, base.form), (Method::Verner87, base.form), (Method::Taylor, StateVariables::Spacings)]
     {
         add("method", Cell::Empty, Scene { method, form, ..base.clone() })?;
     }
@@ -97,7 +98,7 @@ fn varied(scene: &Scene) -> Result<Sheet, Failure> {
 /// Runs end where their outcome is certain.
 struct Judged;
 
-impl Onlooker for Judged {
+impl RunObserver for Judged {
     fn judging(&self) -> Judging {
         Judging::UntilCertain
     }

@@ -8,10 +8,10 @@ use crate::failure::Failure;
 use cpu_time::{ProcessTime, ThreadTime};
 use files::write::{atomic, sha256, sha256_file};
 use ode::Step;
-use scene::checkpoint::{Checkpoint, Underway};
+use scene::checkpoint::{Checkpoint, PartialRun};
 use scene::propagated::Propagated;
 use scene::run::Scene;
-use scene::simulation::{Judging, Onlooker, Sight, run_from};
+use scene::simulation::{Judging, RunObserver, Sight, run_from};
 use scene::summary::Ended;
 use std::io::{IsTerminal as _, Write as _};
 use std::path::PathBuf;
@@ -19,7 +19,7 @@ use std::time::{Duration, Instant};
 
 /// How a long run is looked after.
 #[derive(Debug, clap::Args)]
-pub struct Care {
+pub struct CheckpointOptions {
     /// Resume from FILE if it exists; updated while the run progresses, removed at its end
     #[arg(long, value_name = "FILE")]
     checkpoint: Option<PathBuf>,
@@ -45,7 +45,7 @@ struct Timed {
     spent: Duration,
 }
 
-impl Onlooker for Timed {
+impl RunObserver for Timed {
     fn seen(&mut self, step: &mut Step<'_>, sight: &mut Sight<'_, '_>) {
         if let Some(propagated) = &mut self.propagated {
             // taken off seconds of CPU: on a crowded machine the clock on the wall runs ahead of those
@@ -61,14 +61,14 @@ const WRITING: u32 = 100;
 /// Between two words about progress.
 const SILENCE: Duration = Duration::from_secs(1);
 
-impl Care {
+impl CheckpointOptions {
     /// Runs the scene, from the checkpoint if there is one; if it is to be checked, its steps are asked for their errors.
     ///
     /// # Errors
     /// The program cannot be read, which a checkpoint has to tell from others.
     pub fn run(&self, scene: &Scene, is_checked: bool) -> Result<Ended, Failure> {
         let clock = ProcessTime::now();
-        let mut keeper = Keeper::new(self, scene)?;
+        let mut keeper = CheckpointWriter::new(self, scene)?;
         let (from, before) = keeper.load(scene).unzip();
         let (steps, done) = from.as_ref().map_or((0, 0.0), |from| (from.steps(), from.fraction(scene)));
         keeper.start(done, before.unwrap_or(0.0));
@@ -98,8 +98,8 @@ impl Care {
 }
 
 /// Looks at a run now and then.
-struct Keeper<'a> {
-    care: &'a Care,
+struct CheckpointWriter<'a> {
+    care: &'a CheckpointOptions,
     /// The SHA-256 of the program and the scene; empty when nothing is kept.
     run: String,
     /// Seconds of CPU before this process.
@@ -113,8 +113,8 @@ struct Keeper<'a> {
     is_bar_shown: bool,
 }
 
-impl<'a> Keeper<'a> {
-    fn new(care: &'a Care, scene: &Scene) -> Result<Keeper<'a>, Failure> {
+impl<'a> CheckpointWriter<'a> {
+    fn new(care: &'a CheckpointOptions, scene: &Scene) -> Result<CheckpointWriter<'a>, Failure> {
         let is_kept = care.checkpoint.is_some();
         let run = if is_kept {
             let program = sha256_file(&std::env::current_exe()?)?;
@@ -125,7 +125,7 @@ impl<'a> Keeper<'a> {
         let (clock, now) = (ProcessTime::now(), Instant::now());
         let (next_word, next_writing) = (now + SILENCE, now + care.checkpoint_every);
         let (before, done, started) = (0.0, 0.0, now);
-        Ok(Keeper { care, run, before, clock, started, done, next_word, next_writing, is_bar_shown: false })
+        Ok(CheckpointWriter { care, run, before, clock, started, done, next_word, next_writing, is_bar_shown: false })
     }
 
     /// The checkpoint and the seconds before it; `None` when there is none to believe.
@@ -155,7 +155,7 @@ impl<'a> Keeper<'a> {
     }
 
     /// A checkpoint that cannot be written is told; the run is worth more and goes on.
-    fn write(&self, underway: &Underway<'_>) {
+    fn write(&self, underway: &PartialRun<'_>) {
         let Some(file) = &self.care.checkpoint else { return };
         let seconds = self.before + self.clock.elapsed().as_secs_f64();
         let body = [&seconds.to_le_bytes()[..], &underway.to_bytes()].concat();
@@ -185,12 +185,12 @@ impl<'a> Keeper<'a> {
     }
 }
 
-impl Onlooker for Keeper<'_> {
+impl RunObserver for CheckpointWriter<'_> {
     fn judging(&self) -> Judging {
         if self.care.no_outcome { Judging::No } else { Judging::Along }
     }
 
-    fn between(&mut self, underway: &Underway<'_>) {
+    fn between(&mut self, underway: &PartialRun<'_>) {
         let now = Instant::now();
         if now >= self.next_word {
             self.next_word = now + SILENCE;

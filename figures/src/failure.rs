@@ -25,8 +25,8 @@ impl Failure {
     }
 }
 
-impl From<scene::RecipeError> for Failure {
-    fn from(error: scene::RecipeError) -> Failure {
+impl From<scene::SceneError> for Failure {
+    fn from(error: scene::SceneError) -> Failure {
         Failure::input(error)
     }
 }

@@ -3,7 +3,7 @@
 use crate::failure::{Failure, print};
 use crate::panels::trajectories;
 use clap::Parser;
-use files::recipe;
+use files::scene_file;
 use files::write::atomic_all;
 use plot::style::FULL_WIDTH;
 use plot::{Axis, ColorScale, Picture, SpaceTime, Trajectory};
@@ -53,7 +53,7 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn space_time(file: &Path, panel: &str, part: f64) -> Result<SpaceTime, Failure> {
-    let recipe = recipe::read(file)?;
+    let recipe = scene_file::read(file)?;
     let mut scene = scene::run::read(&recipe.file, &recipe.panel(panel)?.tables)?;
     scene.keeps_trajectories = true;
     let outcome = run(&scene).map_err(Failure::work)?;

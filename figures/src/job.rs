@@ -3,7 +3,7 @@
 use crate::failure::{Failure, exit};
 use crate::planes::cells_of;
 use clap::Parser;
-use files::recipe::{self, Kind, Panel, Recipe};
+use files::scene_file::{self, Kind, Panel, SceneFile};
 use files::table::{Cell, Sheet, Table};
 use files::write::{atomic, with_path};
 use plot::Picture;
@@ -51,7 +51,7 @@ fn run_folder(text: &str) -> Result<(String, PathBuf), String> {
 #[derive(Debug)]
 pub struct Job {
     /// Its scene file.
-    pub recipe: Recipe,
+    pub recipe: SceneFile,
     arguments: Arguments,
     report: Map<String, Value>,
 }
@@ -71,7 +71,7 @@ fn run(
     picture: fn(&Job) -> Result<Picture, Failure>,
 ) -> Result<(), Failure> {
     let arguments = Arguments::parse();
-    let recipe = recipe::read(&arguments.scene)?;
+    let recipe = scene_file::read(&arguments.scene)?;
     let mut job = Job { recipe, arguments, report: Map::new() };
     for folder in [&job.arguments.tables, &job.arguments.pictures] {
         std::fs::create_dir_all(folder).map_err(|error| with_path(error, folder))?;

@@ -4,7 +4,7 @@ use crate::failure::{Failure, print};
 use crate::panels::{Labels, map_panel};
 use crate::uniform;
 use clap::Parser;
-use files::recipe::{self, Kind, Recipe};
+use files::scene_file::{self, Kind, SceneFile};
 use files::write::{atomic_all, with_path};
 use plot::style::COLUMN_WIDTH;
 use plot::{ColorScale, Picture};
@@ -36,7 +36,7 @@ pub struct Arguments {
 /// # Errors
 /// A bad scene (nothing is written), or a file that cannot be written.
 pub fn main(arguments: &Arguments) -> Result<(), Failure> {
-    let recipe = recipe::read(&arguments.scene)?;
+    let recipe = scene_file::read(&arguments.scene)?;
     let panels: Vec<_> = recipe.panels.iter().filter(|panel| panel.kind == Kind::Map).collect();
     if panels.is_empty() {
         return points(&recipe, arguments);
@@ -77,7 +77,7 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// Of a scene that is run, the stability of its uniform flow: a map of one point. Nothing is written.
-fn points(recipe: &Recipe, arguments: &Arguments) -> Result<(), Failure> {
+fn points(recipe: &SceneFile, arguments: &Arguments) -> Result<(), Failure> {
     let (mut summaries, mut words) = (Vec::new(), Vec::new());
     for panel in recipe.panels.iter().filter(|panel| panel.kind == Kind::Run) {
         let scene = scene::run::read_unrun(&recipe.file, &panel.tables)?;

@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::job::Job;
 use crate::titles::symbol;
-use files::recipe::Panel;
+use files::scene_file::Panel;
 use files::table::Table;
 use plot::style::COLUMN_WIDTH;
 use plot::{Axis, ColorScale, Lines, Map, Picture, Series, Trajectory};

@@ -134,7 +134,7 @@ fn axis(axis: &sweep::Axis, is_labelled: bool) -> Axis {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use files::recipe;
+    use files::scene_file;
     use scene::sweep::DecidedBy;
 
     /// A plane of the algebraic law whose uniform flow is stable and unstable, forwards and backwards.
@@ -143,7 +143,7 @@ mod tests {
                     [ring]\npedestrians = 67\n[start]\nshift = 0.1\n[run]\nt_end = 10.0\nmethod = \"taylor\"\ntolerance = 1e-6\n[sweep]\n\
                     x = { parameter = \"mu\", from = 0.2, to = 1.0, cells = 4 }\n\
                     y = { parameter = \"headway\", from = 2.2, to = 4.0, cells = 3, scale = \"log\" }\n";
-        let recipe = recipe::parse("plane.toml", text).expect("a scene");
+        let recipe = scene_file::parse("plane.toml", text).expect("a scene");
         scene::sweep::read(&recipe.file, &recipe.panels[0].tables).expect("a sweep")
     }
 

@@ -1,13 +1,13 @@
 //! Running a scene from the command line: tables, events and a summary.
 
-use crate::checkpoint::Care;
+use crate::checkpoint::CheckpointOptions;
 use crate::failure::{Failure, print};
 use crate::panels::{points, trajectories};
 use crate::uniform;
-use files::recipe::{self, Kind};
+use files::scene_file::{self, Kind};
 use files::table::Table;
 use files::write::atomic_all;
-use jam::events::Happening;
+use jam::events::Event;
 use jam::outcome::{Decision, Verdict};
 use ode::{Control, Method};
 use plot::style::COLUMN_WIDTH;
@@ -65,7 +65,7 @@ pub struct Arguments {
     no_check: bool,
     /// Progress and checkpoints.
     #[command(flatten)]
-    care: Care,
+    care: CheckpointOptions,
     /// Print the summary as JSON
     #[arg(long)]
     json: bool,
@@ -114,7 +114,7 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn read_scene(arguments: &Arguments) -> Result<Scene, Failure> {
-    let recipe = recipe::read(&arguments.scene)?;
+    let recipe = scene_file::read(&arguments.scene)?;
     let panel = match &arguments.panel {
         Some(name) => recipe.panel(name)?,
         None if recipe.panels.len() == 1 => &recipe.panels[0],
@@ -197,7 +197,7 @@ fn events(outcome: &Outcome, errors: Option<&Errors>) -> String {
     let mut text = if errors.is_some() { "event,t,n,error\n" } else { "event,t,n\n" }.to_owned();
     for (index, happening) in outcome.events.iter().enumerate() {
         // writing to a String cannot fail
-        let _ = write!(text, "{},{:?},{}", happening.event.name(), happening.time, happening.pedestrian);
+        let _ = write!(text, "{},{:?},{}", happening.kind.name(), happening.time, happening.pedestrian);
         if let Some(errors) = errors {
             let _ = write!(text, ",{}", errors.events[index].map_or(String::new(), |error| format!("{error:?}")));
         }
@@ -260,8 +260,8 @@ fn in_words(
     );
     let _ = write!(text, "\n{}", uniform::in_words(flow, scene.ring.pedestrians));
     for (index, happening) in outcome.events.iter().enumerate() {
-        let (event, time) = (happening.event, happening.time);
-        let is_same = |other: &Happening| (other.event, other.time) == (event, time);
+        let (event, time) = (happening.kind, happening.time);
+        let is_same = |other: &Event| (other.kind, other.time) == (event, time);
         if index > 0 && is_same(&outcome.events[index - 1]) {
             continue;
         }

@@ -1,7 +1,7 @@
 //! What stands in titles, legends and labels: the paper's symbols with the numbers of the scene.
 
 use files::reader::{Section, Value};
-use files::recipe::Panel;
+use files::scene_file::Panel;
 
 /// The paper's symbol of a parameter, in the markup of labels without its dollars.
 pub fn symbol(parameter: &str) -> &str {
@@ -78,11 +78,11 @@ fn text<'a>(section: &'a Section, key: &str) -> Option<&'a str> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use files::recipe;
+    use files::scene_file;
 
     fn panel(law: &str, rest: &str) -> Panel {
         let text = format!("title = \"\"\nsource = \"\"\n[law]\n{law}\n{rest}");
-        recipe::parse("scene.toml", &text).expect("a scene").panels.remove(0)
+        scene_file::parse("scene.toml", &text).expect("a scene").panels.remove(0)
     }
 
     #[test]

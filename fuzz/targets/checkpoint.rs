@@ -1,6 +1,6 @@
 //! Checkpoints: bytes that a killed run left, of any contents, are those of the scene or are not taken.
 
-use files::recipe;
+use files::scene_file;
 use scene::checkpoint::Checkpoint;
 
 /// Three pedestrians; what the corpus was made by.
@@ -10,7 +10,7 @@ pub const SCENE: &str = "[law]\nkind = \"exponential\"\na = 8.0\nb = 1.5\nv0 = 3
 
 /// Tries these bytes.
 pub fn read(bytes: &[u8]) {
-    let recipe = recipe::parse("any.toml", SCENE).expect("a scene");
+    let recipe = scene_file::parse("any.toml", SCENE).expect("a scene");
     let scene = scene::run::read("any.toml", &recipe.panels[0].tables).expect("a run");
     if let Some(checkpoint) = Checkpoint::parse(bytes, &scene) {
         let again = Checkpoint::parse(bytes, &scene).expect("what was taken once");

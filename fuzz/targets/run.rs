@@ -1,6 +1,6 @@
 //! Runs: a scene that is accepted, if it is small, runs to its end, stops with an event or says why it cannot go on.
 
-use files::recipe::{self, Kind};
+use files::scene_file::{self, Kind};
 use ode::Control;
 use scene::run::Scene;
 
@@ -10,7 +10,7 @@ const SMALL: (usize, f64, u64) = (12, 200.0, 400);
 /// Tries one file.
 pub fn read(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
-    let Ok(recipe) = recipe::parse("any.toml", text) else { return };
+    let Ok(recipe) = scene_file::parse("any.toml", text) else { return };
     for panel in recipe.panels.iter().filter(|panel| panel.kind == Kind::Run) {
         if let Ok(scene) = scene::run::read(&recipe.file, &panel.tables) {
             run(scene);

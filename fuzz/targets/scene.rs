@@ -1,7 +1,7 @@
 //! Scene files: whatever stands in one, it is accepted or refused with a line that exists and words that name the key.
 
-use files::reader::RecipeError;
-use files::recipe::{self, Kind, Panel, Recipe};
+use files::reader::SceneError;
+use files::scene_file::{self, Kind, Panel, SceneFile};
 
 /// So many points or cells are computed of what is accepted.
 const SMALL: usize = 64;
@@ -10,14 +10,14 @@ const SMALL: usize = 64;
 pub fn read(bytes: &[u8]) {
     // a file that is not UTF-8 is refused by the standard library
     let Ok(text) = std::str::from_utf8(bytes) else { return };
-    match recipe::parse("any.toml", text) {
+    match scene_file::parse("any.toml", text) {
         Ok(recipe) => accepted(&recipe, text),
         Err(error) => refused(&error, text),
     }
 }
 
-fn accepted(recipe: &Recipe, text: &str) {
-    let again = recipe::parse("any.toml", text).expect("what was accepted once");
+fn accepted(recipe: &SceneFile, text: &str) {
+    let again = scene_file::parse("any.toml", text).expect("what was accepted once");
     assert_eq!(format!("{again:?}"), format!("{recipe:?}"));
     for panel in &recipe.panels {
         let tables = match panel.kind {
@@ -50,7 +50,7 @@ fn points(panel: &Panel) -> f64 {
 }
 
 /// Asserts that a complaint names the file and a line of it.
-pub fn refused(error: &RecipeError, text: &str) {
+pub fn refused(error: &SceneError, text: &str) {
     let lines = 1 + text.bytes().filter(|&byte| byte == b'\n').count();
     assert!(error.line <= lines, "line {} of {lines}: {error}", error.line);
     assert!(!error.problem.is_empty() && error.file == "any.toml");

@@ -27,21 +27,21 @@ pub struct Usage {
 
 /// What a program says on stderr of the part of its work that is done, 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Word {
+pub enum Message {
     /// It goes on where another one was killed: `resumed 0.40`.
     Resumed(f64),
     /// It has come so far: `progress 0.42`.
     Progress(f64),
 }
 
-impl Word {
+impl Message {
     /// Reads a line; `None` when it is about something else.
-    pub fn parse(line: &str) -> Option<Word> {
+    pub fn parse(line: &str) -> Option<Message> {
         let (word, number) = line.split_once(' ')?;
         let fraction = number.parse().ok()?;
         match word {
-            "resumed" => Some(Word::Resumed(fraction)),
-            "progress" => Some(Word::Progress(fraction)),
+            "resumed" => Some(Message::Resumed(fraction)),
+            "progress" => Some(Message::Progress(fraction)),
             _ => None,
         }
     }
@@ -57,7 +57,7 @@ pub fn run_logged(
     command: Command,
     log: &Path,
     stop: &AtomicBool,
-    heard: &(dyn Fn(Word) + Sync),
+    heard: &(dyn Fn(Message) + Sync),
 ) -> Result<(), Failure> {
     run_measured(command, log, stop, heard).map(|_| ())
 }
@@ -70,7 +70,7 @@ pub fn run_measured(
     mut command: Command,
     log: &Path,
     stop: &AtomicBool,
-    heard: &(dyn Fn(Word) + Sync),
+    heard: &(dyn Fn(Message) + Sync),
 ) -> Result<Usage, Failure> {
     let name = command.get_program().to_string_lossy().into_owned();
     if let Some(folder) = log.parent() {
@@ -94,9 +94,9 @@ pub fn run_measured(
 }
 
 /// Passes lines on to the log until the program closes its stderr.
-fn listen(words: impl Read, mut log: File, heard: &(dyn Fn(Word) + Sync)) {
+fn listen(words: impl Read, mut log: File, heard: &(dyn Fn(Message) + Sync)) {
     for line in BufReader::new(words).split(b'\n').map_while(Result::ok) {
-        match Word::parse(&String::from_utf8_lossy(&line)) {
+        match Message::parse(&String::from_utf8_lossy(&line)) {
             Some(word) => heard(word),
             None => {
                 // a log that cannot be written keeps no figure from being made

@@ -2,7 +2,7 @@
 
 use crate::child::Usage;
 use crate::plan::{self, Node, Wish};
-use crate::record::Survey;
+use crate::record::FigureState;
 use crate::verbs::figures::{Times, forecast};
 use checkout::costs::{Cost, Costs};
 use checkout::failure::Failure;
@@ -32,7 +32,7 @@ pub struct Choice<'a> {
 /// A stored run cannot be read.
 pub fn choose<'a>(
     scratch: &Paths,
-    surveys: &[Survey<'a>],
+    surveys: &[FigureState<'a>],
     (times, costs): (&Times, &Costs),
     threads: usize,
     budget: f64,

@@ -1,6 +1,6 @@
 //! Conditions for making a document about the figures: they are up to date, and they are the committed ones.
 
-use crate::record::{self, Records, Survey};
+use crate::record::{self, FigureState, Records};
 use crate::sources::Sources;
 use checkout::failure::Failure;
 use checkout::figure::{self, Figure};
@@ -59,7 +59,7 @@ pub fn everything_verifies(paths: &Paths, all: &[Figure]) -> Result<(), Failure>
 ///
 /// # Errors
 /// Stale: with the figures that are.
-pub fn fresh(surveys: &[Survey<'_>]) -> Result<(), Failure> {
+pub fn fresh(surveys: &[FigureState<'_>]) -> Result<(), Failure> {
     let stale = surveys.iter().filter(|survey| !survey.reasons.is_empty()).map(|survey| survey.figure.id.as_str());
     match stale.collect::<Vec<&str>>() {
         stale if stale.is_empty() => Ok(()),

@@ -2,7 +2,7 @@
 
 use crate::estimate::{self, Estimate};
 use crate::pins::{CRATE, RUSTC};
-use crate::record::Survey;
+use crate::record::FigureState;
 use crate::sources::KEY;
 use checkout::disk;
 use checkout::events;
@@ -71,7 +71,7 @@ struct TableReport {
 /// An output, or what the binary said of it, cannot be read.
 pub fn measure(
     paths: &Paths,
-    survey: &Survey<'_>,
+    survey: &FigureState<'_>,
     estimates: &BTreeMap<String, Estimate>,
     scenes: &BTreeMap<String, String>,
 ) -> Result<Measured, Failure> {
@@ -99,7 +99,7 @@ pub fn measure(
 }
 
 /// What all outputs of a figure share.
-fn common(survey: &Survey<'_>) -> Entry {
+fn common(survey: &FigureState<'_>) -> Entry {
     let scene = Paths::scene(&survey.figure.slug);
     let hash = |name: &str| survey.inputs.get(name).cloned().unwrap_or_default();
     let mut sources = survey.inputs.clone();
@@ -118,7 +118,7 @@ fn common(survey: &Survey<'_>) -> Entry {
 
 fn describe_table(
     entry: &mut Entry,
-    survey: &Survey<'_>,
+    survey: &FigureState<'_>,
     table: &str,
     path: &Path,
     report: &Report,
@@ -151,7 +151,7 @@ fn counts(summary: &Value) -> BTreeMap<String, Value> {
 
 /// The key of the run a table was read from: of the panel the binary names, of the panel named as the table, or of the
 /// figure's only run.
-fn run_of<'a>(survey: &'a Survey<'_>, table: &str, said: Option<&str>) -> Option<&'a str> {
+fn run_of<'a>(survey: &'a FigureState<'_>, table: &str, said: Option<&str>) -> Option<&'a str> {
     let wanted = said.unwrap_or(table);
     let named = survey.runs.iter().find(|(panel, _)| panel == wanted);
     let only = || survey.runs.first().filter(|_| survey.runs.len() == 1 && said.is_none());

@@ -1,12 +1,12 @@
 //! The plan: what has to be done, in which order.
 
 use crate::pool::Job;
-use crate::record::Survey;
+use crate::record::FigureState;
 use crate::store;
 use checkout::failure::Failure;
 use checkout::paths::Paths;
 use files::reader::Value;
-use files::recipe::{Kind, Panel};
+use files::scene_file::{Kind, Panel};
 use std::collections::BTreeMap;
 
 /// One program to start.
@@ -55,7 +55,7 @@ pub struct Wish {
 ///
 /// # Errors
 /// A stored run cannot be read.
-pub fn make(paths: &Paths, surveys: &[Survey<'_>], wishes: &[Wish], force: bool) -> Result<Vec<Node>, Failure> {
+pub fn make(paths: &Paths, surveys: &[FigureState<'_>], wishes: &[Wish], force: bool) -> Result<Vec<Node>, Failure> {
     let mut nodes: Vec<Node> = Vec::new();
     let mut known: BTreeMap<String, Option<usize>> = BTreeMap::new();
     for (index, (survey, wish)) in surveys.iter().zip(wishes).enumerate() {
@@ -83,7 +83,7 @@ pub fn make(paths: &Paths, surveys: &[Survey<'_>], wishes: &[Wish], force: bool)
     Ok(nodes)
 }
 
-fn run(survey: &Survey<'_>, panel: &Panel, key: &str, check: bool) -> (String, Node) {
+fn run(survey: &FigureState<'_>, panel: &Panel, key: &str, check: bool) -> (String, Node) {
     let key = if check { store::check_key(key) } else { key.to_owned() };
     let work = if check { 2.0 * cost(panel) } else { cost(panel) };
     let verb = if check { "check" } else { "run" };
@@ -93,7 +93,7 @@ fn run(survey: &Survey<'_>, panel: &Panel, key: &str, check: bool) -> (String, N
     (key, Node { name, step, job: Job { after: Vec::new(), weight: work } })
 }
 
-fn draw(survey: &Survey<'_>, index: usize, after: Vec<usize>) -> Node {
+fn draw(survey: &FigureState<'_>, index: usize, after: Vec<usize>) -> Node {
     let panels = survey.figure.recipe.as_ref().map_or(&[][..], |recipe| &recipe.panels);
     let maps = panels.iter().filter(|panel| panel.kind == Kind::Map).count();
     let job = Job { after, weight: 1.0 + maps as f64 };

@@ -1,6 +1,6 @@
 //! Progress of the nodes at work, on stderr: one line that changes on a terminal, else a plain line now and then.
 
-use crate::child::Word;
+use crate::child::Message;
 use checkout::print::duration;
 use std::collections::BTreeMap;
 use std::io::{IsTerminal, Write};
@@ -39,7 +39,7 @@ impl Track {
 }
 
 /// The nodes at work, by name.
-pub struct Board {
+pub struct ProgressDisplay {
     inner: Mutex<Inner>,
     is_terminal: bool,
 }
@@ -49,22 +49,22 @@ struct Inner {
     shown: Instant,
 }
 
-impl Board {
+impl ProgressDisplay {
     /// An empty board for stderr.
-    pub fn new() -> Board {
+    pub fn new() -> ProgressDisplay {
         let inner = Inner { nodes: BTreeMap::new(), shown: Instant::now() };
-        Board { inner: Mutex::new(inner), is_terminal: std::io::stderr().is_terminal() }
+        ProgressDisplay { inner: Mutex::new(inner), is_terminal: std::io::stderr().is_terminal() }
     }
 
     /// Takes down what a node says, and shows it when it is time to. Returns at once.
-    pub fn hear(&self, node: &str, word: Word) {
+    pub fn hear(&self, node: &str, word: Message) {
         let mut inner = self.inner.lock().unwrap_or_else(PoisonError::into_inner);
         let now = Instant::now();
         let unknown = || (now, Track { from: 0.0, done: 0.0, seconds: 0.0 });
         let (start, track) = inner.nodes.entry(node.to_owned()).or_insert_with(unknown);
         match word {
-            Word::Resumed(done) => *track = Track { from: done, done, seconds: 0.0 },
-            Word::Progress(done) => *track = Track { done, seconds: start.elapsed().as_secs_f64(), ..*track },
+            Message::Resumed(done) => *track = Track { from: done, done, seconds: 0.0 },
+            Message::Progress(done) => *track = Track { done, seconds: start.elapsed().as_secs_f64(), ..*track },
         }
         let silence = if self.is_terminal { LIVELY } else { PLAIN };
         if track.done > 0.0 && inner.shown.elapsed() >= silence {
@@ -78,7 +78,7 @@ impl Board {
 
     /// Takes the word of a node that starts.
     pub fn start(&self, node: &str) {
-        self.hear(node, Word::Resumed(0.0));
+        self.hear(node, Message::Resumed(0.0));
     }
 
     /// Takes a node off that has ended; whether it had been resumed.
@@ -93,9 +93,9 @@ impl Board {
     }
 }
 
-impl Default for Board {
-    fn default() -> Board {
-        Board::new()
+impl Default for ProgressDisplay {
+    fn default() -> ProgressDisplay {
+        ProgressDisplay::new()
     }
 }
 

@@ -85,7 +85,7 @@ impl Records {
 
 /// A figure, what it is made from now, and why it is stale.
 #[derive(Clone, Debug)]
-pub struct Survey<'a> {
+pub struct FigureState<'a> {
     /// The figure.
     pub figure: &'a Figure,
     /// Its runs: panel and key.
@@ -107,7 +107,7 @@ pub fn survey<'a>(
     figures: &[&'a Figure],
     sources: &Sources,
     records: &Records,
-) -> Result<Vec<Survey<'a>>, Failure> {
+) -> Result<Vec<FigureState<'a>>, Failure> {
     let numeric = sources.numeric();
     let made = outputs::hash(paths, figures)?;
     let look = |(&figure, outputs): (&&'a Figure, Hashes)| {
@@ -120,7 +120,7 @@ pub fn survey<'a>(
         {
             reasons.push("what it said of its accuracy is not as recorded".to_owned());
         }
-        Ok(Survey { figure, runs, inputs, outputs, reasons })
+        Ok(FigureState { figure, runs, inputs, outputs, reasons })
     };
     figures.iter().zip(made).map(look).collect()
 }

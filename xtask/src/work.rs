@@ -1,10 +1,10 @@
 //! Carries out a plan: starts programs, puts their outputs in place, shows progress on stderr.
 
-use crate::child::{self, Usage, Word};
+use crate::child::{self, Message, Usage};
 use crate::plan::{Node, Step};
 use crate::pool::{self, Job, Outcome};
-use crate::progress::Board;
-use crate::record::Survey;
+use crate::progress::ProgressDisplay;
+use crate::record::FigureState;
 use crate::store;
 use checkout::disk;
 use checkout::failure::Failure;
@@ -40,14 +40,14 @@ pub struct Made {
 /// Those of `made`; the failures of nodes are in the outcomes.
 pub fn carry_out(
     paths: &Paths,
-    surveys: &[Survey<'_>],
+    surveys: &[FigureState<'_>],
     nodes: &[Node],
     threads: usize,
     keep_going: bool,
     made: &mut dyn FnMut(&Node, &Made) -> Result<(), Failure>,
 ) -> Result<Vec<Outcome<Made>>, Failure> {
     let jobs: Vec<Job> = nodes.iter().map(|node| node.job.clone()).collect();
-    let board = Board::new();
+    let board = ProgressDisplay::new();
     let work = |index: usize, stop: &AtomicBool| {
         // seconds are shown, and kept below target; they reach no output
         let start = Instant::now();
@@ -82,10 +82,10 @@ pub fn carry_out(
 
 fn perform(
     paths: &Paths,
-    surveys: &[Survey<'_>],
+    surveys: &[FigureState<'_>],
     node: &Node,
     stop: &AtomicBool,
-    heard: &(dyn Fn(Word) + Sync),
+    heard: &(dyn Fn(Message) + Sync),
 ) -> Result<Made, Failure> {
     let log = paths.log(&node.name);
     match &node.step {
@@ -128,7 +128,7 @@ fn simulate(paths: &Paths, scene: &str, panel: &str, check: bool) -> Command {
 
 /// The tables are written into a folder of their own that then takes the place of the old one: no table of an earlier
 /// run stays behind.
-fn draw(paths: &Paths, survey: &Survey<'_>, fresh: &Path, log: &Path, stop: &AtomicBool) -> Result<Made, Failure> {
+fn draw(paths: &Paths, survey: &FigureState<'_>, fresh: &Path, log: &Path, stop: &AtomicBool) -> Result<Made, Failure> {
     let figure = survey.figure;
     let report = paths.report(&figure.id);
     let pictures = match paths.scheme {
@@ -162,7 +162,7 @@ fn bytes(files: &[PathBuf]) -> u64 {
     files.iter().filter_map(|file| file.metadata().ok()).map(|data| data.len()).sum()
 }
 
-fn put_in_place(paths: &Paths, survey: &Survey<'_>, fresh: &Path) -> Result<Hashes, Failure> {
+fn put_in_place(paths: &Paths, survey: &FigureState<'_>, fresh: &Path) -> Result<Hashes, Failure> {
     let tables = paths.output(&paths.tables(&survey.figure.id));
     if disk::names(fresh)?.is_empty() {
         disk::remove(fresh)?;

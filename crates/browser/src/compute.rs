@@ -1,7 +1,7 @@
 //! Tables of the figures, as the bytes of their CSV files.
 
 use crate::figures::{Content, Entry, Figure};
-use files::recipe::{self, Panel};
+use files::scene_file::{self, Panel};
 use files::table::Table;
 use files::write::sha256;
 use scene::simulation::Outcome;
@@ -26,7 +26,7 @@ impl Tables {
     /// In words: what is wrong with the scene, or how far the integration came.
     pub fn csv(&mut self, figure: &Figure, entry: &Entry) -> Result<Vec<u8>, String> {
         let file = format!("{}/scene.toml", figure.id);
-        let recipe = recipe::parse(&file, figure.scene).map_err(|error| error.to_string())?;
+        let recipe = scene_file::parse(&file, figure.scene).map_err(|error| error.to_string())?;
         let panel = recipe.panel(entry.panel).map_err(|error| error.to_string())?;
         match entry.content {
             Content::Map => {

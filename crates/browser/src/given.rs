@@ -1,7 +1,7 @@
 //! The scene that a page gives: the text of a scene file with `[run]`, and what is told of one that is wrong.
 
-use files::reader::RecipeError;
-use files::recipe::{self, Kind};
+use files::reader::SceneError;
+use files::scene_file::{self, Kind};
 use serde_json::{Value, json};
 
 /// What messages call the scene of a page.
@@ -11,16 +11,16 @@ pub const FILE: &str = "scene.toml";
 ///
 /// # Errors
 /// The text is no scene, or has not one run; as JSON, see [`complaint`].
-pub fn panel(text: &str) -> Result<recipe::Panel, Value> {
-    let mut recipe = recipe::parse(FILE, text).map_err(|error| complaint(&error))?;
+pub fn panel(text: &str) -> Result<scene_file::Panel, Value> {
+    let mut recipe = scene_file::parse(FILE, text).map_err(|error| complaint(&error))?;
     match (recipe.panels.pop(), recipe.panels.len()) {
         (Some(panel), 0) if panel.kind == Kind::Run => Ok(panel),
-        _ => Err(complaint(&RecipeError::new(FILE, 0, "must have one [run], and no panels".to_owned()))),
+        _ => Err(complaint(&SceneError::new(FILE, 0, "must have one [run], and no panels".to_owned()))),
     }
 }
 
 /// What is wrong, as JSON: `problem` in words, `line` (null: the whole file), `key` and `allowed` where they are known.
-pub fn complaint(error: &RecipeError) -> Value {
+pub fn complaint(error: &SceneError) -> Value {
     let about = error.about.as_deref();
     json!({
         "problem": error.problem,

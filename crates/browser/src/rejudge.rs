@@ -6,7 +6,7 @@ use claims::again;
 use claims::sheet::{Sheet, Stated};
 use claims::source::Sources;
 use claims::tables::{EVENTS, Tables};
-use files::recipe;
+use files::scene_file;
 use files::table::{self, Cell, Table};
 use scene::check::Errors;
 use scene::simulation::Outcome;
@@ -79,7 +79,7 @@ fn sheets(figure: &str, panel: &str, ran: &Ran) -> Result<Vec<(String, Sheet)>, 
 
 fn determinants(id: &str, panel: &str) -> Result<String, String> {
     let figure = FIGURES.iter().find(|figure| figure.id == id).ok_or_else(|| format!("no figure {id}"))?;
-    let recipe = recipe::parse(id, figure.scene).map_err(|error| error.to_string())?;
+    let recipe = scene_file::parse(id, figure.scene).map_err(|error| error.to_string())?;
     Ok(recipe.panel(panel).map_err(|error| error.to_string())?.determinants())
 }
 
@@ -119,7 +119,7 @@ fn events(scene: &str, ran: &Ran) -> Sheet {
     let mut sheet = table::Sheet::new(&["scene", "event", "t", "n", "uncertainty"]);
     for (happening, error) in ran.outcome.events.iter().zip(&ran.errors.events) {
         let error = error.map_or(Cell::Empty, Cell::from);
-        let (event, time) = (Cell::from(happening.event.name()), Cell::from(happening.time));
+        let (event, time) = (Cell::from(happening.kind.name()), Cell::from(happening.time));
         sheet.push(vec![Cell::from(scene), event, time, Cell::from(happening.pedestrian), error]);
     }
     Sheet::new(sheet, &|_| None)

@@ -4,12 +4,12 @@ use crate::given::{FILE, complaint, panel};
 use crate::rejudge::Ran;
 use files::table::Table;
 use files::write::sha256;
-use jam::events::Happening;
+use jam::events::Event;
 use ode::Step;
 use scene::check;
 use scene::propagated::Propagated;
 use scene::run::Scene;
-use scene::simulation::{Judging, Onlooker, Sight, run_from};
+use scene::simulation::{Judging, RunObserver, Sight, run_from};
 use scene::summary::{self, Ended};
 use scene::uniform::stability;
 use serde_json::{Value, json};
@@ -77,9 +77,9 @@ struct Watch<'a> {
     hearer: &'a mut dyn Hearer,
 }
 
-impl Onlooker for Watch<'_> {
+impl RunObserver for Watch<'_> {
     fn seen(&mut self, _step: &mut Step<'_>, sight: &mut Sight<'_, '_>) {
-        for Happening { event, time, pedestrian, .. } in sight.new {
+        for Event { kind: event, time, pedestrian, .. } in sight.new {
             self.hearer.event(&json!({ "event": event.name(), "t": time, "n": pedestrian }).to_string());
         }
     }

@@ -3,7 +3,7 @@
 use crate::disk;
 use crate::failure::Failure;
 use crate::paths::Paths;
-use files::recipe::{self, Kind, Panel, Recipe};
+use files::scene_file::{self, Kind, Panel, SceneFile};
 
 /// A folder `figNN-slug` (or `sNN-slug`: a supplement) with a scene.
 #[derive(Clone, Debug)]
@@ -13,7 +13,7 @@ pub struct Figure {
     /// The part before the first hyphen: `fig04`.
     pub id: String,
     /// The scene, or what is wrong with it.
-    pub recipe: Result<Recipe, String>,
+    pub recipe: Result<SceneFile, String>,
 }
 
 impl Figure {
@@ -69,7 +69,7 @@ pub fn discover(paths: &Paths) -> Result<Vec<Figure>, Failure> {
         }
         let scene = Paths::scene(&slug);
         let recipe = match disk::read_text(&paths.root.join(&scene))? {
-            Some(text) => recipe::parse(&scene, &text).map_err(|error| error.to_string()),
+            Some(text) => scene_file::parse(&scene, &text).map_err(|error| error.to_string()),
             None => Err(format!("{scene}: no such file")),
         };
         figures.push(Figure { id: id.to_owned(), slug, recipe });

@@ -15,7 +15,7 @@ pub const FINITE: (Bound<f64>, Bound<f64>) = (Bound::Unbounded, Bound::Unbounded
 
 /// What is wrong with a scene file.
 #[derive(Clone, Debug, PartialEq)]
-pub struct RecipeError {
+pub struct SceneError {
     /// The file as the user named it.
     pub file: String,
     /// The line, counted from 1; 0 when the whole file is meant.
@@ -37,14 +37,14 @@ pub struct About {
     pub allowed: Option<String>,
 }
 
-impl RecipeError {
+impl SceneError {
     /// A complaint about a line.
-    pub fn new(file: &str, line: usize, problem: String) -> RecipeError {
-        RecipeError { file: file.to_owned(), line, problem, about: None }
+    pub fn new(file: &str, line: usize, problem: String) -> SceneError {
+        SceneError { file: file.to_owned(), line, problem, about: None }
     }
 }
 
-impl std::fmt::Display for RecipeError {
+impl std::fmt::Display for SceneError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self.line {
             0 => write!(f, "{}: {}", self.file, self.problem),
@@ -53,7 +53,7 @@ impl std::fmt::Display for RecipeError {
     }
 }
 
-impl std::error::Error for RecipeError {}
+impl std::error::Error for SceneError {}
 
 /// A value of the file and the line it stands on.
 #[derive(Clone, Debug, PartialEq)]
@@ -116,8 +116,8 @@ impl Section {
     ///
     /// # Errors
     /// The line and the parser's message when the text is not TOML, or a number is not an `f64`.
-    pub fn parse(file: &str, text: &str) -> Result<Section, RecipeError> {
-        let fail = |line, problem| RecipeError::new(file, line, problem);
+    pub fn parse(file: &str, text: &str) -> Result<Section, SceneError> {
+        let fail = |line, problem| SceneError::new(file, line, problem);
         let table = DeTable::parse(text).map_err(|error| {
             let line = error.span().map_or(0, |span| line_of(text, span.start));
             let hint = text.lines().nth(line.wrapping_sub(1)).and_then(hint_in);
@@ -241,7 +241,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// Missing, not a number, not finite, or out of range.
-    pub fn number(&mut self, key: &'static str, range: impl RangeBounds<f64>) -> Result<f64, RecipeError> {
+    pub fn number(&mut self, key: &'static str, range: impl RangeBounds<f64>) -> Result<f64, SceneError> {
         let wanted = describe(&range);
         match self.optional_number(key, range)? {
             Some(number) => Ok(number),
@@ -257,7 +257,7 @@ impl<'a> Reader<'a> {
         &mut self,
         key: &'static str,
         range: impl RangeBounds<f64>,
-    ) -> Result<Option<f64>, RecipeError> {
+    ) -> Result<Option<f64>, SceneError> {
         self.asked.insert(key);
         match self.section.entries.get(key) {
             None => Ok(None),
@@ -272,7 +272,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// Missing, not a whole number, or out of range.
-    pub fn count(&mut self, key: &'static str, low: usize, high: usize) -> Result<usize, RecipeError> {
+    pub fn count(&mut self, key: &'static str, low: usize, high: usize) -> Result<usize, SceneError> {
         self.asked.insert(key);
         let wanted = format!("a whole number from {low} to {high}");
         match self.section.entries.get(key) {
@@ -291,7 +291,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// Missing, not a text, or none of the choices.
-    pub fn choice(&mut self, key: &'static str, choices: &[&'static str]) -> Result<&'static str, RecipeError> {
+    pub fn choice(&mut self, key: &'static str, choices: &[&'static str]) -> Result<&'static str, SceneError> {
         self.asked.insert(key);
         let wanted = format!("one of {}", choices.join(", "));
         match self.section.entries.get(key) {
@@ -311,7 +311,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// Missing, not a text, or none of the names.
-    pub fn one_of<T: Copy>(&mut self, key: &'static str, choices: &[(&'static str, T)]) -> Result<T, RecipeError> {
+    pub fn one_of<T: Copy>(&mut self, key: &'static str, choices: &[(&'static str, T)]) -> Result<T, SceneError> {
         let names: Vec<&'static str> = choices.iter().map(|choice| choice.0).collect();
         let name = self.choice(key, &names)?;
         let named = choices.iter().find(|choice| choice.0 == name).map(|choice| choice.1);
@@ -322,7 +322,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// Missing, or neither.
-    pub fn flag(&mut self, key: &'static str) -> Result<bool, RecipeError> {
+    pub fn flag(&mut self, key: &'static str) -> Result<bool, SceneError> {
         self.asked.insert(key);
         match self.section.entries.get(key) {
             None => Err(self.missing(key, "true or false")),
@@ -335,7 +335,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// Missing, or not a text.
-    pub fn text(&mut self, key: &'static str, wanted: &str) -> Result<&'a str, RecipeError> {
+    pub fn text(&mut self, key: &'static str, wanted: &str) -> Result<&'a str, SceneError> {
         self.asked.insert(key);
         match self.section.entries.get(key) {
             None => Err(self.missing(key, wanted)),
@@ -348,7 +348,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// Missing, or not a table.
-    pub fn section(&mut self, key: &'static str) -> Result<&'a Section, RecipeError> {
+    pub fn section(&mut self, key: &'static str) -> Result<&'a Section, SceneError> {
         self.asked.insert(key);
         match self.section.entries.get(key) {
             None => Err(self.missing(key, "a table")),
@@ -359,7 +359,7 @@ impl<'a> Reader<'a> {
 
     /// The complaint that `key` has a value which is allowed by itself but not here. What the problem says behind "must be"
     /// is what would be valid.
-    pub fn complaint(&self, key: &str, problem: &str) -> RecipeError {
+    pub fn complaint(&self, key: &str, problem: &str) -> SceneError {
         let entry = self.section.entries.get(key);
         let line = entry.map_or(self.section.line, |entry| entry.line);
         let found = entry.map_or(String::new(), |entry| format!(" = {}", shown(&entry.value)));
@@ -371,7 +371,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// A key that nothing asked for; the message lists those that are known.
-    pub fn finish(self) -> Result<(), RecipeError> {
+    pub fn finish(self) -> Result<(), SceneError> {
         match self.section.entries.iter().find(|(key, _)| !self.asked.contains(key.as_str())) {
             None => Ok(()),
             Some((key, entry)) => {
@@ -381,24 +381,24 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn missing(&self, key: &str, wanted: &str) -> RecipeError {
+    fn missing(&self, key: &str, wanted: &str) -> SceneError {
         let others: Vec<&str> = self.section.entries.keys().map(String::as_str).collect();
         let found = if others.is_empty() { String::new() } else { format!("; found here: {}", others.join(", ")) };
         self.error(self.section.line, key, format!(" is missing; it must be {wanted}{found}"), Some(wanted))
     }
 
-    fn wrong(&self, key: &str, entry: &Entry, wanted: &str) -> RecipeError {
+    fn wrong(&self, key: &str, entry: &Entry, wanted: &str) -> SceneError {
         self.error(entry.line, key, format!(" = {}: must be {wanted}", shown(&entry.value)), Some(wanted))
     }
 
     /// `words` follow the key.
-    fn error(&self, line: usize, key: &str, words: String, allowed: Option<&str>) -> RecipeError {
+    fn error(&self, line: usize, key: &str, words: String, allowed: Option<&str>) -> SceneError {
         // a scene itself has no name in its file
         let name = if self.name == "scene" { key.to_owned() } else { format!("{}.{key}", self.name) };
         let value = self.section.entries.get(key).map(|entry| entry.value.clone());
         let about = About { key: name, value, allowed: allowed.map(str::to_owned) };
         let problem = format!("{}.{key}{words}", self.name);
-        RecipeError { about: Some(Box::new(about)), ..RecipeError::new(self.file, line, problem) }
+        SceneError { about: Some(Box::new(about)), ..SceneError::new(self.file, line, problem) }
     }
 }
 

@@ -1,6 +1,6 @@
 //! The second integration, twice, so that it tells its own error.
 
-use math::twofold::Twofold;
+use math::double_double::DoubleDouble;
 use reference::flow::Form;
 use reference::number::Real;
 use reference::solution::{End, Kind, Question, Sample, Solution, solve};
@@ -24,7 +24,7 @@ pub enum Numbers {
     /// Doubles.
     Doubles,
     /// Unevaluated sums of two doubles.
-    Twofold,
+    DoubleDouble,
 }
 
 impl Answer {
@@ -32,7 +32,7 @@ impl Answer {
     pub fn new(question: &Question, numbers: Numbers) -> Answer {
         match numbers {
             Numbers::Doubles => pair::<f64>(question, [(12, 1e-13), (9, 1e-13)], 20_000_000),
-            Numbers::Twofold => pair::<Twofold>(question, [(20, 1e-20), (16, 1e-19)], 1_000_000),
+            Numbers::DoubleDouble => pair::<DoubleDouble>(question, [(20, 1e-20), (16, 1e-19)], 1_000_000),
         }
     }
 

@@ -3,7 +3,7 @@
 use crate::answer::{Answer, Numbers};
 use crate::bound::Bound;
 use crate::{draw, judge, question, stated};
-use files::recipe;
+use files::scene_file;
 use reference::solution::Kind;
 use scene::propagated::Propagated;
 use serde_json::{Value, json};
@@ -14,11 +14,11 @@ const LEAST_SHIFT: f64 = 1e-7;
 /// The runs of a scene that end well, as the first and the second integration have them.
 pub fn of(seed: u64) -> Vec<Value> {
     let text = draw::scene(seed);
-    let Ok(recipe) = recipe::parse("scene.toml", &text) else { return Vec::new() };
+    let Ok(recipe) = scene_file::parse("scene.toml", &text) else { return Vec::new() };
     recipe.panels.iter().filter_map(|panel| case(seed, &text, panel)).collect()
 }
 
-fn case(seed: u64, text: &str, panel: &recipe::Panel) -> Option<Value> {
+fn case(seed: u64, text: &str, panel: &scene_file::Panel) -> Option<Value> {
     let scene = scene::run::read("scene.toml", &panel.tables).ok()?;
     let mut propagated = Propagated::new(&scene);
     let outcome = scene::simulation::run_from(&scene, None, &mut propagated).ok()?;
@@ -37,7 +37,7 @@ fn case(seed: u64, text: &str, panel: &recipe::Panel) -> Option<Value> {
     let events: Vec<Value> = outcome
         .events
         .iter()
-        .map(|happening| json!([happening.event.name(), happening.time, happening.pedestrian]))
+        .map(|happening| json!([happening.kind.name(), happening.time, happening.pedestrian]))
         .collect();
     let right_events: Vec<Value> = Kind::ALL
         .into_iter()

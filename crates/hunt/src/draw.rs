@@ -85,7 +85,7 @@ fn by_taylor(text: &str, random: &mut Random) -> String {
         rest.join("\n").replace("[run]", &run) + "\n"
     };
     let is_refused = |text: &str| {
-        let recipe = files::recipe::parse("scene.toml", text);
+        let recipe = files::scene_file::parse("scene.toml", text);
         recipe.is_ok_and(|recipe| {
             recipe.panels.iter().any(|panel| {
                 let scene = scene::run::read("scene.toml", &panel.tables);

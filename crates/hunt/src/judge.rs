@@ -4,9 +4,9 @@ use crate::answer::{Answer, Numbers};
 use crate::bound::Bound;
 use crate::question;
 use crate::stated::{self, Stated};
-use files::recipe;
-use jam::events::{Event, Happening};
-use jam::states::FormKind;
+use files::scene_file;
+use jam::events::{Event, EventKind};
+use jam::states::StateVariables;
 use math::larger;
 use reference::solution::{End, Kind, Question};
 use scene::propagated::Propagated;
@@ -64,7 +64,7 @@ pub fn scene(text: &str) -> Vec<Verdict> {
 
 /// Judges every panel of a scene by what another text asks.
 pub fn scene_as(text: &str, other: &str) -> Vec<Verdict> {
-    match recipe::parse("scene.toml", text) {
+    match scene_file::parse("scene.toml", text) {
         Err(error) => {
             vec![Verdict { ending: "refused: not a scene".into(), findings: vec![error.to_string()], ..named("") }]
         }
@@ -85,7 +85,7 @@ fn named(panel: &str) -> Verdict {
     }
 }
 
-fn judge_panel(text: &str, panel: &recipe::Panel) -> Verdict {
+fn judge_panel(text: &str, panel: &scene_file::Panel) -> Verdict {
     let mut verdict = named(&panel.name);
     let question = match question::read(text, &panel.name) {
         Ok(question) => question,
@@ -181,13 +181,13 @@ fn ended(
     verdict.ending = ending(scene, outcome, broken);
     question.times = times(scene, outcome);
     // what comes after the end tells whether there is a reason for it
-    let is_undefined = outcome.events.iter().any(|happening| happening.event == Event::Undefined);
+    let is_undefined = outcome.events.iter().any(|happening| happening.kind == EventKind::Undefined);
     if broken.is_some() || is_blown_up(outcome) || is_undefined {
         question.times.push(scene.t_end);
     }
     verdict.cost = Some((stated.cost, outcome.statistics.evaluations));
     // what faster numbers cannot decide, better ones are asked
-    for numbers in [Numbers::Doubles, Numbers::Twofold] {
+    for numbers in [Numbers::Doubles, Numbers::DoubleDouble] {
         let answer = Answer::new(&question, numbers);
         if numbers == Numbers::Doubles || answer.is_settled(outcome.statistics.time) {
             verdict.ratios.clear();
@@ -213,8 +213,8 @@ fn ended(
 fn ending(scene: &Scene, outcome: &Outcome, broken: Option<&Broken>) -> String {
     let mut kinds: Vec<&str> = Vec::new();
     for happening in &outcome.events {
-        if !kinds.contains(&happening.event.name()) {
-            kinds.push(happening.event.name());
+        if !kinds.contains(&happening.kind.name()) {
+            kinds.push(happening.kind.name());
         }
     }
     let end = match broken {
@@ -242,7 +242,7 @@ fn reason(verdict: &mut Verdict, scene: &Scene, broken: &Broken, answer: &Answer
     let own = broken.narrowest.is_some_and(|place| is_rounding(place.room));
     let blows_up = matches!(solution.end, End::Singular | End::BlownUp);
     let sees_none = when <= time && is_rounding(room) || own && blows_up;
-    let is_blind = scene.form == FormKind::Positions && sees_none;
+    let is_blind = scene.form == StateVariables::Positions && sees_none;
     if !is_own && !ends_there && !is_blind {
         let text = format!(
             "{broken}; the second integration goes on: {:?} at t = {:?} with speeds up to {:e}",
@@ -255,7 +255,7 @@ fn reason(verdict: &mut Verdict, scene: &Scene, broken: &Broken, answer: &Answer
 
 /// Whether the run ended in a blow-up.
 pub fn is_blown_up(outcome: &Outcome) -> bool {
-    outcome.events.iter().any(|happening| happening.event == Event::BlowUp)
+    outcome.events.iter().any(|happening| happening.kind == EventKind::BlowUp)
 }
 
 /// The times of the rows, and the end, unless a step was too long for a wall: what is right after it is no question.
@@ -272,7 +272,7 @@ pub fn times(scene: &Scene, outcome: &Outcome) -> Vec<f64> {
 
 /// Whether a fixed step went through a singular force, which no solution does.
 pub fn is_beyond(scene: &Scene, outcome: &Outcome) -> bool {
-    let is_over = |happening: &Happening| happening.event == Event::Overlap;
+    let is_over = |happening: &Event| happening.kind == EventKind::Overlap;
     scene.model.is_singular() && scene.is_fixed() && outcome.events.iter().any(is_over)
 }
 
@@ -388,12 +388,12 @@ fn state(
 }
 
 /// What becomes negative in an event.
-pub fn kind(event: Event) -> Option<Kind> {
+pub fn kind(event: EventKind) -> Option<Kind> {
     match event {
-        Event::Overlap => Some(Kind::Overlap),
-        Event::NegativeSpeed => Some(Kind::NegativeSpeed),
-        Event::Exchange => Some(Kind::Exchange),
-        Event::Undefined | Event::BlowUp => None,
+        EventKind::Overlap => Some(Kind::Overlap),
+        EventKind::NegativeSpeed => Some(Kind::NegativeSpeed),
+        EventKind::Exchange => Some(Kind::Exchange),
+        EventKind::Undefined | EventKind::BlowUp => None,
     }
 }
 
@@ -402,7 +402,7 @@ fn events(verdict: &mut Verdict, scene: &Scene, outcome: &Outcome, answer: &Answ
         return;
     }
     for happening in &outcome.events {
-        match kind(happening.event) {
+        match kind(happening.kind) {
             Some(kind) => crossing(verdict, happening, kind, scene, answer, bound),
             None => blow_up(verdict, happening, answer, scene.ring.length, bound),
         }
@@ -412,13 +412,13 @@ fn events(verdict: &mut Verdict, scene: &Scene, outcome: &Outcome, answer: &Answ
         let Some(&(pedestrian, time, _, rate)) = crossings.first() else { continue };
         let is_named = |n: usize| {
             let mut events = outcome.events.iter();
-            events.any(|happening| happening.event.name() == kind.name() && happening.pedestrian == n)
+            events.any(|happening| happening.kind.name() == kind.name() && happening.pedestrian == n)
         };
         let at_start = crossings.iter().filter(|(_, time, _, rate)| *time < 1e-15 * scene.t_end && *rate > 1e-9);
         if let Some((n, ..)) = at_start.into_iter().find(|(n, ..)| !is_named(*n)) {
             verdict.findings.push(format!("{} by pedestrian {n} at the start is not reported", kind.name()));
         }
-        let is_known = outcome.events.iter().any(|happening| happening.event.name() == kind.name());
+        let is_known = outcome.events.iter().any(|happening| happening.kind.name() == kind.name());
         let latest = outcome.statistics.time - bound.moment(kind, rate);
         if !is_known && time < latest {
             let index = Kind::ALL.iter().position(|other| *other == kind).unwrap_or(0);
@@ -434,7 +434,7 @@ fn events(verdict: &mut Verdict, scene: &Scene, outcome: &Outcome, answer: &Answ
     }
 }
 
-fn crossing(verdict: &mut Verdict, happening: &Happening, kind: Kind, scene: &Scene, answer: &Answer, bound: &Bound) {
+fn crossing(verdict: &mut Verdict, happening: &Event, kind: Kind, scene: &Scene, answer: &Answer, bound: &Bound) {
     let (name, found) = (kind.name(), happening.time);
     let crossings = answer.crossings(kind);
     let Some(&(_, time, uncertainty, rate)) = crossings.first() else {
@@ -463,7 +463,7 @@ fn crossing(verdict: &mut Verdict, happening: &Happening, kind: Kind, scene: &Sc
 }
 
 /// Speeds double at every throw, so the end is as near as the ring is long over the speed reached.
-fn blow_up(verdict: &mut Verdict, happening: &Happening, answer: &Answer, length: f64, bound: &Bound) {
+fn blow_up(verdict: &mut Verdict, happening: &Event, answer: &Answer, length: f64, bound: &Bound) {
     let solution = &answer.solution;
     let found = happening.time;
     let allowed = length / larger(solution.fastest, 1.0) + 1e-6 * solution.time + bound.value(Kind::Overlap);
@@ -475,7 +475,7 @@ fn blow_up(verdict: &mut Verdict, happening: &Happening, answer: &Answer, length
         );
         let is_unfinished = solution.end == End::Unfinished && solution.time < found + allowed;
         // a run whose own error leads it out of the domain of its formula, and whose second run does not follow
-        let is_unsure = happening.event == Event::Undefined && bound.std.is_infinite();
+        let is_unsure = happening.kind == EventKind::Undefined && bound.std.is_infinite();
         let is_unknown = is_unfinished || is_unsure;
         if is_unknown { verdict.undecided.push(text) } else { verdict.findings.push(text) }
     }

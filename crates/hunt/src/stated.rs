@@ -3,7 +3,7 @@
 use crate::answer::Answer;
 use crate::judge::{Ratio, is_beyond, is_blown_up, kind};
 use files::table::Table;
-use jam::states::FormKind;
+use jam::states::StateVariables;
 use ode::{Control, Method};
 use scene::check;
 use scene::propagated::Propagated;
@@ -58,7 +58,7 @@ pub fn ratios(scene: &Scene, outcome: &Outcome, answer: &Answer, stated: &Stated
         }
     }
     for (happening, allowed) in outcome.events.iter().zip(&stated.events) {
-        let Some(kind) = kind(happening.event) else { continue };
+        let Some(kind) = kind(happening.kind) else { continue };
         let crossings = answer.crossings(kind);
         // of everybody, the first one: who it is, is another question
         if let Some((_, time, uncertainty, _)) = crossings.into_iter().next() {
@@ -131,14 +131,14 @@ fn difference(scene: &Scene, outcome: &Outcome) -> Stated {
     let (stds, other_stds) = (column(&outcome.std, 1), column(&other.std, 1));
     let (x, v) = (largest(outcome.positions.iter().copied()), largest(outcome.speeds.iter().copied()));
     // of what std is the difference of, and of positions in every fixed step
-    let shared = if scene.form == FormKind::Deviations { largest(stds.iter().copied()) } else { v };
+    let shared = if scene.form == StateVariables::Deviations { largest(stds.iter().copied()) } else { v };
     let gathered = match scene.control {
         Control::Fixed { .. } => 0.5 * f64::EPSILON * outcome.statistics.steps as f64,
         Control::Adaptive { .. } => 0.0,
     };
     let events = outcome.events.iter().map(|happening| {
         let is_twin =
-            |twin: &&jam::events::Happening| (twin.event, twin.pedestrian) == (happening.event, happening.pedestrian);
+            |twin: &&jam::events::Event| (twin.kind, twin.pedestrian) == (happening.kind, happening.pedestrian);
         let twin = other.events.iter().find(is_twin);
         twin.map_or(f64::INFINITY, |twin| factor * (twin.time - happening.time).abs() + ROUNDING * happening.time)
     });

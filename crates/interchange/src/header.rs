@@ -1,8 +1,8 @@
 //! The header of both files: the run, the ring, and the units.
 
 use crate::problem::Problem;
-use files::reader::{POSITIVE, Reader, RecipeError};
-use files::recipe::{Kind, Panel, Recipe};
+use files::reader::{POSITIVE, Reader, SceneError};
+use files::scene_file::{Kind, Panel, SceneFile};
 use std::ops::RangeInclusive;
 
 /// The desired speed that the paper calls typical, in tenths of a metre a second; where `a_0` is not given it follows from
@@ -52,7 +52,13 @@ impl Header {
     ///
     /// # Errors
     /// `a_0` is out of range, the panel is no run, or its ring or desired speed is missing or out of range, with file and line.
-    pub fn new(recipe: &Recipe, panel: &Panel, length: Option<f64>, time: f64, rate: f64) -> Result<Header, Problem> {
+    pub fn new(
+        recipe: &SceneFile,
+        panel: &Panel,
+        length: Option<f64>,
+        time: f64,
+        rate: f64,
+    ) -> Result<Header, Problem> {
         if panel.kind != Kind::Run {
             return Err(Problem::Input(format!("{}: has no [run], so no trajectories", recipe.file)));
         }
@@ -127,7 +133,7 @@ const NO_SPEED: &str = "the formulas have neither a number v0 nor a number scale
                         speed; must have one of them above 0, or give --a0 METRES";
 
 /// The parameter `v0`; of a formula else `scale`, if it has one of them.
-fn desired_speed(law: &mut Reader<'_>) -> Result<Option<f64>, RecipeError> {
+fn desired_speed(law: &mut Reader<'_>) -> Result<Option<f64>, SceneError> {
     let is_formula = law.has("kind") && law.text("kind", "the name of a law")? == "formula";
     if !is_formula {
         return law.number("v0", POSITIVE).map(Some);

@@ -3,7 +3,7 @@
 use checkout::figure;
 use checkout::paths::Paths;
 use clap::{Parser, ValueEnum};
-use files::recipe;
+use files::scene_file;
 use files::write::{self, Draft, with_path};
 use interchange::Problem;
 use interchange::frames::Frames;
@@ -86,7 +86,7 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<(), Problem> {
-    let recipe = recipe::read(&scene(arguments)?)?;
+    let recipe = scene_file::read(&scene(arguments)?)?;
     let panel = match &arguments.panel {
         Some(name) => recipe.panel(name)?,
         None if recipe.panels.len() == 1 => &recipe.panels[0],

@@ -42,8 +42,8 @@ impl From<io::Error> for Problem {
     }
 }
 
-impl From<files::reader::RecipeError> for Problem {
-    fn from(error: files::reader::RecipeError) -> Problem {
+impl From<files::reader::SceneError> for Problem {
+    fn from(error: files::reader::SceneError) -> Problem {
         Problem::Input(error.to_string())
     }
 }

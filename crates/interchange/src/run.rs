@@ -2,7 +2,7 @@
 
 use crate::header::Header;
 use crate::problem::Problem;
-use files::recipe::{Panel, Recipe};
+use files::scene_file::{Panel, SceneFile};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -16,7 +16,7 @@ const MOST_ROWS: f64 = 2e7;
 /// being made.
 pub fn make(
     simulate: &Path,
-    recipe: &Recipe,
+    recipe: &SceneFile,
     panel: &Panel,
     header: &Header,
     t_end: Option<f64>,

@@ -6,14 +6,14 @@
 //! |---|---|
 //! | `LAW` | an evaluation of the right-hand side for all pedestrians, as deviations |
 //! | `gaps/LAW`, `positions/LAW` | the same in another form |
-//! | `step-LAW` | a step of Heun's scheme in positions, of a burst |
+//! | `step-LAW` | a step of Heun's scheme in positions, of a batch |
 //! | `series-LAW` | the Taylor series to order 16, in deviations |
 //! | `lane/FUNCTION` | as many values of an elementary function as there are pedestrians |
 
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
 use jam::ring::{Ring, Start};
-use jam::states::FormKind;
-use math::row::{self, Room};
+use jam::states::StateVariables;
+use math::row::{self, Scratch};
 use math::simd::{Kernel, dispatch};
 use std::hint::black_box;
 use std::time::Instant;
@@ -54,8 +54,10 @@ fn cpu_seconds() -> Option<f64> {
 /// Each law with all its terms, and with fewer; then the laws of the paper's runs in other forms and other work on them.
 fn variants() -> Vec<Variant> {
     let named = |name: &str, pedestrians, work| Variant { name: name.to_owned(), pedestrians, work };
-    let mut variants: Vec<Variant> =
-        laws().into_iter().map(|(name, model)| named(name, 133, rates(FormKind::Deviations, model, 133))).collect();
+    let mut variants: Vec<Variant> = laws()
+        .into_iter()
+        .map(|(name, model)| named(name, 133, rates(StateVariables::Deviations, model, 133)))
+        .collect();
     let law = |name: &str| laws().into_iter().find(|law| law.0 == name).map(|law| law.1);
     for (name, pedestrians) in STEPS {
         let Some(model) = law(name) else { continue };
@@ -63,11 +65,15 @@ fn variants() -> Vec<Variant> {
     }
     for (name, pedestrians) in STEPS.into_iter().filter(|(name, _)| PLAIN.contains(name)) {
         let Some(model) = law(name) else { continue };
-        variants.push(named(&format!("gaps/{name}"), pedestrians, rates(FormKind::Gaps, model.clone(), pedestrians)));
+        variants.push(named(
+            &format!("gaps/{name}"),
+            pedestrians,
+            rates(StateVariables::Spacings, model.clone(), pedestrians),
+        ));
         variants.push(named(
             &format!("positions/{name}"),
             pedestrians,
-            rates(FormKind::Positions, model.clone(), pedestrians),
+            rates(StateVariables::Positions, model.clone(), pedestrians),
         ));
         variants.push(named(&format!("series-{name}"), pedestrians, series(model, pedestrians)));
     }
@@ -120,7 +126,7 @@ fn ring(pedestrians: usize) -> Ring {
     Ring { pedestrians, length: 3.0 * pedestrians as f64 }
 }
 
-fn rates(kind: FormKind, model: Model, pedestrians: usize) -> Work {
+fn rates(kind: StateVariables, model: Model, pedestrians: usize) -> Work {
     let form = kind.build(&model, ring(pedestrians));
     let state = form.start(Start { shift: 0.1 });
     let mut rates = vec![0.0; form.dimension()];
@@ -133,17 +139,17 @@ fn rates(kind: FormKind, model: Model, pedestrians: usize) -> Work {
 }
 
 fn heun(model: Model, pedestrians: usize) -> Work {
-    let form = FormKind::Positions.build(&model, ring(pedestrians));
+    let form = StateVariables::Positions.build(&model, ring(pedestrians));
     let mut state = form.start(Start { shift: 0.1 });
     Box::new(move |count| {
-        // steps too short to come anywhere: no event breaks the burst off
+        // steps too short to come anywhere: no event breaks the batch off
         black_box(form.heun(&mut state, 1e-9, count));
     })
 }
 
 fn series(model: Model, pedestrians: usize) -> Work {
     const ORDER: usize = 16;
-    let form = FormKind::Deviations.build(&model, ring(pedestrians));
+    let form = StateVariables::Deviations.build(&model, ring(pedestrians));
     let n = form.dimension();
     let mut coefficients = vec![0.0; (ORDER + 1) * n];
     coefficients[..n].copy_from_slice(&form.start(Start { shift: 0.1 }));
@@ -158,7 +164,7 @@ fn series(model: Model, pedestrians: usize) -> Work {
 
 /// A function of rows, on a copy of a row.
 struct Row<'a> {
-    function: fn(&mut [f64], &mut Room),
+    function: fn(&mut [f64], &mut Scratch),
     x: &'a [f64],
     out: &'a mut [f64],
 }
@@ -169,11 +175,11 @@ impl Kernel for Row<'_> {
     #[inline(always)]
     fn run(self) {
         self.out.copy_from_slice(self.x);
-        (self.function)(self.out, &mut Room::default());
+        (self.function)(self.out, &mut Scratch::default());
     }
 }
 
-fn lane(function: fn(&mut [f64], &mut Room)) -> Work {
+fn lane(function: fn(&mut [f64], &mut Scratch)) -> Work {
     let x: Vec<f64> = (0..133).map(|n| f64::from(n) / 133.0).collect();
     let mut out = vec![0.0; x.len()];
     Box::new(move |count| {

@@ -5,7 +5,7 @@ use cpu_time::ThreadTime;
 use formula::{Definition, Given, Place};
 use jam::laws::{Formula, Logarithmic, Model};
 use jam::ring::{Ring, Start};
-use jam::states::FormKind;
+use jam::states::StateVariables;
 use ode::{Control, Method, Problem, Step, integrate};
 use std::ops::ControlFlow;
 
@@ -32,7 +32,7 @@ fn main() {
     for _ in 0..ROUNDS {
         let mut last = Vec::new();
         for model in [&compiled, &formula] {
-            let form = FormKind::Deviations.build(model, Ring { pedestrians: 133, length: 200.0 });
+            let form = StateVariables::Deviations.build(model, Ring { pedestrians: 133, length: 200.0 });
             let start = form.start(Start { shift: 0.1 });
             let problem = Problem {
                 system: &*form,

@@ -8,7 +8,7 @@
 use cpu_time::ThreadTime;
 use jam::laws::{Algebraic, Logarithmic, Model};
 use jam::ring::{Ring, Start};
-use jam::states::{Cut, FormKind, heun_steps};
+use jam::states::{Cut, StateVariables, heun_steps};
 use math::simd::Width;
 
 /// Pedestrians times steps of one measurement.
@@ -51,7 +51,7 @@ const VARIANTS: [(&str, Option<Cut>, Width); 3] = [
 
 fn lowest(model: &Model, ring: Ring, cut: Option<Cut>, width: Width) -> f64 {
     let n = ring.pedestrians;
-    let mut state = FormKind::Positions.build(model, ring).start(Start { shift: 0.01 });
+    let mut state = StateVariables::Positions.build(model, ring).start(Start { shift: 0.01 });
     let steps = (WORK / n).clamp(16, 4096) as u64;
     let times = (0..if n > 100_000 { FEW_REPEATS } else { REPEATS }).map(|_| {
         let begin = ThreadTime::now();

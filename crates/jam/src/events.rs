@@ -4,14 +4,14 @@ mod quiet;
 
 use crate::force::{Force, Rows};
 use crate::laws::Model;
-use crate::states::Form;
+use crate::states::RingSystem;
 use math::simd::{Kernel, dispatch};
 use ode::{Step, crossing_between, first_crossing};
 use quiet::Near;
 
 /// What can happen to a pedestrian.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Event {
+pub enum EventKind {
     /// The room is used up: `d_n < 0`, for the logarithmic law `s_n < 0`. Also a step of fixed length that asks for the
     /// force beyond the wall of a singular law and comes back, which no solution does.
     Overlap,
@@ -31,36 +31,37 @@ pub enum Event {
 /// the remaining time to the singularity is below the rounding of the time.
 pub const BLOW_UP: f64 = 1e12;
 
-impl Event {
+impl EventKind {
     /// All events.
-    pub const ALL: [Event; 5] =
-        [Event::Overlap, Event::NegativeSpeed, Event::Exchange, Event::Undefined, Event::BlowUp];
+    pub const ALL: [EventKind; 5] =
+        [EventKind::Overlap, EventKind::NegativeSpeed, EventKind::Exchange, EventKind::Undefined, EventKind::BlowUp];
 
     /// The events that a step can show: those with a number that falls through 0.
-    const WITHIN_STEPS: [Event; 4] = [Event::Overlap, Event::NegativeSpeed, Event::Exchange, Event::BlowUp];
+    const WITHIN_STEPS: [EventKind; 4] =
+        [EventKind::Overlap, EventKind::NegativeSpeed, EventKind::Exchange, EventKind::BlowUp];
 
     /// The name in tables.
     pub fn name(self) -> &'static str {
         match self {
-            Event::Overlap => "overlap",
-            Event::NegativeSpeed => "negative_speed",
-            Event::Exchange => "exchange",
-            Event::Undefined => "undefined",
-            Event::BlowUp => "blow_up",
+            EventKind::Overlap => "overlap",
+            EventKind::NegativeSpeed => "negative_speed",
+            EventKind::Exchange => "exchange",
+            EventKind::Undefined => "undefined",
+            EventKind::BlowUp => "blow_up",
         }
     }
 
     /// Whether the law has no meaning, or no solution, after it.
     pub fn is_stop(self) -> bool {
-        matches!(self, Event::Overlap | Event::Undefined | Event::BlowUp)
+        matches!(self, EventKind::Overlap | EventKind::Undefined | EventKind::BlowUp)
     }
 }
 
 /// An event that happened.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Happening {
+pub struct Event {
     /// What.
-    pub event: Event,
+    pub kind: EventKind,
     /// When.
     pub time: f64,
     /// To whom, counted from 0.
@@ -71,7 +72,7 @@ pub struct Happening {
     pub step: f64,
 }
 
-/// Gaps, speeds and rooms with their rates at one instant.
+/// Spacings, speeds and rooms with their rates at one instant.
 #[derive(Clone, Debug)]
 pub(crate) struct Instant {
     pub(crate) gaps: Vec<f64>,
@@ -97,7 +98,7 @@ impl Instant {
         }
     }
 
-    fn read(&mut self, form: &dyn Form, force: &dyn Force, state: &[f64], rates: &[f64]) {
+    fn read(&mut self, form: &dyn RingSystem, force: &dyn Force, state: &[f64], rates: &[f64]) {
         self.read_values(form, force, state);
         form.read_rates(rates, &mut self.gap_rates, &mut self.speed_rates);
         let now = Rows { spacings: &self.net_gaps, speeds: &self.speeds };
@@ -106,7 +107,7 @@ impl Instant {
     }
 
     /// All but the rates.
-    fn read_values(&mut self, form: &dyn Form, force: &dyn Force, state: &[f64]) {
+    fn read_values(&mut self, form: &dyn RingSystem, force: &dyn Force, state: &[f64]) {
         form.read(state, &mut self.gaps, &mut self.speeds);
         self.net_gaps.clear();
         self.net_gaps.extend(self.gaps.iter().map(|gap| gap - force.contact()));
@@ -118,8 +119,8 @@ impl Instant {
 pub struct Watch<'a> {
     model: Model,
     force: Box<dyn Force>,
-    form: &'a dyn Form,
-    found: Vec<Happening>,
+    form: &'a dyn RingSystem,
+    found: Vec<Event>,
     before: Instant,
     after: Instant,
     /// Within the step looked at last; its rates are of no meaning.
@@ -143,7 +144,7 @@ const PARTS: u32 = 16;
 
 impl<'a> Watch<'a> {
     /// A watch over a ring of `pedestrians` in this form.
-    pub fn new(model: Model, form: &'a dyn Form, pedestrians: usize) -> Watch<'a> {
+    pub fn new(model: Model, form: &'a dyn RingSystem, pedestrians: usize) -> Watch<'a> {
         let instant = Instant::new(pedestrians);
         let force = model.force();
         let [before, after, within] = [instant.clone(), instant.clone(), instant];
@@ -154,27 +155,27 @@ impl<'a> Watch<'a> {
     }
 
     /// Goes on with the same ring in another form.
-    pub fn change_form(&mut self, form: &'a dyn Form) {
+    pub fn change_form(&mut self, form: &'a dyn RingSystem) {
         self.form = form;
         (self.seen, self.near) = (None, None);
     }
 
     /// What happens at the start of a run, at time `t`: everybody to whom it does. A speed of 0 that falls is negative at once.
-    pub fn start(&mut self, t: f64, state: &[f64], rates: &[f64]) -> Vec<Happening> {
+    pub fn start(&mut self, t: f64, state: &[f64], rates: &[f64]) -> Vec<Event> {
         self.after.read(self.form, &*self.force, state, rates);
         self.seen = Some(t);
         let now = &self.after;
-        for event in Event::WITHIN_STEPS {
+        for event in EventKind::WITHIN_STEPS {
             for pedestrian in 0..now.gaps.len() {
                 let (value, rate) = match event {
-                    Event::Overlap => (now.rooms[pedestrian], now.room_rates[pedestrian]),
-                    Event::NegativeSpeed => (now.speeds[pedestrian], now.speed_rates[pedestrian]),
-                    Event::Exchange => (now.gaps[pedestrian], now.gap_rates[pedestrian]),
-                    Event::BlowUp => (self.bound() - now.speeds[pedestrian].abs(), 0.0),
-                    Event::Undefined => continue,
+                    EventKind::Overlap => (now.rooms[pedestrian], now.room_rates[pedestrian]),
+                    EventKind::NegativeSpeed => (now.speeds[pedestrian], now.speed_rates[pedestrian]),
+                    EventKind::Exchange => (now.gaps[pedestrian], now.gap_rates[pedestrian]),
+                    EventKind::BlowUp => (self.bound() - now.speeds[pedestrian].abs(), 0.0),
+                    EventKind::Undefined => continue,
                 };
                 if value < 0.0 || value == 0.0 && rate < 0.0 {
-                    self.found.push(Happening { event, time: t, pedestrian, gap: now.gaps[pedestrian], step: 0.0 });
+                    self.found.push(Event { kind: event, time: t, pedestrian, gap: now.gaps[pedestrian], step: 0.0 });
                 }
             }
         }
@@ -182,7 +183,7 @@ impl<'a> Watch<'a> {
     }
 
     /// Goes on where a watch stood that had found these.
-    pub fn resume(&mut self, found: Vec<Happening>) {
+    pub fn resume(&mut self, found: Vec<Event>) {
         self.found = found;
     }
 
@@ -223,32 +224,32 @@ impl<'a> Watch<'a> {
 
     /// How fast what falls through 0 in an event changes, for a pedestrian in this state, if the state changes like this:
     /// its rates, or an error.
-    pub fn change(&mut self, event: Event, pedestrian: usize, state: &[f64], direction: &[f64]) -> f64 {
+    pub fn change(&mut self, event: EventKind, pedestrian: usize, state: &[f64], direction: &[f64]) -> f64 {
         self.before.read(self.form, &*self.force, state, direction);
         // what the next step begins with is read anew
         self.seen = None;
         let Instant { room_rates, speed_rates, gap_rates, .. } = &self.before;
         match event {
-            Event::Overlap => room_rates[pedestrian],
-            Event::NegativeSpeed | Event::BlowUp => speed_rates[pedestrian],
-            Event::Exchange => gap_rates[pedestrian],
-            Event::Undefined => f64::NAN,
+            EventKind::Overlap => room_rates[pedestrian],
+            EventKind::NegativeSpeed | EventKind::BlowUp => speed_rates[pedestrian],
+            EventKind::Exchange => gap_rates[pedestrian],
+            EventKind::Undefined => f64::NAN,
         }
     }
 
     /// Adds an event that the steps do not show.
-    pub fn add(&mut self, happening: Happening) {
+    pub fn add(&mut self, happening: Event) {
         self.found.push(happening);
     }
 
     /// The first event of each kind so far, of everybody to whom it happened at once, in order of time.
-    pub fn found(&self) -> &[Happening] {
+    pub fn found(&self) -> &[Event] {
         &self.found
     }
 
     /// As [`Watch::look`], for those who want to know what is new and nothing else: a step near a uniform flow, in which
     /// nothing can happen, is passed over, and the watch goes on to show an earlier one.
-    pub fn look_for_new(&mut self, step: &mut Step<'_>) -> Vec<Happening> {
+    pub fn look_for_new(&mut self, step: &mut Step<'_>) -> Vec<Event> {
         self.is_quiet = self.nothing_can_happen(step);
         if self.is_quiet { Vec::new() } else { self.look(step) }
     }
@@ -259,7 +260,7 @@ impl<'a> Watch<'a> {
     }
 
     /// Looks for events in a step; returns those that are new, in order of time.
-    pub fn look(&mut self, step: &mut Step<'_>) -> Vec<Happening> {
+    pub fn look(&mut self, step: &mut Step<'_>) -> Vec<Event> {
         if self.seen == Some(step.start) {
             std::mem::swap(&mut self.before, &mut self.after);
         } else {
@@ -268,8 +269,8 @@ impl<'a> Watch<'a> {
         self.seen = Some(step.end);
         self.after.read(self.form, &*self.force, step.after(), step.rates_after());
         let mut new = Vec::new();
-        for event in Event::WITHIN_STEPS {
-            let mut known = self.found.iter().filter(|happening| happening.event == event).peekable();
+        for event in EventKind::WITHIN_STEPS {
+            let mut known = self.found.iter().filter(|happening| happening.kind == event).peekable();
             let first = known.peek().map(|happening| happening.time);
             if first.is_none_or(|time| step.start <= time + AT_ONCE) && self.may_lie_within(event, step.length()) {
                 let known: Vec<usize> = known.map(|happening| happening.pedestrian).collect();
@@ -277,7 +278,7 @@ impl<'a> Watch<'a> {
             }
         }
         let mut overlaps = self.found.iter().chain(&new);
-        if step.is_beyond() && overlaps.all(|happening| happening.event != Event::Overlap) {
+        if step.is_beyond() && overlaps.all(|happening| happening.kind != EventKind::Overlap) {
             new.push(self.back_from_beyond(step));
         }
         new.sort_by(|a, b| a.time.total_cmp(&b.time));
@@ -286,27 +287,29 @@ impl<'a> Watch<'a> {
     }
 
     /// Whether the event's value can be negative within the step.
-    fn may_lie_within(&self, event: Event, h: f64) -> bool {
+    fn may_lie_within(&self, event: EventKind, h: f64) -> bool {
         let (before, after) = (&self.before, &self.after);
         match event {
-            Event::Overlap => {
+            EventKind::Overlap => {
                 may_be_negative((&before.rooms, &before.room_rates), (&after.rooms, &after.room_rates), h)
             }
-            Event::NegativeSpeed => {
+            EventKind::NegativeSpeed => {
                 may_be_negative((&before.speeds, &before.speed_rates), (&after.speeds, &after.speed_rates), h)
             }
-            Event::Exchange => may_be_negative((&before.gaps, &before.gap_rates), (&after.gaps, &after.gap_rates), h),
-            Event::BlowUp => {
+            EventKind::Exchange => {
+                may_be_negative((&before.gaps, &before.gap_rates), (&after.gaps, &after.gap_rates), h)
+            }
+            EventKind::BlowUp => {
                 let bound = self.bound();
                 after.speeds.iter().any(|speed| speed.abs() > bound)
             }
-            Event::Undefined => false,
+            EventKind::Undefined => false,
         }
     }
 
     /// The first event of this kind in the step, of everybody but those `known` to whom it happens at once; none that is
     /// not at once with the `first` of all.
-    fn locate(&self, event: Event, first: Option<f64>, known: &[usize], step: &mut Step<'_>) -> Vec<Happening> {
+    fn locate(&self, event: EventKind, first: Option<f64>, known: &[usize], step: &mut Step<'_>) -> Vec<Event> {
         let count = self.before.gaps.len();
         let (mut gaps, mut speeds) = (vec![0.0; count], vec![0.0; count]);
         let mut values = |state: &[f64], values: &mut [f64]| {
@@ -340,32 +343,32 @@ impl<'a> Watch<'a> {
             step.at_fraction(place, &mut state);
             self.form.read(&state, &mut all, &mut spare);
             let (time, gap) = (start + place * length, all[pedestrian]);
-            found.push(Happening { event, time, pedestrian, gap, step: length });
+            found.push(Event { kind: event, time, pedestrian, gap, step: length });
         }
         found
     }
 
     /// The overlap in a step that was beyond a wall at none but its stages: at its end, of the pedestrian with the least
     /// room at its start.
-    fn back_from_beyond(&self, step: &Step<'_>) -> Happening {
+    fn back_from_beyond(&self, step: &Step<'_>) -> Event {
         let rooms = self.before.rooms.iter().enumerate();
         let (pedestrian, _) =
             rooms.fold((0, f64::INFINITY), |least, (n, &room)| if room < least.1 { (n, room) } else { least });
         let gap = self.before.gaps[pedestrian];
-        Happening { event: Event::Overlap, time: step.end, pedestrian, gap, step: step.length() }
+        Event { kind: EventKind::Overlap, time: step.end, pedestrian, gap, step: step.length() }
     }
 
     /// Negative once the event has happened; the gaps are spoilt.
-    fn values(&self, event: Event, gaps: &mut [f64], speeds: &[f64], values: &mut [f64]) {
+    fn values(&self, event: EventKind, gaps: &mut [f64], speeds: &[f64], values: &mut [f64]) {
         match event {
-            Event::Overlap => {
+            EventKind::Overlap => {
                 gaps.iter_mut().for_each(|gap| *gap -= self.force.contact());
                 self.force.effective_gaps(gaps, speeds, values);
             }
-            Event::NegativeSpeed => values.copy_from_slice(speeds),
-            Event::Exchange => values.copy_from_slice(gaps),
-            Event::Undefined => values.fill(f64::INFINITY),
-            Event::BlowUp => values.iter_mut().zip(speeds).for_each(|(value, v)| *value = self.bound() - v.abs()),
+            EventKind::NegativeSpeed => values.copy_from_slice(speeds),
+            EventKind::Exchange => values.copy_from_slice(gaps),
+            EventKind::Undefined => values.fill(f64::INFINITY),
+            EventKind::BlowUp => values.iter_mut().zip(speeds).for_each(|(value, v)| *value = self.bound() - v.abs()),
         }
     }
 

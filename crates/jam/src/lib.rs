@@ -4,12 +4,12 @@
 //! A run of a law of your own, here the optimal-velocity model of Bando et al. (1995):
 //!
 //! ```
-//! # use jam::{laws::{Formula, Model}, ring::{Ring, Start}, states::FormKind};
+//! # use jam::{laws::{Formula, Model}, ring::{Ring, Start}, states::StateVariables};
 //! # use ode::{Control, Method, Problem, Step, integrate};
 //! # use std::ops::ControlFlow;
 //! let lines = [("acceleration", "kappa*(tanh(s - 2) + tanh(2) - v)".into()), ("kappa", 1.0.into()), ("body", 0.0.into())];
 //! let law = Model::Formula(Formula::written(&lines)?);
-//! let form = FormKind::Deviations.build(&law, Ring { pedestrians: 50, length: 100.0 });
+//! let form = StateVariables::Deviations.build(&law, Ring { pedestrians: 50, length: 100.0 });
 //! let start = form.start(Start { shift: 0.1 });
 //! let (method, control) = (Method::Dop853, Control::Adaptive { tolerance: 1e-9 });
 //! let problem = Problem { system: &*form, start: &start, begin: 0.0, end: 300.0, method, control };
@@ -109,9 +109,9 @@
 //! ```
 //! # use jam::laws::{Formula, Model};
 //! # use jam::ring::{Ring, Start};
-//! # use jam::states::FormKind;
+//! # use jam::states::StateVariables;
 //! # use ode::{Control, Method, Problem, Sampler, Step, integrate};
-//! use jam::events::{Event, Watch};
+//! use jam::events::{EventKind, Watch};
 //! use jam::outcome::{Class, Judge};
 //! use jam::uniform::steady_speed;
 //! use std::ops::ControlFlow;
@@ -119,7 +119,7 @@
 //! # let lines = [("acceleration", "kappa*(tanh(s - 2) + tanh(2) - v)".into()), ("kappa", 1.0.into()), ("body", 0.0.into())];
 //! # let law = Model::Formula(Formula::written(&lines)?);
 //! let ring = Ring { pedestrians: 50, length: 100.0 };
-//! let form = FormKind::Deviations.build(&law, ring);
+//! let form = StateVariables::Deviations.build(&law, ring);
 //! let start = form.start(Start { shift: 0.1 });
 //! let mut rates = vec![0.0; start.len()];
 //! form.rates(&start, &mut rates);
@@ -135,14 +135,14 @@
 //!     judge.look(&mut watch, step, &new);
 //!     sampler.within(step, step.end, &mut |t, state| samples.push((t, form.speed_deviation(state))));
 //!     // the law has no meaning behind a stop
-//!     if new.iter().any(|happening| happening.event.is_stop()) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+//!     if new.iter().any(|happening| happening.kind.is_stop()) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 //! };
 //! let (method, control) = (Method::Dop853, Control::Adaptive { tolerance: 1e-9 });
 //! let problem = Problem { system: &*form, start: &start, begin: 0.0, end: 300.0, method, control };
 //! let end = integrate(&problem, &mut observer)?;
 //!
 //! assert_eq!(samples.len(), 31);
-//! assert!(watch.found().iter().all(|happening| happening.event != Event::Overlap));
+//! assert!(watch.found().iter().all(|happening| happening.kind != EventKind::Overlap));
 //! let verdict = judge.end(end.time, watch.found());
 //! println!("{}: least gap {:.3}", verdict.class.in_words(), verdict.least_gap);
 //! # assert!(matches!(verdict.class, Class::Undecided | Class::Waves | Class::WavesBackwards), "{verdict:?}");

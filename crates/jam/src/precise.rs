@@ -1,16 +1,16 @@
 //! The stability of a uniform flow once more, by other means and to twice the digits: what it differs by from
 //! [`Model::response`] and [`Response::margin`] is the error of these.
 //!
-//! The law is carried out in twofold numbers; its slopes are differences, not derivatives; the steady speed is improved by
+//! The law is carried out in double-double numbers; its slopes are differences, not derivatives; the steady speed is improved by
 //! Newton's method; the powers of `e^{ik}` are products. What is shared is the law as a formula.
 
 use crate::force::Source;
 use crate::laws::{Formula, Law, Model};
 use crate::stability::Response;
-use math::twofold::Twofold;
+use math::double_double::DoubleDouble;
 
 /// A slope for each neighbour.
-type Slopes = Vec<(i32, Twofold)>;
+type Slopes = Vec<(i32, DoubleDouble)>;
 
 /// How the acceleration answers to spacings and speeds (see [`Response`]).
 #[derive(Clone, Debug)]
@@ -19,16 +19,16 @@ pub struct Precise {
     speeds: Slopes,
 }
 
-/// A part of the size of a variable, for differences: its square is beyond twofold numbers, also on the scale of ramps.
+/// A part of the size of a variable, for differences: its square is beyond double-double numbers, also on the scale of ramps.
 const PART: f64 = 1e-13;
 
 impl Precise {
     /// In the uniform flow with this headway, whose speed is next to this one.
     pub fn new(model: &Model, headway: f64, speed: f64) -> Precise {
-        let at = |spacing: Twofold, speed: Twofold| accelerate(model, &|_| spacing, &|_| speed);
-        let (spacing, mut v) = (Twofold::from(headway) - model.contact(), Twofold::from(speed));
+        let at = |spacing: DoubleDouble, speed: DoubleDouble| accelerate(model, &|_| spacing, &|_| speed);
+        let (spacing, mut v) = (DoubleDouble::from(headway) - model.contact(), DoubleDouble::from(speed));
         for _ in 0..2 {
-            let h = Twofold::from(PART * (1.0 + speed.abs()));
+            let h = DoubleDouble::from(PART * (1.0 + speed.abs()));
             let slope = (at(spacing, v + h) - at(spacing, v - h)) / (h + h);
             let better = v - at(spacing, v) / slope;
             // a speed that is no simple root stays
@@ -39,10 +39,10 @@ impl Precise {
 
     /// Where standing pedestrians would have this net gap: the response does not depend on the speed of their flow.
     pub fn at_gap(model: &Model, gap: f64) -> Precise {
-        Precise::at(model, Twofold::from(gap), Twofold::ZERO)
+        Precise::at(model, DoubleDouble::from(gap), DoubleDouble::ZERO)
     }
 
-    fn at(model: &Model, net_gap: Twofold, speed: Twofold) -> Precise {
+    fn at(model: &Model, net_gap: DoubleDouble, speed: DoubleDouble) -> Precise {
         let (behind, ahead) = match model {
             Model::Formula(formula) => formula.reach(),
             _ => (0, 1),
@@ -54,7 +54,7 @@ impl Precise {
                 let more = |j: i32, here: bool| if here && j == place { h } else { 0.0 };
                 accelerate(model, &|j| net_gap + more(j, is_spacing), &|j| speed + more(j, !is_spacing))
             };
-            (shifted(h) - shifted(-h)) / Twofold::from(2.0 * h)
+            (shifted(h) - shifted(-h)) / DoubleDouble::from(2.0 * h)
         };
         let slopes = |is_spacing: bool| {
             let places = -(behind as i32)..=ahead as i32;
@@ -75,12 +75,12 @@ impl Precise {
     }
 
     /// See [`Response::margin_of`]; 0 is the limit of long waves.
-    fn margin_of(&self, k: f64) -> Twofold {
-        let sum = self.spacings.iter().fold(Twofold::ZERO, |sum, (_, slope)| sum + *slope);
-        let stiffness = if sum.hi > 0.0 { sum } else { Twofold::ONE };
+    fn margin_of(&self, k: f64) -> DoubleDouble {
+        let sum = self.spacings.iter().fold(DoubleDouble::ZERO, |sum, (_, slope)| sum + *slope);
+        let stiffness = if sum.hi > 0.0 { sum } else { DoubleDouble::ONE };
         if k == 0.0 {
             let moment = |slopes: &Slopes, power: u32| {
-                slopes.iter().fold(Twofold::ZERO, |sum, (j, slope)| sum + *slope * f64::from(j.pow(power)))
+                slopes.iter().fold(DoubleDouble::ZERO, |sum, (j, slope)| sum + *slope * f64::from(j.pow(power)))
             };
             let (s0, s1) = (sum, moment(&self.spacings, 1));
             let (v0, v1) = (moment(&self.speeds, 0), moment(&self.speeds, 1));
@@ -88,10 +88,10 @@ impl Precise {
             return damped(-(d + d) / stiffness, -v0);
         }
         // the angle whose cosine this double is, and its sine
-        let cos = Twofold::from(math::cos(k));
-        let sin = (Twofold::ONE - cos * cos).sqrt();
+        let cos = DoubleDouble::from(math::cos(k));
+        let sin = (DoubleDouble::ONE - cos * cos).sqrt();
         let wave = (cos, sin);
-        let rest = (Twofold::ONE - cos, -sin);
+        let rest = (DoubleDouble::ONE - cos, -sin);
         let b = times_powers(&self.speeds, wave);
         let c = product(times_powers(&self.spacings, wave), rest);
         let b = (-b.0, -b.1);
@@ -100,11 +100,11 @@ impl Precise {
     }
 }
 
-fn damped(margin: Twofold, re_b: Twofold) -> Twofold {
+fn damped(margin: DoubleDouble, re_b: DoubleDouble) -> DoubleDouble {
     if re_b.hi > 0.0 || (margin + re_b).hi > 0.0 { margin } else { -re_b }
 }
 
-type Complex = (Twofold, Twofold);
+type Complex = (DoubleDouble, DoubleDouble);
 
 fn product(a: Complex, b: Complex) -> Complex {
     (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0)
@@ -114,16 +114,20 @@ fn product(a: Complex, b: Complex) -> Complex {
 fn times_powers(slopes: &Slopes, wave: Complex) -> Complex {
     let power = |j: i32| {
         let factor = if j < 0 { (wave.0, -wave.1) } else { wave };
-        (0..j.unsigned_abs()).fold((Twofold::ONE, Twofold::ZERO), |power, _| product(power, factor))
+        (0..j.unsigned_abs()).fold((DoubleDouble::ONE, DoubleDouble::ZERO), |power, _| product(power, factor))
     };
-    slopes.iter().fold((Twofold::ZERO, Twofold::ZERO), |sum, (j, slope)| {
+    slopes.iter().fold((DoubleDouble::ZERO, DoubleDouble::ZERO), |sum, (j, slope)| {
         let (re, im) = power(*j);
         (sum.0 + *slope * re, sum.1 + *slope * im)
     })
 }
 
 /// The acceleration for net gaps and speeds of neighbours.
-fn accelerate(model: &Model, net_gap: &dyn Fn(i32) -> Twofold, speed: &dyn Fn(i32) -> Twofold) -> Twofold {
+fn accelerate(
+    model: &Model,
+    net_gap: &dyn Fn(i32) -> DoubleDouble,
+    speed: &dyn Fn(i32) -> DoubleDouble,
+) -> DoubleDouble {
     match model {
         Model::Algebraic(law) => of_law(law, net_gap, speed),
         Model::Exponential(law) => of_law(law, net_gap, speed),
@@ -132,15 +136,19 @@ fn accelerate(model: &Model, net_gap: &dyn Fn(i32) -> Twofold, speed: &dyn Fn(i3
     }
 }
 
-fn of_law<L: Law>(law: &L, net_gap: &dyn Fn(i32) -> Twofold, speed: &dyn Fn(i32) -> Twofold) -> Twofold {
+fn of_law<L: Law>(law: &L, net_gap: &dyn Fn(i32) -> DoubleDouble, speed: &dyn Fn(i32) -> DoubleDouble) -> DoubleDouble {
     law.acceleration(net_gap(0), speed(0), speed(1))
 }
 
-fn of_formula(law: &Formula, net_gap: &dyn Fn(i32) -> Twofold, speed: &dyn Fn(i32) -> Twofold) -> Twofold {
+fn of_formula(
+    law: &Formula,
+    net_gap: &dyn Fn(i32) -> DoubleDouble,
+    speed: &dyn Fn(i32) -> DoubleDouble,
+) -> DoubleDouble {
     law.carry_out(|source| match source {
         Source::Spacing { j, net: true } => net_gap(j),
         Source::Spacing { j, net: false } => net_gap(j) + law.contact(),
         Source::Speed(j) => speed(j),
-        Source::Register(_) => Twofold::ZERO,
+        Source::Register(_) => DoubleDouble::ZERO,
     })
 }

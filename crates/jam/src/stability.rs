@@ -5,7 +5,7 @@
 //! `z^2 + (1 + beta (1 + e^{ik}) + kappa (1 - e^{ik})) z + phi (1 - e^{ik}) = 0` (eq:stabN, eq:stab_neu_av).
 
 use math::complex_sqrt;
-use math::twofold::Twofold;
+use math::double_double::DoubleDouble;
 use std::f64::consts::PI;
 
 /// The coefficients of the linearised law; all >= 0 for the laws of the paper.
@@ -276,11 +276,12 @@ impl Response {
 /// A complex number, real and imaginary part.
 pub type Complex = (f64, f64);
 
-/// The real part of a root of `z^2 + b z + c` after one step of Newton's method, with the residual in twofold precision.
+/// The real part of a root of `z^2 + b z + c` after one step of Newton's method, with the residual in double-double precision.
 fn refined_rate((re, im): Complex, (b, c): (Complex, Complex)) -> f64 {
-    let product = |x: f64, y: f64| Twofold::product(x, y);
-    let residual_re = product(re, re) - product(im, im) + product(b.0, re) - product(b.1, im) + Twofold::from(c.0);
-    let residual_im = product(re, im) * Twofold::from(2.0) + product(b.0, im) + product(b.1, re) + Twofold::from(c.1);
+    let product = |x: f64, y: f64| DoubleDouble::product(x, y);
+    let residual_re = product(re, re) - product(im, im) + product(b.0, re) - product(b.1, im) + DoubleDouble::from(c.0);
+    let residual_im =
+        product(re, im) * DoubleDouble::from(2.0) + product(b.0, im) + product(b.1, re) + DoubleDouble::from(c.1);
     let (slope_re, slope_im) = (2.0 * re + b.0, 2.0 * im + b.1);
     let size = slope_re * slope_re + slope_im * slope_im;
     re - (residual_re.hi * slope_re + residual_im.hi * slope_im) / size
@@ -328,7 +329,7 @@ impl Linear {
         self.root(k).0
     }
 
-    /// `Re z^+` after one step of Newton's method from [`Linear::root`], with the residual in twofold precision: its
+    /// `Re z^+` after one step of Newton's method from [`Linear::root`], with the residual in double-double precision: its
     /// difference from [`Linear::growth_rate`] is the error of the latter.
     pub fn refined_growth_rate(&self, k: f64) -> f64 {
         refined_rate(self.root(k), self.polynomial(k))

@@ -14,10 +14,11 @@
 //! | [`lane`] | the body of a loop that the compiler vectorises | at most 3 units in the last place, powers more |
 //! | [`row`] | a row of values in place, as short loops | as its lane: the same bits |
 //! | [`simd`] | runs a loop with the widest registers the processor has | none: the same bits |
-//! | [`twofold`] | numbers of 106 bits as pairs of doubles; functions in [`twofold::full`] | about 2^-104; 2^-100 |
+//! | [`double_double`] | numbers of 106 bits as pairs of doubles; functions in [`double_double::full`] | about 2^-104; 2^-100 |
 
 pub mod change;
 pub mod complex;
+pub mod double_double;
 pub mod dual;
 pub mod lane;
 pub mod lanes;
@@ -26,7 +27,6 @@ pub mod row;
 pub mod scalar;
 pub mod series;
 pub mod simd;
-pub mod twofold;
 
 pub use complex::complex_sqrt;
 pub use scalar::{cos, exp, exp_m1, ln, ln_1p, log10, pow, sin};

@@ -9,13 +9,13 @@
 //! | [`Change`](crate::change::Change) | the difference from a reference, without cancellation |
 //! | [`Jet`](crate::series::Jet) | the next coefficient of a power series |
 //! | [`Dual`](crate::dual::Dual) | the value with a derivative |
-//! | [`Twofold`] | the value to twice the precision |
+//! | [`DoubleDouble`] | the value to twice the precision |
 //!
 //! Every operation of a double is one IEEE operation or a function of [`lane`], in the order in which it is written, so
 //! all numbers that hold doubles give the same bits.
 
+use crate::double_double::{DoubleDouble, full};
 use crate::lane;
-use crate::twofold::{Twofold, full};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// What a formula is made of. Constants enter as the right-hand side of an operation, so a number may belong to
@@ -175,57 +175,57 @@ impl Number for f64 {
     }
 }
 
-impl Number for Twofold {
-    fn recip(self) -> Twofold {
-        Twofold::ONE / self
+impl Number for DoubleDouble {
+    fn recip(self) -> DoubleDouble {
+        DoubleDouble::ONE / self
     }
 
-    fn powi(self, n: i32) -> Twofold {
-        let product = (0..n.unsigned_abs()).fold(Twofold::ONE, |product, _| product * self);
+    fn powi(self, n: i32) -> DoubleDouble {
+        let product = (0..n.unsigned_abs()).fold(DoubleDouble::ONE, |product, _| product * self);
         if n < 0 { product.recip() } else { product }
     }
 
-    fn powf(self, q: f64) -> Twofold {
+    fn powf(self, q: f64) -> DoubleDouble {
         full::exp(full::ln(self) * q)
     }
 
-    fn exp(self) -> Twofold {
+    fn exp(self) -> DoubleDouble {
         full::exp(self)
     }
 
-    fn exp_m1(self) -> Twofold {
+    fn exp_m1(self) -> DoubleDouble {
         full::exp_m1(self)
     }
 
-    fn ln(self) -> Twofold {
+    fn ln(self) -> DoubleDouble {
         full::ln(self)
     }
 
-    fn ln_1p(self) -> Twofold {
+    fn ln_1p(self) -> DoubleDouble {
         full::ln_1p(self)
     }
 
-    fn sqrt(self) -> Twofold {
-        Twofold::sqrt(self)
+    fn sqrt(self) -> DoubleDouble {
+        DoubleDouble::sqrt(self)
     }
 
-    fn tanh(self) -> Twofold {
+    fn tanh(self) -> DoubleDouble {
         full::tanh(self)
     }
 
-    fn softplus(self) -> Twofold {
+    fn softplus(self) -> DoubleDouble {
         full::softplus(self)
     }
 
-    fn abs(self) -> Twofold {
-        Twofold::abs(self)
+    fn abs(self) -> DoubleDouble {
+        DoubleDouble::abs(self)
     }
 
-    fn min(self, other: Twofold) -> Twofold {
+    fn min(self, other: DoubleDouble) -> DoubleDouble {
         if (other - self).hi < 0.0 || other.hi.is_nan() { other } else { self }
     }
 
-    fn max(self, other: Twofold) -> Twofold {
+    fn max(self, other: DoubleDouble) -> DoubleDouble {
         if (other - self).hi > 0.0 || other.hi.is_nan() { other } else { self }
     }
 }

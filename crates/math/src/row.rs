@@ -21,23 +21,23 @@ pub const LANES: usize = 8;
 /// first-level cache (2 KiB each).
 pub const LENGTH: usize = 256;
 
-/// Room for what passes from one loop to the next.
+/// Scratch for what passes from one loop to the next.
 #[derive(Clone, Debug)]
-pub struct Room {
+pub struct Scratch {
     a: [f64; LENGTH],
     b: [f64; LENGTH],
     c: [f64; LENGTH],
     d: [f64; LENGTH],
 }
 
-impl Default for Room {
-    fn default() -> Room {
+impl Default for Scratch {
+    fn default() -> Scratch {
         let zeros = [0.0; LENGTH];
-        Room { a: zeros, b: zeros, c: zeros, d: zeros }
+        Scratch { a: zeros, b: zeros, c: zeros, d: zeros }
     }
 }
 
-impl Room {
+impl Scratch {
     /// The first `n` places of each.
     #[inline(always)]
     fn rows(&mut self, n: usize) -> [&mut [f64]; 4] {
@@ -47,7 +47,7 @@ impl Room {
 
 /// x\[i\] = e^x\[i\].
 #[inline(always)]
-pub fn exp(x: &mut [f64], room: &mut Room) {
+pub fn exp(x: &mut [f64], room: &mut Scratch) {
     for x in x.chunks_mut(LENGTH) {
         let [r, missing, shifted, _] = room.rows(x.len());
         reduce(Reduced::new, x, r, missing, shifted);
@@ -57,7 +57,7 @@ pub fn exp(x: &mut [f64], room: &mut Room) {
 
 /// x\[i\] = e^x\[i\] - 1.
 #[inline(always)]
-pub fn exp_m1(x: &mut [f64], room: &mut Room) {
+pub fn exp_m1(x: &mut [f64], room: &mut Scratch) {
     for x in x.chunks_mut(LENGTH) {
         let [r, missing, shifted, _] = room.rows(x.len());
         reduce(Reduced::new, x, r, missing, shifted);
@@ -67,7 +67,7 @@ pub fn exp_m1(x: &mut [f64], room: &mut Room) {
 
 /// x\[i\] = tanh x\[i\].
 #[inline(always)]
-pub fn tanh(x: &mut [f64], room: &mut Room) {
+pub fn tanh(x: &mut [f64], room: &mut Scratch) {
     for x in x.chunks_mut(LENGTH) {
         let [r, missing, shifted, t] = room.rows(x.len());
         for i in 0..x.len() {
@@ -83,7 +83,7 @@ pub fn tanh(x: &mut [f64], room: &mut Room) {
 
 /// x\[i\] = ln(1 + x\[i\]).
 #[inline(always)]
-pub fn ln_1p(x: &mut [f64], room: &mut Room) {
+pub fn ln_1p(x: &mut [f64], room: &mut Scratch) {
     for x in x.chunks_mut(LENGTH) {
         let [e, f, dropped, s] = room.rows(x.len());
         take_apart(x, e, f, dropped, s);
@@ -95,7 +95,7 @@ pub fn ln_1p(x: &mut [f64], room: &mut Room) {
 
 /// x\[i\] = ln(1 + e^x\[i\]).
 #[inline(always)]
-pub fn softplus(x: &mut [f64], room: &mut Room) {
+pub fn softplus(x: &mut [f64], room: &mut Scratch) {
     for x in x.chunks_mut(LENGTH) {
         let [r, missing, shifted, decay] = room.rows(x.len());
         reduce(reduced_decay, x, r, missing, shifted);
@@ -110,7 +110,7 @@ pub fn softplus(x: &mut [f64], room: &mut Room) {
 
 /// x\[i\] = softplus(y0 + x\[i\]) - softplus(y0).
 #[inline(always)]
-pub fn softplus_difference(base: &SoftplusBase, x: &mut [f64], room: &mut Room) {
+pub fn softplus_difference(base: &SoftplusBase, x: &mut [f64], room: &mut Scratch) {
     for x in x.chunks_mut(LENGTH) {
         let [r, missing, shifted, change] = room.rows(x.len());
         reduce_change(base, x, r, missing, shifted, change);

@@ -7,9 +7,9 @@ use crate::dense::{Ends, Step, Stepper, Trial};
 use crate::extrapolation::Extrapolation;
 use crate::failure::Failure;
 use crate::methods::Method;
-use crate::observe::{Mark, Observer, Pace, Place};
+use crate::observe::{Observer, Pace, Place, ResumePoint};
 use crate::runge_kutta::RungeKutta;
-use crate::system::{Burst, System};
+use crate::system::{Batch, System};
 use crate::taylor::Taylor;
 use crate::vector::{add, add_compensated};
 
@@ -68,7 +68,11 @@ pub fn integrate(problem: &Problem<'_>, observer: &mut dyn Observer) -> Result<S
 ///
 /// # Errors
 /// [`Failure::NotResumable`] for a mark of a run with another rule for its steps; else as [`integrate`].
-pub fn resume(problem: &Problem<'_>, mark: &Mark<'_>, observer: &mut dyn Observer) -> Result<Statistics, Failure> {
+pub fn resume(
+    problem: &Problem<'_>,
+    mark: &ResumePoint<'_>,
+    observer: &mut dyn Observer,
+) -> Result<Statistics, Failure> {
     let mut run = Run::new(&Problem { start: mark.state, ..*problem });
     run.statistics = mark.statistics.clone();
     let made = match (problem.control, mark.pace) {
@@ -141,19 +145,19 @@ impl<'a> Run<'a> {
         while k < whole {
             if k >= next_mark {
                 let place = Place { step: k, slow_until };
-                observer.between(&Mark { place, statistics: &self.statistics, state: &self.state, pace: None });
+                observer.between(&ResumePoint { place, statistics: &self.statistics, state: &self.state, pace: None });
                 next_mark = k + LONGEST_BURST;
             }
             if problem.method == Method::Heun && k >= slow_until {
                 let sample = ((observer.next_sample() - problem.begin) / h) as u64;
                 let count = sample.min(whole).saturating_sub(k + 1).min(LONGEST_BURST);
-                match self.burst(h, count) {
-                    Burst::Quiet => {
+                match self.batch(h, count) {
+                    Batch::Done => {
                         k += count;
                         continue;
                     }
-                    Burst::Eventful => slow_until = k + count,
-                    Burst::NotOffered => slow_until = whole,
+                    Batch::NeedsInspection => slow_until = k + count,
+                    Batch::Unsupported => slow_until = whole,
                 }
             }
             let start = problem.begin + k as f64 * h;
@@ -174,19 +178,19 @@ impl<'a> Run<'a> {
     }
 
     /// Makes `count` steps of Heun's scheme that nobody needs to see, if the system can do so and nothing happens.
-    fn burst(&mut self, h: f64, count: u64) -> Burst {
+    fn batch(&mut self, h: f64, count: u64) -> Batch {
         if count == 0 {
-            return Burst::Eventful;
+            return Batch::NeedsInspection;
         }
         self.next.copy_from_slice(&self.state);
-        let burst = self.system.heun(&mut self.next, h, count);
-        if burst == Burst::Quiet {
+        let batch = self.system.heun(&mut self.next, h, count);
+        if batch == Batch::Done {
             std::mem::swap(&mut self.state, &mut self.next);
             self.system.rates(&self.state, &mut self.rates);
             self.statistics.steps += count;
             self.statistics.evaluations += 2 * count;
         }
-        burst
+        batch
     }
 
     fn adaptive(
@@ -267,7 +271,7 @@ impl<'a> Run<'a> {
                 let pace = Pace { rates: &self.rates, carry: &carry, time, step: h, error, unit };
                 let place = Place { step: self.statistics.steps, slow_until: 0 };
                 let (statistics, state) = (&self.statistics, &self.state[..]);
-                observer.between(&Mark { place, statistics, state, pace: Some(pace) });
+                observer.between(&ResumePoint { place, statistics, state, pace: Some(pace) });
             }
         }
         Ok(())
@@ -343,7 +347,7 @@ impl<'a> Run<'a> {
     }
 }
 
-/// Steps of a burst: enough to make its start cheap, few enough to make again one by one. Marks are no closer.
+/// Steps of a batch: enough to make its start cheap, few enough to make again one by one. Marks are no closer.
 const LONGEST_BURST: u64 = 4096;
 
 /// As many components are brought on by adaptive steps between two marks.

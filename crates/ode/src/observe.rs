@@ -25,7 +25,7 @@ pub trait Observer {
     fn stuck(&mut self, _reached: &Statistics) {}
 
     /// Looks at a place between two steps, every few thousand of them, from which the run can be resumed.
-    fn between(&mut self, _mark: &Mark<'_>) {}
+    fn between(&mut self, _mark: &ResumePoint<'_>) {}
 }
 
 /// A thousand times the longest run by adaptive steps that anybody has had a use for here: more are a sign that the
@@ -37,13 +37,13 @@ pub const MOST_STEPS: u64 = 1_000_000_000;
 pub struct Place {
     /// The number of the next step, from 0.
     pub step: u64,
-    /// The step up to which steps are made one by one, because something happened in a burst of them.
+    /// The step up to which steps are made one by one, because something happened in a batch of them.
     pub slow_until: u64,
 }
 
 /// All that an integration has to know to go on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mark<'a> {
+pub struct ResumePoint<'a> {
     /// Between which steps.
     pub place: Place,
     /// The counts so far, and the end of the last step that was shown. Its own state is of no meaning.

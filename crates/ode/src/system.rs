@@ -27,8 +27,8 @@ pub trait System {
 
     /// Makes `count` steps of length `h` of Heun's scheme in place, with the same bits as one by one, if the system has a
     /// faster way to do so.
-    fn heun(&self, _state: &mut [f64], _h: f64, _count: u64) -> Burst {
-        Burst::NotOffered
+    fn heun(&self, _state: &mut [f64], _h: f64, _count: u64) -> Batch {
+        Batch::Unsupported
     }
 
     /// Whether [`System::series`] gives the Taylor series of a solution.
@@ -60,13 +60,13 @@ pub trait System {
 
 /// What became of many steps made at once (see [`System::heun`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Burst {
+pub enum Batch {
     /// The steps were made and nothing happened in them.
-    Quiet,
+    Done,
     /// Something happened in one of them: they must be made again one by one, to be looked at.
-    Eventful,
+    NeedsInspection,
     /// There is no faster way; the state is untouched.
-    NotOffered,
+    Unsupported,
 }
 
 /// Components of one kind, whose errors are compared with one size.

@@ -26,11 +26,11 @@ pub(crate) struct Taylor {
     last_size: f64,
     /// The components that are not position-like: the others' rates bend nowhere.
     forced: Vec<Range<usize>>,
-    /// Room for the defect at the end of a step; 0 for position-like components.
+    /// Scratch for the defect at the end of a step; 0 for position-like components.
     defect: Vec<f64>,
     /// Whether it is that of the last step.
     has_defect: bool,
-    /// Room for what position-like components lack.
+    /// Scratch for what position-like components lack.
     missing: Vec<f64>,
 }
 

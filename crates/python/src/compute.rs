@@ -3,8 +3,8 @@
 use crate::given::{Given, choose, replaced, scene_error, section};
 use crate::watch::{Watch, detached};
 use cpu_time::ThreadTime;
-use files::reader::{Reader, RecipeError, Section, Value};
-use files::recipe::{self, Kind};
+use files::reader::{Reader, SceneError, Section, Value};
+use files::scene_file::{self, Kind};
 use jam::precise::Precise;
 use jam::stability::Waves;
 use jam::uniform;
@@ -88,7 +88,7 @@ pub fn map<'py>(
         watch.tell(1.0);
         computed
     })?;
-    let computed = computed.map_err(|problem| scene_error(py, &RecipeError::new(&chosen.file, 0, problem)))?;
+    let computed = computed.map_err(|problem| scene_error(py, &SceneError::new(&chosen.file, 0, problem)))?;
     let made = PyDict::new(py);
     made.set_item("title", chosen.title)?;
     made.set_item("summary", summary::of_map(&chosen.panel.name, &map, &computed).to_string())?;
@@ -164,18 +164,18 @@ pub fn response(
         jam::laws::Model::Formula(formula) => uniform::of_formula(formula, headway, speed),
         model => uniform::steady_speed(model, headway),
     };
-    let speed = found.map_err(|error| scene_error(py, &RecipeError::new(&file, 0, error.to_string())))?;
+    let speed = found.map_err(|error| scene_error(py, &SceneError::new(&file, 0, error.to_string())))?;
     let response = model.response(headway, speed);
     Ok(Response { speed, answer: response.map(|response| (response, Precise::new(&model, headway, speed))) })
 }
 
 /// The tables that hold `[law]`, of a whole scene or of a law alone.
-fn law_of(given: &Given<'_>) -> Result<(String, Section), RecipeError> {
+fn law_of(given: &Given<'_>) -> Result<(String, Section), SceneError> {
     let (file, tables) = match given {
         Given::Tables(tables) => ("<dict>".to_owned(), section(tables)?),
         Given::Text(text) => ("<text>".to_owned(), Section::parse("<text>", text)?),
         Given::File(path) => {
-            let recipe = recipe::read(path)?;
+            let recipe = scene_file::read(path)?;
             let tables = recipe.panels.first().map_or_else(Section::default, |panel| panel.tables.clone());
             (recipe.file, tables)
         }

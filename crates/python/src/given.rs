@@ -1,7 +1,7 @@
 //! What a caller gives: a scene as a file, as text or as a dictionary, and values that replace some of its own.
 
-use files::reader::{Entry, RecipeError, Section, Value};
-use files::recipe::{self, Kind, Panel, Recipe};
+use files::reader::{Entry, SceneError, Section, Value};
+use files::scene_file::{self, Kind, Panel, SceneFile};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString};
 use scene::overrides;
@@ -44,20 +44,20 @@ pub fn choose(given: &Given<'_>, name: Option<&str>, kind: Kind, values: &Bound<
     let recipe = read(given).map_err(|error| scene_error(values.py(), &error))?;
     let mut panel = panel(&recipe, name, kind).map_err(|error| scene_error(values.py(), &error))?.clone();
     panel.tables = replaced(&panel.tables, values)?;
-    let Recipe { file, title, .. } = recipe;
+    let SceneFile { file, title, .. } = recipe;
     Ok(Chosen { file, title, panel })
 }
 
-fn read(given: &Given<'_>) -> Result<Recipe, RecipeError> {
+fn read(given: &Given<'_>) -> Result<SceneFile, SceneError> {
     match given {
-        Given::Tables(tables) => recipe::read_section(TABLES, &section(tables)?),
-        Given::Text(text) => recipe::parse(TEXT, text),
-        Given::File(path) => recipe::read(path),
+        Given::Tables(tables) => scene_file::read_section(TABLES, &section(tables)?),
+        Given::Text(text) => scene_file::parse(TEXT, text),
+        Given::File(path) => scene_file::read(path),
     }
 }
 
-fn panel<'a>(recipe: &'a Recipe, name: Option<&str>, kind: Kind) -> Result<&'a Panel, RecipeError> {
-    let complaint = |problem: String| RecipeError::new(&recipe.file, 0, problem);
+fn panel<'a>(recipe: &'a SceneFile, name: Option<&str>, kind: Kind) -> Result<&'a Panel, SceneError> {
+    let complaint = |problem: String| SceneError::new(&recipe.file, 0, problem);
     let found: Vec<&Panel> = recipe.panels.iter().filter(|panel| panel.kind == kind).collect();
     match (name, &found[..]) {
         (Some(name), _) => recipe.panel(name),
@@ -85,18 +85,18 @@ pub fn replaced(tables: &Section, values: &Bound<'_, PyDict>) -> PyResult<Sectio
 }
 
 /// A dictionary as a table of a scene.
-pub fn section(tables: &Bound<'_, PyDict>) -> Result<Section, RecipeError> {
+pub fn section(tables: &Bound<'_, PyDict>) -> Result<Section, SceneError> {
     let mut section = Section::default();
     for (index, (key, entry)) in tables.iter().enumerate() {
         let Ok(key) = key.extract::<String>() else {
-            return Err(RecipeError::new(TABLES, 0, format!("{key}: a key must be a text")));
+            return Err(SceneError::new(TABLES, 0, format!("{key}: a key must be a text")));
         };
         section.entries.insert(key, Entry::given(index, value(&entry)?));
     }
     Ok(section)
 }
 
-fn value(entry: &Bound<'_, PyAny>) -> Result<Value, RecipeError> {
+fn value(entry: &Bound<'_, PyAny>) -> Result<Value, SceneError> {
     let other = || entry.get_type().name().map_or_else(|_| "object".to_owned(), |name| name.to_string());
     if let Ok(tables) = entry.cast::<PyDict>() {
         return section(tables).map(Value::Section);
@@ -111,7 +111,7 @@ fn value(entry: &Bound<'_, PyAny>) -> Result<Value, RecipeError> {
         // a whole number of Python may have more digits than a double
         Ok(number) if entry.is_instance_of::<PyInt>() && !entry.eq(number).unwrap_or(false) => {
             let problem = format!("{entry} is a whole number that no double holds; the nearest is {number:?}");
-            Err(RecipeError::new(TABLES, 0, problem))
+            Err(SceneError::new(TABLES, 0, problem))
         }
         Ok(number) => Ok(Value::Number(number)),
         Err(_) => Ok(Value::Other(other())),
@@ -119,7 +119,7 @@ fn value(entry: &Bound<'_, PyAny>) -> Result<Value, RecipeError> {
 }
 
 /// The exception `jamming.SceneError`, with file, line, key, value and allowed range.
-pub fn scene_error(py: Python<'_>, error: &RecipeError) -> PyErr {
+pub fn scene_error(py: Python<'_>, error: &SceneError) -> PyErr {
     let line = (error.line > 0).then_some(error.line);
     let about = error.about.as_deref();
     let key = about.map(|about| about.key.as_str());

@@ -2,8 +2,8 @@
 
 use crate::given::{Given, choose, scene_error};
 use crate::watch::{Watch, detached};
-use files::reader::RecipeError;
-use files::recipe::Kind;
+use files::reader::SceneError;
+use files::scene_file::Kind;
 use jam::outcome::Class;
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -27,7 +27,7 @@ pub fn sweep<'py>(
     let chosen = choose(&given, panel, Kind::Sweep, values)?;
     let sweep = scene::sweep::read(&chosen.file, &chosen.panel.tables).map_err(|error| scene_error(py, &error))?;
     let found = detached(py, || compute(&sweep, jobs, &Watch::new(progress.as_ref(), 1)))?;
-    let cells = found.map_err(|problem| scene_error(py, &RecipeError::new(&chosen.file, 0, problem)))?;
+    let cells = found.map_err(|problem| scene_error(py, &SceneError::new(&chosen.file, 0, problem)))?;
     let made = PyDict::new(py);
     made.set_item("title", chosen.title)?;
     made.set_item("law", sweep.model.name())?;

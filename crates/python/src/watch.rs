@@ -1,8 +1,8 @@
 //! Looking on while something is computed without the interpreter's lock: Ctrl-C ends it, a callback hears how far it is.
 
 use pyo3::prelude::*;
-use scene::checkpoint::Underway;
-use scene::simulation::{Judging, Onlooker};
+use scene::checkpoint::PartialRun;
+use scene::simulation::{Judging, RunObserver};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::time::{Duration, Instant};
 
@@ -72,12 +72,12 @@ impl<'a> Watch<'a> {
     }
 }
 
-impl Onlooker for Watch<'_> {
+impl RunObserver for Watch<'_> {
     fn after(&mut self, step: &ode::Step<'_>) {
         self.look(step.end / self.t_end);
     }
 
-    fn between(&mut self, underway: &Underway<'_>) {
+    fn between(&mut self, underway: &PartialRun<'_>) {
         self.work = WORK;
         self.look(underway.fraction());
     }

@@ -1,8 +1,8 @@
 //! The end of the unstable algebraic run: pedestrians throw each other back, each twice as fast as the one before.
 
-use crate::events::{Event, Happening, next};
+use crate::events::{Event, EventKind, next};
 use crate::run::{Run, Stuck};
-use math::twofold::Twofold;
+use math::double_double::DoubleDouble;
 
 /// Speeds up to which the throw-backs are followed: some sixty doublings, not once around the ring.
 const FASTEST: f64 = 1e18;
@@ -11,11 +11,11 @@ const FASTEST: f64 = 1e18;
 #[derive(Clone, Debug, PartialEq)]
 pub struct BlowUp {
     /// `T*`, extrapolated.
-    pub time: Twofold,
+    pub time: DoubleDouble,
     /// How much the last throw-back has changed the extrapolation.
     pub change: f64,
     /// The throw-backs up to then.
-    pub throws: Vec<Happening>,
+    pub throws: Vec<Event>,
 }
 
 /// Follows the throw-backs. The times between them tend to halve; Aitken's extrapolation of the last three ends them.
@@ -26,7 +26,7 @@ pub fn follow(run: &mut Run) -> Result<BlowUp, Stuck> {
     let mut throws = Vec::new();
     let (mut time, mut change) = (run.time, f64::INFINITY);
     loop {
-        let throw = next(run, Event::ThrowBack)?;
+        let throw = next(run, EventKind::ThrowBack)?;
         throws.push(throw);
         if let [.., a, b, c] = throws.as_slice() {
             let (first, second) = (b.time - a.time, c.time - b.time);

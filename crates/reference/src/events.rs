@@ -2,12 +2,12 @@
 
 use crate::ring::Ring;
 use crate::run::{Run, Stuck};
+use math::double_double::DoubleDouble;
 use math::larger;
-use math::twofold::Twofold;
 
 /// What a run is watched for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Event {
+pub enum EventKind {
     /// A clearance `d_n = s_n - 2` becomes negative.
     Overlap,
     /// A speed becomes negative.
@@ -20,34 +20,40 @@ pub enum Event {
 
 /// An event that was located.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Happening {
+pub struct Event {
     /// When.
-    pub time: Twofold,
+    pub time: DoubleDouble,
     /// Whose: counted from 0, the pedestrian behind where two are concerned.
     pub pedestrian: usize,
     /// The largest speed, in size, at the end of the step in which it happened.
     pub fastest: f64,
 }
 
-impl Event {
+impl EventKind {
     /// As `data/events.csv` names it.
     pub fn name(self) -> &'static str {
         match self {
-            Event::Overlap => "overlap",
-            Event::NegativeSpeed => "negative_speed",
-            Event::Exchange => "exchange",
-            Event::ThrowBack => "throw_back",
+            EventKind::Overlap => "overlap",
+            EventKind::NegativeSpeed => "negative_speed",
+            EventKind::Exchange => "exchange",
+            EventKind::ThrowBack => "throw_back",
         }
     }
 
     /// Negative once the event has happened to pedestrian `n`; and its time derivative.
-    fn value(self, ring: &Ring, state: &[Twofold], rates: &[Twofold], n: usize) -> (Twofold, Twofold) {
+    fn value(
+        self,
+        ring: &Ring,
+        state: &[DoubleDouble],
+        rates: &[DoubleDouble],
+        n: usize,
+    ) -> (DoubleDouble, DoubleDouble) {
         let (own, ahead) = (ring.pedestrians + n, ring.pedestrians + (n + 1) % ring.pedestrians);
         match self {
-            Event::Overlap => (state[n], rates[n]),
-            Event::NegativeSpeed => (state[own], rates[own]),
-            Event::Exchange => (state[n] + ring.law.contact(), rates[n]),
-            Event::ThrowBack => (-rates[n], rates[own] - rates[ahead]),
+            EventKind::Overlap => (state[n], rates[n]),
+            EventKind::NegativeSpeed => (state[own], rates[own]),
+            EventKind::Exchange => (state[n] + ring.law.contact(), rates[n]),
+            EventKind::ThrowBack => (-rates[n], rates[own] - rates[ahead]),
         }
     }
 }
@@ -63,17 +69,17 @@ const NEAR: f64 = 1e-2;
 ///
 /// # Errors
 /// [`Stuck`].
-pub fn next(run: &mut Run, event: Event) -> Result<Happening, Stuck> {
+pub fn next(run: &mut Run, event: EventKind) -> Result<Event, Stuck> {
     loop {
         let mut before = run.clone();
         let h = run.advance(NEVER)?;
         let (ring, count) = (run.ring, run.ring.pedestrians);
         let fastest = run.state[count..2 * count].iter().fold(0.0_f64, |fastest, v| larger(fastest, v.hi.abs()));
-        let mut first: Option<Happening> = None;
+        let mut first: Option<Event> = None;
         for n in 0..count {
             let start = event.value(&ring, &before.state, &before.rates, n);
             let end = event.value(&ring, &run.state, &run.rates, n);
-            if start.0.hi < 0.0 || (event == Event::ThrowBack && run.state[n].hi > NEAR) {
+            if start.0.hi < 0.0 || (event == EventKind::ThrowBack && run.state[n].hi > NEAR) {
                 continue;
             }
             let guess = if end.0.hi < 0.0 {
@@ -84,7 +90,7 @@ pub fn next(run: &mut Run, event: Event) -> Result<Happening, Stuck> {
             let Some(guess) = guess else { continue };
             let time = before.time + crossing(&mut before, event, n, guess);
             if first.is_none_or(|known| (time - known.time).hi < 0.0) {
-                first = Some(Happening { time, pedestrian: n, fastest });
+                first = Some(Event { time, pedestrian: n, fastest });
             }
         }
         if let Some(happening) = first {
@@ -96,7 +102,13 @@ pub fn next(run: &mut Run, event: Event) -> Result<Happening, Stuck> {
 /// Where the value is positive at both ends of a step, but has a minimum within, which is negative: a place left of the
 /// crossing from where Newton's method moves towards it (the value is convex there). Bisection of the slope's sign,
 /// until the tangents at both ends of the bracket meet above 0.
-fn before_dip(run: &mut Run, event: Event, n: usize, ends: [(Twofold, Twofold); 2], h: Twofold) -> Option<Twofold> {
+fn before_dip(
+    run: &mut Run,
+    event: EventKind,
+    n: usize,
+    ends: [(DoubleDouble, DoubleDouble); 2],
+    h: DoubleDouble,
+) -> Option<DoubleDouble> {
     let ([mut start, mut end], mut left, mut right) = (ends, 0.0, h.hi);
     let mut rates = run.rates.clone();
     while start.1.hi < 0.0 && end.1.hi > 0.0 {
@@ -106,11 +118,11 @@ fn before_dip(run: &mut Run, event: Event, n: usize, ends: [(Twofold, Twofold); 
         if start.0.hi + fall * meeting > 0.0 || middle <= left || middle >= right {
             return None;
         }
-        let state = run.peek(Twofold::from(middle));
+        let state = run.peek(DoubleDouble::from(middle));
         run.ring.rates(&state, &mut rates);
         let value = event.value(&run.ring, &state, &rates, n);
         if value.0.hi < 0.0 {
-            return Some(Twofold::from(left));
+            return Some(DoubleDouble::from(left));
         }
         if value.1.hi < 0.0 {
             (start, left) = (value, middle);
@@ -122,7 +134,7 @@ fn before_dip(run: &mut Run, event: Event, n: usize, ends: [(Twofold, Twofold); 
 }
 
 /// The length of the step, near `h`, at whose end the event's value is 0.
-fn crossing(run: &mut Run, event: Event, n: usize, h: Twofold) -> Twofold {
+fn crossing(run: &mut Run, event: EventKind, n: usize, h: DoubleDouble) -> DoubleDouble {
     let mut rates = run.rates.clone();
     let mut h = h;
     for _ in 0..ITERATIONS {

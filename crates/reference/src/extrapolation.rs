@@ -1,34 +1,34 @@
-//! Extrapolated midpoint rule in twofold numbers (W. B. Gragg 1965; Hairer, Norsett & Wanner, *Solving ODEs I*, II.9).
+//! Extrapolated midpoint rule in double-double numbers (W. B. Gragg 1965; Hairer, Norsett & Wanner, *Solving ODEs I*, II.9).
 //!
 //! The error of the midpoint rule with `m` substeps is a series in `1 / m^2`. So the sum of the results for `m` = 2, 4,
 //! .., 2K with weights `w_i = prod_{j != i} m_i^2 / (m_i^2 - m_j^2)` has order 2K. The weights are rational; the
 //! largest is 256 for K = 12 and 1447 for K = 15, so hardly a digit is lost to them.
 
 use crate::ring::Ring;
+use math::double_double::DoubleDouble;
 use math::simd::{Kernel, dispatch};
-use math::twofold::Twofold;
 
 /// The method with its weights and its memory.
 #[derive(Clone, Debug)]
 pub struct Extrapolation {
     /// For each row: its weight in the result, and in the difference from the result with one row less.
-    weights: Vec<(Twofold, Twofold)>,
-    earlier: Vec<Twofold>,
-    change: Vec<Twofold>,
-    state: Vec<Twofold>,
-    rates: Vec<Twofold>,
+    weights: Vec<(DoubleDouble, DoubleDouble)>,
+    earlier: Vec<DoubleDouble>,
+    change: Vec<DoubleDouble>,
+    state: Vec<DoubleDouble>,
+    rates: Vec<DoubleDouble>,
     /// After a step: what the state changes by.
-    pub result: Vec<Twofold>,
+    pub result: Vec<DoubleDouble>,
     /// After a step: the result less that with one row less, an estimate (from above) of its error.
-    pub difference: Vec<Twofold>,
+    pub difference: Vec<DoubleDouble>,
 }
 
 impl Extrapolation {
     /// The method of order `2 rows`, `rows >= 2`, for states of `dimension` numbers.
     pub fn new(rows: usize, dimension: usize) -> Extrapolation {
-        let zeros = || vec![Twofold::ZERO; dimension];
+        let zeros = || vec![DoubleDouble::ZERO; dimension];
         let (weights, lower) = (weights(rows), weights(rows - 1));
-        let less = lower.into_iter().chain([Twofold::ZERO]);
+        let less = lower.into_iter().chain([DoubleDouble::ZERO]);
         Extrapolation {
             weights: weights.iter().zip(less).map(|(&weight, less)| (weight, weight - less)).collect(),
             earlier: zeros(),
@@ -51,9 +51,9 @@ impl Extrapolation {
     }
 
     /// A step of length `h` from a state with its rates, into `self.result` and `self.difference`.
-    pub fn step(&mut self, ring: &Ring, state: &[Twofold], rates: &[Twofold], h: Twofold) {
-        self.result.fill(Twofold::ZERO);
-        self.difference.fill(Twofold::ZERO);
+    pub fn step(&mut self, ring: &Ring, state: &[DoubleDouble], rates: &[DoubleDouble], h: DoubleDouble) {
+        self.result.fill(DoubleDouble::ZERO);
+        self.difference.fill(DoubleDouble::ZERO);
         for row in 0..self.weights.len() {
             self.midpoint(ring, state, rates, h, 2 * (row + 1));
             let (weight, difference) = self.weights[row];
@@ -63,10 +63,17 @@ impl Extrapolation {
     }
 
     /// The midpoint rule with `substeps`: leaves what the state changes by in `self.change`.
-    fn midpoint(&mut self, ring: &Ring, state: &[Twofold], rates: &[Twofold], h: Twofold, substeps: usize) {
+    fn midpoint(
+        &mut self,
+        ring: &Ring,
+        state: &[DoubleDouble],
+        rates: &[DoubleDouble],
+        h: DoubleDouble,
+        substeps: usize,
+    ) {
         let h = h / substeps as f64;
-        self.earlier.fill(Twofold::ZERO);
-        self.change.fill(Twofold::ZERO);
+        self.earlier.fill(DoubleDouble::ZERO);
+        self.change.fill(DoubleDouble::ZERO);
         dispatch(AddScaled { factor: h, terms: rates, sums: &mut self.change });
         for _ in 1..substeps {
             dispatch(Sum { a: state, b: &self.change, out: &mut self.state });
@@ -78,18 +85,18 @@ impl Extrapolation {
 }
 
 /// `w_i` for 2, 4, .., 2 rows substeps.
-fn weights(rows: usize) -> Vec<Twofold> {
+fn weights(rows: usize) -> Vec<DoubleDouble> {
     let square = |row: usize| ((row + 1) * (row + 1)) as f64;
-    let factor = |i: usize, j: usize| Twofold::from(square(i)) / (square(i) - square(j));
-    let weight = |i: usize| (0..rows).filter(|&j| j != i).fold(Twofold::ONE, |product, j| product * factor(i, j));
+    let factor = |i: usize, j: usize| DoubleDouble::from(square(i)) / (square(i) - square(j));
+    let weight = |i: usize| (0..rows).filter(|&j| j != i).fold(DoubleDouble::ONE, |product, j| product * factor(i, j));
     (0..rows).map(weight).collect()
 }
 
 /// sums\[i\] += factor terms\[i\].
 struct AddScaled<'a> {
-    factor: Twofold,
-    terms: &'a [Twofold],
-    sums: &'a mut [Twofold],
+    factor: DoubleDouble,
+    terms: &'a [DoubleDouble],
+    sums: &'a mut [DoubleDouble],
 }
 
 impl Kernel for AddScaled<'_> {
@@ -105,9 +112,9 @@ impl Kernel for AddScaled<'_> {
 
 /// out\[i\] = a\[i\] + b\[i\].
 struct Sum<'a> {
-    a: &'a [Twofold],
-    b: &'a [Twofold],
-    out: &'a mut [Twofold],
+    a: &'a [DoubleDouble],
+    b: &'a [DoubleDouble],
+    out: &'a mut [DoubleDouble],
 }
 
 impl Kernel for Sum<'_> {

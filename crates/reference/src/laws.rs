@@ -3,10 +3,10 @@
 //! Only terms that the scenes have: no widening (`a_v = 0`), no relative speed (`delta = 0`), no contact force
 //! (`c = 0`), `q = 2`. So the speed ahead has no influence.
 
-use math::twofold::{Twofold, full};
+use math::double_double::{DoubleDouble, full};
 
 /// `e - 1`, the constant of eq:modlog (printed by `mpmath.e - 1`).
-const C: Twofold = Twofold { hi: std::f64::consts::E - 1.0, lo: 1.445_646_891_729_250_2e-16 };
+const C: DoubleDouble = DoubleDouble { hi: std::f64::consts::E - 1.0, lo: 1.445_646_891_729_250_2e-16 };
 
 /// A law with its parameters, all dimensionless.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,25 +14,25 @@ pub enum Law {
     /// eq:invd with `<mu, 0, 2, 0>`: `v_0 - v - mu^2 / d^2`, where `d = s - 2`.
     Algebraic {
         /// `mu > 0`: strength of the force.
-        strength: Twofold,
+        strength: DoubleDouble,
         /// `v_0 > 0`.
-        desired_speed: Twofold,
+        desired_speed: DoubleDouble,
     },
     /// eq:sfm with `<a, b, 0, 0>`: `v_0 - v - a exp(-d / b)`, where `d = s - 2`.
     Exponential {
         /// `a > 0`: strength of the force.
-        strength: Twofold,
+        strength: DoubleDouble,
         /// `b > 0`: its range.
-        range: Twofold,
+        range: DoubleDouble,
         /// `v_0 > 0`.
-        desired_speed: Twofold,
+        desired_speed: DoubleDouble,
     },
     /// eq:modlog with `a_v = 0`: `v_0 (1 - ln(1 + (e - 1) r_eps(s / 2 - 1))) - v`.
     Logarithmic {
         /// `v_0 > 0`.
-        desired_speed: Twofold,
+        desired_speed: DoubleDouble,
         /// `eps > 0`: width of the smooth ramp.
-        epsilon: Twofold,
+        epsilon: DoubleDouble,
     },
 }
 
@@ -50,20 +50,26 @@ impl Law {
 
 /// `v_0 - v - (mu / d)^2` (eq:invd).
 #[inline(always)]
-pub(crate) fn algebraic(mu: Twofold, v0: Twofold, d: Twofold, v: Twofold) -> Twofold {
+pub(crate) fn algebraic(mu: DoubleDouble, v0: DoubleDouble, d: DoubleDouble, v: DoubleDouble) -> DoubleDouble {
     let root = mu / d;
     v0 - v - root * root
 }
 
 /// `v_0 - v - a exp(-d / b)` (eq:sfm).
 #[inline(always)]
-pub(crate) fn exponential(a: Twofold, b: Twofold, v0: Twofold, d: Twofold, v: Twofold) -> Twofold {
+pub(crate) fn exponential(
+    a: DoubleDouble,
+    b: DoubleDouble,
+    v0: DoubleDouble,
+    d: DoubleDouble,
+    v: DoubleDouble,
+) -> DoubleDouble {
     v0 - v - a * full::exp(-(d / b))
 }
 
 /// `v_0 (1 - ln(1 + c R)) - v` with `R = r_eps(s / 2 - 1)` (eq:modlog, eq:aTheta).
 #[inline(always)]
-pub(crate) fn logarithmic(v0: Twofold, epsilon: Twofold, s: Twofold, v: Twofold) -> Twofold {
+pub(crate) fn logarithmic(v0: DoubleDouble, epsilon: DoubleDouble, s: DoubleDouble, v: DoubleDouble) -> DoubleDouble {
     let x = s.times(0.5) - 1.0;
     let ramp = epsilon * full::softplus(-(x / epsilon));
     v0 * (-full::ln_1p(C * ramp) + 1.0) - v

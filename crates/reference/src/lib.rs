@@ -3,7 +3,7 @@
 //! Nothing is shared with `jam` and `ode` but the arithmetic of `math`, and of a law that a scene gives as formulas the
 //! parsed graph ([`graph`]): the laws are written a second time, straight
 //! from the paper and with just the terms that the scenes have; the state is clearances and speeds, not deviations; the
-//! method is extrapolation of a much higher order, in twofold numbers.
+//! method is extrapolation of a much higher order, in double-double numbers.
 
 pub mod cascade;
 pub mod collocation;

@@ -2,8 +2,8 @@
 
 use clap::Parser;
 use files::write::atomic;
-use math::twofold::{Twofold, decimal};
-use reference::events::{Event, next};
+use math::double_double::{DoubleDouble, decimal};
+use reference::events::{EventKind, next};
 use reference::growth::{Direction, growth};
 use reference::run::{Precision, Run};
 use reference::scenes::{NAMES, Parameters, Scene, scene};
@@ -108,10 +108,10 @@ fn publish(scene: &Scene, folder: &Path) -> Result<(), Box<dyn Error>> {
 }
 
 fn print_events(scene: &Scene, first: &mut Run, second: &mut Run) -> Result<(), Box<dyn Error>> {
-    let events: &[Event] = if scene.ring.law.is_singular() {
-        &[Event::NegativeSpeed]
+    let events: &[EventKind] = if scene.ring.law.is_singular() {
+        &[EventKind::NegativeSpeed]
     } else {
-        &[Event::Overlap, Event::NegativeSpeed, Event::Exchange]
+        &[EventKind::Overlap, EventKind::NegativeSpeed, EventKind::Exchange]
     };
     for &event in events {
         let (found, confirmed) = (next(first, event)?, next(second, event)?);
@@ -131,14 +131,14 @@ fn print_events(scene: &Scene, first: &mut Run, second: &mut Run) -> Result<(), 
 /// The speed at which `data/events.csv` names a pedestrian for the blow-up: 1e12 times the desired one.
 const BLOW_UP: f64 = 3e12;
 
-fn print_event(scene: &Scene, event: &str, time: Twofold, pedestrian: usize, uncertainty: f64) {
+fn print_event(scene: &Scene, event: &str, time: DoubleDouble, pedestrian: usize, uncertainty: f64) {
     let text = table::confirmed(time, time + uncertainty);
     println!("events:{},{event},{text},{pedestrian},{uncertainty:.1e}", scene.name);
 }
 
 fn print_growth(scene: &Scene) -> Result<(), Box<dyn Error>> {
     for (time, direction, factor) in growth(scene, ROUGH, &[Direction::Shift, Direction::Random])? {
-        let factor = decimal::format(Twofold::from(factor), 3);
+        let factor = decimal::format(DoubleDouble::from(factor), 3);
         println!("growth:{},{},{time},{factor}", scene.name, direction.name());
     }
     Ok(())

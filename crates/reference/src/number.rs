@@ -7,7 +7,7 @@
 // the platform's functions, not those of `math`: a fault there must not appear on both sides of a comparison
 #![allow(clippy::disallowed_methods)]
 
-use math::twofold::{Twofold, full};
+use math::double_double::{DoubleDouble, full};
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -124,53 +124,53 @@ impl Real for f64 {
     const ROUNDING: f64 = 1.1e-16;
 }
 
-impl Number for Twofold {
+impl Number for DoubleDouble {
     fn value(self) -> f64 {
         self.into()
     }
 
-    fn exp(self) -> Twofold {
+    fn exp(self) -> DoubleDouble {
         full::exp(self)
     }
 
-    fn softplus(self) -> Twofold {
+    fn softplus(self) -> DoubleDouble {
         full::softplus(self)
     }
 
-    fn ln_1p(self) -> Twofold {
+    fn ln_1p(self) -> DoubleDouble {
         full::ln_1p(self)
     }
 
-    fn power(self, q: f64) -> Twofold {
+    fn power(self, q: f64) -> DoubleDouble {
         full::exp(full::ln(self) * q)
     }
 
-    fn exp_m1(self) -> Twofold {
+    fn exp_m1(self) -> DoubleDouble {
         full::exp_m1(self)
     }
 
-    fn ln(self) -> Twofold {
+    fn ln(self) -> DoubleDouble {
         full::ln(self)
     }
 
-    fn root(self) -> Twofold {
+    fn root(self) -> DoubleDouble {
         self.sqrt()
     }
 
-    fn tanh(self) -> Twofold {
+    fn tanh(self) -> DoubleDouble {
         full::tanh(self)
     }
 
-    fn size(self) -> Twofold {
+    fn size(self) -> DoubleDouble {
         if self.hi < 0.0 { -self } else { self }
     }
 
-    fn smaller(self, other: Twofold) -> Twofold {
+    fn smaller(self, other: DoubleDouble) -> DoubleDouble {
         if (other - self).hi < 0.0 || other.hi.is_nan() { other } else { self }
     }
 }
 
-impl Real for Twofold {
+impl Real for DoubleDouble {
     const ROUNDING: f64 = 1e-31;
 }
 

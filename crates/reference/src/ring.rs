@@ -1,8 +1,8 @@
 //! The ring of pedestrians as a system of ordinary differential equations.
 
 use crate::laws::{Law, algebraic, exponential, logarithmic};
+use math::double_double::DoubleDouble;
 use math::simd::{Kernel, dispatch};
-use math::twofold::Twofold;
 
 /// `N` pedestrians under a law. State: `[c_0 .. c_{N-1}, v_0 .. v_{N-1}, x_0]` with clearances `c_n`, the gaps less
 /// [`Law::contact`], so that a clearance near a wall keeps its digits.
@@ -21,10 +21,10 @@ impl Ring {
     }
 
     /// Equal gaps of a ring of length `length`, all speeds 0, pedestrian 0 moved forward by `shift`.
-    pub fn start(&self, length: f64, shift: Twofold) -> Vec<Twofold> {
+    pub fn start(&self, length: f64, shift: DoubleDouble) -> Vec<DoubleDouble> {
         let n = self.pedestrians;
-        let mut state = vec![Twofold::ZERO; self.dimension()];
-        state[..n].fill(Twofold::from(length) / n as f64 - self.law.contact());
+        let mut state = vec![DoubleDouble::ZERO; self.dimension()];
+        state[..n].fill(DoubleDouble::from(length) / n as f64 - self.law.contact());
         state[0] = state[0] - shift;
         state[n - 1] = state[n - 1] + shift;
         state[2 * n] = shift;
@@ -32,7 +32,7 @@ impl Ring {
     }
 
     /// The time derivatives of a state.
-    pub fn rates(&self, state: &[Twofold], rates: &mut [Twofold]) {
+    pub fn rates(&self, state: &[DoubleDouble], rates: &mut [DoubleDouble]) {
         let n = self.pedestrians;
         let (clearances, speeds) = (&state[..n], &state[n..2 * n]);
         let (of_clearances, of_speeds) = rates.split_at_mut(n);
@@ -48,9 +48,9 @@ impl Ring {
 /// The accelerations of all pedestrians.
 struct Accelerations<'a> {
     law: Law,
-    clearances: &'a [Twofold],
-    speeds: &'a [Twofold],
-    rates: &'a mut [Twofold],
+    clearances: &'a [DoubleDouble],
+    speeds: &'a [DoubleDouble],
+    rates: &'a mut [DoubleDouble],
 }
 
 impl Kernel for Accelerations<'_> {

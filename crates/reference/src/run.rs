@@ -3,8 +3,8 @@
 use crate::extrapolation::Extrapolation;
 use crate::ring::Ring;
 use crate::scenes::{LENGTH, Scene};
+use math::double_double::DoubleDouble;
 use math::larger;
-use math::twofold::Twofold;
 
 /// How a run is made: two runs that differ in both share little.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,11 +22,11 @@ pub struct Run {
     /// The ring.
     pub ring: Ring,
     /// The time.
-    pub time: Twofold,
+    pub time: DoubleDouble,
     /// The state at that time (see [`Ring`]).
-    pub state: Vec<Twofold>,
+    pub state: Vec<DoubleDouble>,
     /// Its time derivatives.
-    pub rates: Vec<Twofold>,
+    pub rates: Vec<DoubleDouble>,
     /// Evaluations of the rates so far.
     pub evaluations: u64,
     method: Extrapolation,
@@ -62,12 +62,12 @@ impl Run {
     }
 
     /// A ring at time 0 in this state.
-    pub fn from_state(ring: Ring, state: Vec<Twofold>, precision: Precision) -> Run {
-        let mut rates = vec![Twofold::ZERO; ring.dimension()];
+    pub fn from_state(ring: Ring, state: Vec<DoubleDouble>, precision: Precision) -> Run {
+        let mut rates = vec![DoubleDouble::ZERO; ring.dimension()];
         ring.rates(&state, &mut rates);
         Run {
             ring,
-            time: Twofold::ZERO,
+            time: DoubleDouble::ZERO,
             state,
             rates,
             evaluations: 1,
@@ -82,7 +82,7 @@ impl Run {
     /// # Errors
     /// [`Stuck`].
     pub fn advance_to(&mut self, time: f64) -> Result<(), Stuck> {
-        while self.time != Twofold::from(time) {
+        while self.time != DoubleDouble::from(time) {
             self.advance(time)?;
         }
         Ok(())
@@ -92,7 +92,7 @@ impl Run {
     ///
     /// # Errors
     /// [`Stuck`].
-    pub fn advance(&mut self, limit: f64) -> Result<Twofold, Stuck> {
+    pub fn advance(&mut self, limit: f64) -> Result<DoubleDouble, Stuck> {
         loop {
             let left = -(self.time - limit);
             // two equal steps rather than a long and a short one
@@ -102,7 +102,7 @@ impl Run {
             } else if is_near {
                 left.times(0.5)
             } else {
-                Twofold::from(self.h)
+                DoubleDouble::from(self.h)
             };
             self.try_step(h);
             let error = self.error();
@@ -111,7 +111,7 @@ impl Run {
             if error <= 1.0 && self.is_inside() {
                 self.accept(h);
                 if is_last {
-                    self.time = Twofold::from(limit);
+                    self.time = DoubleDouble::from(limit);
                 }
                 // no memory of earlier errors: near the noise of rounding a trend means nothing
                 let factor = 0.9 * math::pow(larger(error, 1e-20), -power);
@@ -129,17 +129,17 @@ impl Run {
 
     /// The state after a step of length `h` from the present one, which stays; accurate as a step that is taken, for an
     /// `h` up to the length of the next.
-    pub fn peek(&mut self, h: Twofold) -> Vec<Twofold> {
+    pub fn peek(&mut self, h: DoubleDouble) -> Vec<DoubleDouble> {
         self.try_step(h);
         self.state.iter().zip(&self.method.result).map(|(state, change)| *state + *change).collect()
     }
 
-    fn try_step(&mut self, h: Twofold) {
+    fn try_step(&mut self, h: DoubleDouble) {
         self.method.step(&self.ring, &self.state, &self.rates, h);
         self.evaluations += self.method.evaluations();
     }
 
-    fn accept(&mut self, h: Twofold) {
+    fn accept(&mut self, h: DoubleDouble) {
         for (state, change) in self.state.iter_mut().zip(&self.method.result) {
             *state = *state + *change;
         }

@@ -2,7 +2,7 @@
 
 use crate::laws::Law;
 use crate::ring::Ring;
-use math::twofold::Twofold;
+use math::double_double::DoubleDouble;
 
 /// What a parameter such as 0.45 means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,10 +14,10 @@ pub enum Parameters {
 }
 
 impl Parameters {
-    fn ratio(self, numerator: f64, denominator: f64) -> Twofold {
+    fn ratio(self, numerator: f64, denominator: f64) -> DoubleDouble {
         match self {
-            Parameters::Doubles => Twofold::from(numerator / denominator),
-            Parameters::Decimals => Twofold::from(numerator) / denominator,
+            Parameters::Doubles => DoubleDouble::from(numerator / denominator),
+            Parameters::Decimals => DoubleDouble::from(numerator) / denominator,
         }
     }
 }
@@ -30,7 +30,7 @@ pub struct Scene {
     /// Pedestrians and law.
     pub ring: Ring,
     /// The length of the ring is 200; gaps are equal but for pedestrian 0, which is this far ahead.
-    pub shift: Twofold,
+    pub shift: DoubleDouble,
     /// The times of the published states, whole and ascending. The standard deviation is published at every whole time
     /// up to the last of them.
     pub times: &'static [u32],
@@ -59,17 +59,19 @@ const LOGARITHMIC: &[u32] = &[1, 10, 50, 100, 200, 300, 500, 1000, 1500, 2000, 2
 /// The scene of this name.
 pub fn scene(name: &str, parameters: Parameters) -> Option<Scene> {
     let number = |numerator, denominator| parameters.ratio(numerator, denominator);
-    let desired_speed = Twofold::from(3.0);
+    let desired_speed = DoubleDouble::from(3.0);
     let algebraic = |hundredths| Ring {
         law: Law::Algebraic { strength: number(hundredths, 100.0), desired_speed },
         pedestrians: 67,
     };
     let exponential = |strength| Ring {
-        law: Law::Exponential { strength: Twofold::from(strength), range: Twofold::from(1.5), desired_speed },
+        law: Law::Exponential { strength: DoubleDouble::from(strength), range: DoubleDouble::from(1.5), desired_speed },
         pedestrians: 57,
     };
-    let logarithmic =
-        Ring { law: Law::Logarithmic { desired_speed: Twofold::ONE, epsilon: number(1.0, 100.0) }, pedestrians: 133 };
+    let logarithmic = Ring {
+        law: Law::Logarithmic { desired_speed: DoubleDouble::ONE, epsilon: number(1.0, 100.0) },
+        pedestrians: 133,
+    };
     let name = *NAMES.iter().find(|known| **known == name)?;
     let (ring, shift, times) = match name {
         "algebraic_stable" => (algebraic(45.0), 1e4, STABLE),

@@ -4,7 +4,7 @@ use crate::flow::{Flow, Form};
 use crate::formula::Formula;
 use crate::number::Real;
 use crate::solver::{Care, Solver, Stuck};
-use math::twofold::Twofold;
+use math::double_double::DoubleDouble;
 use math::{larger, smaller};
 
 /// A ring, its start, and what is wanted of it.
@@ -155,7 +155,7 @@ pub fn solve<T: Real>(question: &Question, form: Form, care: Care, fastest: f64)
         }
         watch(&solver, &mut solution);
         while let Some(&time) = wanted.next_if(|time| **time <= f64::from(solver.time)) {
-            let since = f64::from(Twofold::from(time) - solver.start);
+            let since = f64::from(DoubleDouble::from(time) - solver.start);
             let theta = if time == last { 1.0 } else { since / solver.length };
             solution.samples.push(sample(&solver.flow, time, &solver.at(theta)));
         }
@@ -194,7 +194,7 @@ fn sample<T: Real>(flow: &Flow<T>, time: f64, state: &[T]) -> Sample {
 /// Looks for first events in the last step.
 fn watch<T: Real>(solver: &Solver<T>, solution: &mut Solution) {
     let (flow, places, states) = (&solver.flow, solver.places(), solver.states());
-    let is_first = solver.start == Twofold::ZERO;
+    let is_first = solver.start == DoubleDouble::ZERO;
     for (index, kind) in Kind::ALL.into_iter().enumerate() {
         for n in 0..flow.pedestrians {
             let known = &solution.events[index].crossings;

@@ -3,7 +3,7 @@
 use crate::collocation::{Collocation, combine, rates_at, weights_at};
 use crate::flow::Flow;
 use crate::number::Real;
-use math::twofold::Twofold;
+use math::double_double::DoubleDouble;
 use math::{larger, smaller};
 
 /// How carefully a solution is made.
@@ -45,11 +45,11 @@ pub struct Solver<T> {
     /// The ring.
     pub flow: Flow<T>,
     /// The present time.
-    pub time: Twofold,
+    pub time: DoubleDouble,
     /// The state at that time.
     pub state: Vec<T>,
     /// The time at the start of the last step.
-    pub start: Twofold,
+    pub start: DoubleDouble,
     /// Its length.
     pub length: f64,
     /// The work so far.
@@ -101,10 +101,10 @@ impl<T: Real> Solver<T> {
         flow.rates(&state, &mut rates, &mut kinks);
         Solver {
             flow,
-            time: Twofold::ZERO,
+            time: DoubleDouble::ZERO,
             before: state.clone(),
             state,
-            start: Twofold::ZERO,
+            start: DoubleDouble::ZERO,
             length: 0.0,
             work: 0,
             care,
@@ -135,7 +135,7 @@ impl<T: Real> Solver<T> {
     /// [`Stuck`].
     pub fn advance(&mut self, limit: f64) -> Result<(), Stuck> {
         loop {
-            let left = f64::from(Twofold::from(limit) - self.time);
+            let left = f64::from(DoubleDouble::from(limit) - self.time);
             let is_last = self.next >= left;
             let h = if is_last { left } else { self.next };
             if h < SHORTEST {
@@ -151,7 +151,7 @@ impl<T: Real> Solver<T> {
             }
             self.accept(h);
             if is_last {
-                self.time = Twofold::from(limit);
+                self.time = DoubleDouble::from(limit);
                 // a step that a limit has cut says little about longer ones
                 self.next = larger(self.next, h * verdict);
             } else {

@@ -10,14 +10,14 @@
 
 use files::reader::Section;
 use scene::run::Scene;
-use scene::simulation::{Judging, Onlooker, run, run_from};
+use scene::simulation::{Judging, RunObserver, run, run_from};
 use scene::sweep::{self, Sweep};
 use std::time::Instant;
 
 /// A run to its end, judged.
 struct Judged;
 
-impl Onlooker for Judged {
+impl RunObserver for Judged {
     fn judging(&self) -> Judging {
         Judging::Along
     }

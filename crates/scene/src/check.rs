@@ -7,10 +7,10 @@
 
 use crate::propagated::Propagated;
 use crate::run::{Scene, has_deviations};
-use crate::simulation::{Onlooker, Outcome, run_from};
-use jam::events::{Event, Happening};
+use crate::simulation::{Outcome, RunObserver, run_from};
+use jam::events::{Event, EventKind};
 use jam::laws::Model;
-use jam::states::FormKind;
+use jam::states::StateVariables;
 use ode::{Control, Method};
 
 /// Estimated errors; `None` where the second run says nothing, having ended elsewhere.
@@ -50,7 +50,7 @@ pub fn errors_of(
     scene: &Scene,
     outcome: &Outcome,
     propagated: Option<&Propagated>,
-    onlooker: &mut dyn Onlooker,
+    onlooker: &mut dyn RunObserver,
 ) -> Errors {
     let told = propagated.and_then(|propagated| propagated.errors(scene, outcome));
     told.unwrap_or_else(|| errors_seen(scene, outcome, onlooker))
@@ -62,12 +62,12 @@ pub fn errors(scene: &Scene, outcome: &Outcome) -> Errors {
 }
 
 /// The same, with somebody who looks on while the scene runs once more.
-fn errors_seen(scene: &Scene, outcome: &Outcome, onlooker: &mut dyn Onlooker) -> Errors {
+fn errors_seen(scene: &Scene, outcome: &Outcome, onlooker: &mut dyn RunObserver) -> Errors {
     let Second { scene: second, factor } = second(scene, outcome);
     let other = run_from(&second, None, onlooker).unwrap_or_else(|broken| *broken.outcome);
     let difference = |numbers: &[f64], others: &[f64]| factor * difference(numbers, others);
     let gathered = gathered(scene, outcome);
-    let ends_alike = outcome.stop().map(|stop| stop.event) == other.stop().map(|stop| stop.event);
+    let ends_alike = outcome.stop().map(|stop| stop.kind) == other.stop().map(|stop| stop.kind);
     let times = [outcome, &other].map(|outcome| outcome.statistics.time);
     let is_same_time = (times[0] - times[1]).abs() <= SAME_TIME * times[0];
     let std = |outcome: &Outcome| outcome.std.rows().map(|row| row[1]).collect::<Vec<f64>>();
@@ -102,12 +102,12 @@ struct Second {
 
 fn second(scene: &Scene, outcome: &Outcome) -> Second {
     // a run ends with the step in which it finds its last event; a blow-up is no time to end at
-    let is_blow_up = outcome.events.iter().any(|happening| happening.event == Event::BlowUp);
+    let is_blow_up = outcome.events.iter().any(|happening| happening.kind == EventKind::BlowUp);
     let t_end = if is_blow_up { scene.t_end } else { outcome.statistics.time };
     let is_fixed_series = scene.method.needs_series() && matches!(scene.control, Control::Fixed { .. });
     let can_deviate = has_deviations(&scene.model, scene.ring, scene.steady_speed) && !is_fixed_series;
     // the same form would not show what becomes of the rounding of the start
-    let form = if can_deviate { FormKind::Deviations } else { scene.form };
+    let form = if can_deviate { StateVariables::Deviations } else { scene.form };
     match scene.control {
         Control::Adaptive { tolerance } => {
             let method = if scene.method == Method::Dop853 { Method::Verner87 } else { Method::Dop853 };
@@ -162,9 +162,9 @@ const CAUTION: f64 = 2.0;
 /// The rounding of the standard deviation: that of speeds where they are not kept as deviations; none where spacings lose
 /// the perturbation whole, so that all motion is one, and the second run does not.
 fn rounding(scene: &Scene, outcome: &Outcome, second: &Scene) -> f64 {
-    let shows_all = second.form == FormKind::Deviations;
+    let shows_all = second.form == StateVariables::Deviations;
     match scene.form {
-        FormKind::Deviations => of_headway(scene) * largest_std(outcome),
+        StateVariables::Deviations => of_headway(scene) * largest_std(outcome),
         _ if shows_all && loses_shift(scene) && largest_std(outcome) == 0.0 => 0.0,
         _ => ROUNDINGS * largest(&outcome.speeds),
     }
@@ -184,7 +184,10 @@ pub(crate) fn of_headway(scene: &Scene) -> f64 {
 /// Whether spacings lose the shift of the start to the last digit.
 pub(crate) fn loses_shift(scene: &Scene) -> bool {
     let (clearance, shift) = (scene.ring.headway() - scene.model.contact(), scene.start.shift);
-    scene.form == FormKind::Gaps && shift != 0.0 && clearance - shift == clearance && clearance + shift == clearance
+    scene.form == StateVariables::Spacings
+        && shift != 0.0
+        && clearance - shift == clearance
+        && clearance + shift == clearance
 }
 
 /// The largest standard deviation in the table.
@@ -213,8 +216,8 @@ fn difference(numbers: &[f64], others: &[f64]) -> f64 {
 }
 
 /// The difference of the time of an event from that of the same kind, of the same pedestrian if it has it.
-fn time_error(event: &Happening, others: &[Happening]) -> Option<f64> {
-    let same_kind = || others.iter().filter(|other| other.event == event.event);
+fn time_error(event: &Event, others: &[Event]) -> Option<f64> {
+    let same_kind = || others.iter().filter(|other| other.kind == event.kind);
     let same = same_kind().find(|other| other.pedestrian == event.pedestrian).or_else(|| same_kind().next());
     same.map(|other| difference(&[event.time], &[other.time]))
 }

@@ -8,18 +8,18 @@
 use crate::run::Scene;
 use crate::simulation::Counts;
 use files::table::Table;
-use jam::events::{Event, Happening};
+use jam::events::{Event, EventKind};
 use jam::jams::{Drift, Jam};
 use jam::outcome::{Judge, Memory};
-use jam::states::FormKind;
-use ode::{Control, Mark, Pace, Place, Statistics};
+use jam::states::StateVariables;
+use ode::{Control, Pace, Place, ResumePoint, Statistics};
 
 /// A run between two of its steps.
 #[derive(Clone, Copy, Debug)]
-pub struct Underway<'a> {
+pub struct PartialRun<'a> {
     pub(crate) scene: &'a Scene,
-    pub(crate) mark: &'a Mark<'a>,
-    pub(crate) found: &'a [Happening],
+    pub(crate) mark: &'a ResumePoint<'a>,
+    pub(crate) found: &'a [Event],
     pub(crate) std: &'a Table,
     pub(crate) trajectories: &'a Table,
     pub(crate) drift: &'a Drift,
@@ -32,7 +32,7 @@ pub struct Underway<'a> {
     pub(crate) judge: Option<&'a Judge>,
 }
 
-impl Underway<'_> {
+impl PartialRun<'_> {
     /// The part of its time that is done, 0 to 1.
     pub fn fraction(&self) -> f64 {
         fraction(self.scene, self.mark.place.step, self.mark.statistics.time)
@@ -40,7 +40,7 @@ impl Underway<'_> {
 
     /// Everything that [`Checkpoint::parse`] needs.
     pub fn to_bytes(&self) -> Vec<u8> {
-        let Mark { place, statistics, state, pace } = *self.mark;
+        let ResumePoint { place, statistics, state, pace } = *self.mark;
         let mut words = Words::default();
         words.whole(&[place.step, place.slow_until, statistics.steps, statistics.rejected, statistics.evaluations]);
         words.numbers(&[statistics.time]);
@@ -58,7 +58,7 @@ impl Underway<'_> {
         words.numbers(&[self.near_walls.unwrap_or(0.0)]);
         words.count(self.found.len());
         for happening in self.found {
-            words.count(Event::ALL.iter().take_while(|event| **event != happening.event).count());
+            words.count(EventKind::ALL.iter().take_while(|event| **event != happening.kind).count());
             words.numbers(&[happening.time, happening.gap, happening.step]);
             words.count(happening.pedestrian);
         }
@@ -90,7 +90,7 @@ pub struct Checkpoint {
     pub(crate) earlier: Counts,
     pub(crate) followed: f64,
     pub(crate) near_walls: Option<f64>,
-    pub(crate) found: Vec<Happening>,
+    pub(crate) found: Vec<Event>,
     pub(crate) std: Table,
     pub(crate) trajectories: Table,
     pub(crate) drift: Drift,
@@ -116,7 +116,7 @@ impl Remembered {
 }
 
 impl Checkpoint {
-    /// Reads what [`Underway::to_bytes`] wrote for this scene; `None` for anything of another form.
+    /// Reads what [`PartialRun::to_bytes`] wrote for this scene; `None` for anything of another form.
     pub fn parse(bytes: &[u8], scene: &Scene) -> Option<Checkpoint> {
         let mut words = Reader { words: bytes.chunks_exact(8) };
         let place = Place { step: words.whole()?, slow_until: words.whole()? };
@@ -129,7 +129,7 @@ impl Checkpoint {
         let (followed, is_near_walls, begin) = (words.number()?, words.count()? == 1, words.number()?);
         let near_walls = is_near_walls.then_some(begin);
         let count = words.count()?;
-        let found = (0..count).map(|_| words.happening()).collect::<Option<Vec<Happening>>>()?;
+        let found = (0..count).map(|_| words.happening()).collect::<Option<Vec<Event>>>()?;
         let std = words.std()?;
         let trajectories = words.trajectories(scene, &std)?;
         let (distance, time, count) = (words.number()?, words.number()?, words.count()?);
@@ -140,7 +140,7 @@ impl Checkpoint {
             numbers => Some(Memory::parse(&numbers)?),
         };
         let is_whole = words.words.next().is_none() && words.words.remainder().is_empty();
-        let kind = if is_near_walls { FormKind::Gaps } else { scene.form };
+        let kind = if is_near_walls { StateVariables::Spacings } else { scene.form };
         let fits = state.len() == kind.build(&scene.model, scene.ring).dimension()
             && pace.is_some() == matches!(scene.control, Control::Adaptive { .. });
         let drift = Drift { before, distance, time };
@@ -221,10 +221,10 @@ impl Reader<'_> {
         Some(Remembered { rates, carry, time, step: self.number()?, error: self.number()?, unit: self.number()? })
     }
 
-    fn happening(&mut self) -> Option<Happening> {
-        let event = *Event::ALL.get(self.count()?)?;
+    fn happening(&mut self) -> Option<Event> {
+        let event = *EventKind::ALL.get(self.count()?)?;
         let (time, gap, step) = (self.number()?, self.number()?, self.number()?);
-        Some(Happening { event, time, pedestrian: self.count()?, gap, step })
+        Some(Event { kind: event, time, pedestrian: self.count()?, gap, step })
     }
 
     fn jam(&mut self) -> Option<Jam> {

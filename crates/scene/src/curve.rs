@@ -1,7 +1,7 @@
 //! Functions of one variable: `[curve]`, for the figures that show a function and no run.
 
 use crate::law;
-use files::reader::{FINITE, POSITIVE, Reader, RecipeError, Section};
+use files::reader::{FINITE, POSITIVE, Reader, SceneError, Section};
 use files::table::Table;
 use jam::laws::Model;
 use jam::ramp::{ramp, smooth_ramp};
@@ -11,7 +11,7 @@ use jam::ramp::{ramp, smooth_ramp};
 ///
 /// # Errors
 /// What is missing, unknown or out of range, with file and line; a point where the function has no finite value.
-pub fn table(file: &str, tables: &Section) -> Result<Table, RecipeError> {
+pub fn table(file: &str, tables: &Section) -> Result<Table, SceneError> {
     let mut top = Reader::new(file, "scene", tables);
     let mut curve = Reader::new(file, "curve", top.section("curve")?);
     let value = curve.choice("value", &["ramp", "force"])?;

@@ -1,6 +1,6 @@
 //! `[law]`: kind and parameters. A term whose parameter is not named is not computed.
 
-use files::reader::{About, Entry, NOT_NEGATIVE, POSITIVE, Reader, RecipeError, Section, Value};
+use files::reader::{About, Entry, NOT_NEGATIVE, POSITIVE, Reader, SceneError, Section, Value};
 use formula::{Definition, Given, Place};
 use jam::laws::presets::PRESETS;
 use jam::laws::{Algebraic, Exponential, Formula, Law, Logarithmic, Model, Range};
@@ -9,7 +9,7 @@ use jam::laws::{Algebraic, Exponential, Formula, Law, Logarithmic, Model, Range}
 ///
 /// # Errors
 /// An unknown kind, preset or key, or a parameter out of its range; of a formula whatever is wrong, with its column.
-pub fn read(file: &str, section: &Section) -> Result<Model, RecipeError> {
+pub fn read(file: &str, section: &Section) -> Result<Model, SceneError> {
     let mut law = Reader::new(file, "law", section);
     let model = match law.one_of("kind", &KINDS)? {
         Kind::Algebraic if law.has("preset") => Model::Algebraic(preset(&mut law)?),
@@ -52,7 +52,7 @@ pub(crate) fn built_in(section: &Section) -> Option<Model> {
 
 /// The parameters of a law, as its file lists them. Those that are `fixed` to a value must not be given, those fixed to
 /// none must.
-fn parameters<L: Law>(reader: &mut Reader<'_>, fixed: &[(&str, Option<f64>)]) -> Result<L, RecipeError> {
+fn parameters<L: Law>(reader: &mut Reader<'_>, fixed: &[(&str, Option<f64>)]) -> Result<L, SceneError> {
     let mut law = L::default();
     for parameter in L::PARAMETERS {
         let range = match parameter.range {
@@ -70,14 +70,14 @@ fn parameters<L: Law>(reader: &mut Reader<'_>, fixed: &[(&str, Option<f64>)]) ->
 }
 
 /// A model of tab:model; the parameters that it leaves open must be given, the others must not.
-fn preset(law: &mut Reader<'_>) -> Result<Algebraic, RecipeError> {
+fn preset(law: &mut Reader<'_>) -> Result<Algebraic, SceneError> {
     let preset = law.one_of("preset", &PRESETS.map(|preset| (preset.name, preset)))?;
     let (delta, q) = (Some(preset.relative), Some(preset.power));
     parameters(law, &[("mu", preset.strength), ("delta", delta), ("q", q), ("a_v", preset.widening)])
 }
 
 /// A law as formulas: every key but `kind` is a parameter or an expression.
-fn formula(file: &str, section: &Section) -> Result<Model, RecipeError> {
+fn formula(file: &str, section: &Section) -> Result<Model, SceneError> {
     let mut lines: Vec<(&String, &Entry)> = section.entries.iter().filter(|(name, _)| *name != "kind").collect();
     lines.sort_by_key(|(_, entry)| entry.place);
     let mut definitions = Vec::new();
@@ -105,7 +105,7 @@ fn formula(file: &str, section: &Section) -> Result<Model, RecipeError> {
             Box::new(About { key, value, allowed: Some(error.valid) })
         });
         let line = if entry.is_some_and(|(_, entry)| entry.is_in_no_file()) { 0 } else { line };
-        RecipeError { about, ..RecipeError::new(file, line, problem) }
+        SceneError { about, ..SceneError::new(file, line, problem) }
     })?;
     Ok(Model::Formula(law))
 }

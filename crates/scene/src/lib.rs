@@ -15,5 +15,5 @@ pub mod summary;
 pub mod sweep;
 pub mod uniform;
 
-pub use files::reader::RecipeError;
+pub use files::reader::SceneError;
 pub use overrides::Overrides;

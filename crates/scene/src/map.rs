@@ -1,7 +1,7 @@
 //! Stability over two parameters: `[map]` with `[law]` and `[uniform]`.
 
 use crate::law;
-use files::reader::{FINITE, POSITIVE, Reader, RecipeError, Section};
+use files::reader::{FINITE, POSITIVE, Reader, SceneError, Section};
 use files::table::{Table, push_number};
 use jam::criteria;
 use jam::laws::{Formula, Model};
@@ -139,7 +139,7 @@ impl Computed {
 ///
 /// # Errors
 /// What is missing, unknown or out of range, with file and line.
-pub fn read(file: &str, tables: &Section) -> Result<Map, RecipeError> {
+pub fn read(file: &str, tables: &Section) -> Result<Map, SceneError> {
     let mut top = Reader::new(file, "scene", tables);
     let mut map = Reader::new(file, "map", top.section("map")?);
     let value = if map.has("value") { map.one_of("value", &VALUES)? } else { Value::Margin };
@@ -172,7 +172,7 @@ pub fn read(file: &str, tables: &Section) -> Result<Map, RecipeError> {
 
 const EMPTY: Point = Point { headway: None, gap: None, wave_number: None, speed: None };
 
-fn uniform(file: &str, section: &Section) -> Result<Point, RecipeError> {
+fn uniform(file: &str, section: &Section) -> Result<Point, SceneError> {
     let mut reader = Reader::new(file, "uniform", section);
     let point = Point {
         headway: reader.optional_number("headway", POSITIVE)?,
@@ -184,7 +184,7 @@ fn uniform(file: &str, section: &Section) -> Result<Point, RecipeError> {
     Ok(point)
 }
 
-fn axis(file: &str, name: &'static str, section: &Section) -> Result<Axis, RecipeError> {
+fn axis(file: &str, name: &'static str, section: &Section) -> Result<Axis, SceneError> {
     let mut reader = Reader::new(file, name, section);
     let axis = Axis {
         parameter: reader.text("parameter", "a parameter of the law, d_gap, headway or k")?.to_owned(),

@@ -6,9 +6,9 @@
 
 use crate::check::{Errors, ROUNDINGS, has_kinks, largest, largest_std, loses_shift, of_headway};
 use crate::run::Scene;
-use crate::simulation::{Onlooker, Outcome, Sight};
-use jam::events::{Event, Happening};
-use jam::states::FormKind;
+use crate::simulation::{Outcome, RunObserver, Sight};
+use jam::events::{Event, EventKind};
+use jam::states::StateVariables;
 use ode::{Shadow, Step};
 
 /// Looks on while a scene runs from its start, and knows the errors at its end if the steps tell theirs.
@@ -41,7 +41,7 @@ const CAUTION: f64 = 2.0;
 /// What a difference of two forces does not show, as a part of them and of the difference of their states.
 const UNSEEN: f64 = 1e-6;
 
-impl Onlooker for Propagated {
+impl RunObserver for Propagated {
     fn seen(&mut self, step: &mut Step<'_>, sight: &mut Sight<'_, '_>) {
         if self.is_blind || !self.follow(step) {
             self.is_blind = true;
@@ -79,10 +79,10 @@ impl Onlooker for Propagated {
             let mut rates = vec![0.0; dimension];
             step.rates_of(&state, &mut rates);
             let mut change =
-                |direction: &[f64]| sight.watch.change(happening.event, happening.pedestrian, &state, direction).abs();
+                |direction: &[f64]| sight.watch.change(happening.kind, happening.pedestrian, &state, direction).abs();
             let (by_error, rate) = (change(&error), change(&rates));
             // what falls through 0 is a difference of larger numbers
-            let size = if happening.event == Event::NegativeSpeed { self.desired } else { self.headway };
+            let size = if happening.kind == EventKind::NegativeSpeed { self.desired } else { self.headway };
             self.events.push((by_error + f64::EPSILON * size) / rate);
         }
     }
@@ -173,7 +173,7 @@ impl Propagated {
             .collect();
         let rounding = |numbers: &[f64]| ROUNDINGS * largest(numbers);
         let of_std = match scene.form {
-            FormKind::Deviations => (ROUNDINGS + of_headway(scene)) * largest_std(outcome),
+            StateVariables::Deviations => (ROUNDINGS + of_headway(scene)) * largest_std(outcome),
             // where all motion is one, no rounding lies between speeds; but a weak force goes unseen beside the drive
             _ if self.lost.is_some() && largest_std(outcome) == 0.0 => {
                 UNSEEN * scene.model.desired_speed().abs() * (self.shift / self.clearance).abs()
@@ -181,7 +181,7 @@ impl Propagated {
             _ => rounding(&outcome.speeds),
         };
         // at a blow-up a rounding of the time is a large part of the state
-        let is_blow_up = outcome.events.iter().any(|happening| happening.event == Event::BlowUp);
+        let is_blow_up = outcome.events.iter().any(|happening| happening.kind == EventKind::BlowUp);
         let end =
             |errors: &[f64], numbers: &[f64]| (!is_blow_up).then(|| CAUTION * largest(errors) + rounding(numbers));
         Some(Errors {
@@ -195,9 +195,9 @@ impl Propagated {
     }
 
     /// Events at the start are exact; that a run has come to a wall is no event of a step.
-    fn of_events(&self, events: &[Happening]) -> Vec<Option<f64>> {
+    fn of_events(&self, events: &[Event]) -> Vec<Option<f64>> {
         let mut of_steps = self.events.iter();
-        let error = |happening: &Happening| match happening.time {
+        let error = |happening: &Event| match happening.time {
             0.0 => Some(0.0),
             time => of_steps.next().map(|error| CAUTION * error + ROUNDINGS * time),
         };

@@ -1,10 +1,10 @@
 //! A scene in time, validated: `[law]`, `[ring]`, `[start]`, `[run]`.
 
 use crate::law;
-use files::reader::{FINITE, POSITIVE, Reader, RecipeError, Section};
+use files::reader::{FINITE, POSITIVE, Reader, SceneError, Section};
 use jam::laws::{Formula, Model};
 use jam::ring::{Ring, Start};
-use jam::states::{Form, FormKind};
+use jam::states::{RingSystem, StateVariables};
 use jam::uniform::{self, NoUniformFlow, steady_speed};
 use ode::{Control, Method};
 
@@ -28,7 +28,7 @@ pub struct Scene {
     /// As many steps as it may take.
     pub most_steps: u64,
     /// The form of the state.
-    pub form: FormKind,
+    pub form: StateVariables,
     /// Whether positions and speeds of all pedestrians are kept at every sample.
     pub keeps_trajectories: bool,
     /// The speed `v'` of the uniform flow; `None` if a formula has none.
@@ -56,7 +56,7 @@ const MOST_FIXED_STEPS: u64 = 100_000_000_000;
 ///
 /// # Errors
 /// What is missing, unknown or out of range, with file and line; gaps that are closed at the start; no uniform flow.
-pub fn read(file: &str, tables: &Section) -> Result<Scene, RecipeError> {
+pub fn read(file: &str, tables: &Section) -> Result<Scene, SceneError> {
     read_for(file, tables, Purpose::Run)
 }
 
@@ -64,7 +64,7 @@ pub fn read(file: &str, tables: &Section) -> Result<Scene, RecipeError> {
 ///
 /// # Errors
 /// As [`read`].
-pub fn read_unrun(file: &str, tables: &Section) -> Result<Scene, RecipeError> {
+pub fn read_unrun(file: &str, tables: &Section) -> Result<Scene, SceneError> {
     read_for(file, tables, Purpose::Flow)
 }
 
@@ -77,7 +77,7 @@ enum Purpose {
     Flow,
 }
 
-fn read_for(file: &str, tables: &Section, purpose: Purpose) -> Result<Scene, RecipeError> {
+fn read_for(file: &str, tables: &Section, purpose: Purpose) -> Result<Scene, SceneError> {
     let mut top = Reader::new(file, "scene", tables);
     let model = law::read(file, top.section("law")?)?;
     let top_start = top.section("start")?;
@@ -161,16 +161,16 @@ pub(crate) fn flow(model: &Model, ring: Ring, wanted: Option<f64>) -> Result<Opt
 
 /// The form of the state: deviations from the uniform flow if the scene names none and they can hold the run, else gaps.
 pub(crate) fn fitting(
-    wanted: Option<FormKind>,
+    wanted: Option<StateVariables>,
     model: &Model,
     ring: Ring,
     speed: Option<f64>,
     method: Method,
-) -> FormKind {
-    let form = wanted.unwrap_or(FormKind::Deviations);
+) -> StateVariables {
+    let form = wanted.unwrap_or(StateVariables::Deviations);
     let has_no_series = wanted.is_none() && !method.suits(&*form.build(model, ring));
-    if form == FormKind::Deviations && (!has_deviations(model, ring, speed) || has_no_series) {
-        FormKind::Gaps
+    if form == StateVariables::Deviations && (!has_deviations(model, ring, speed) || has_no_series) {
+        StateVariables::Spacings
     } else {
         form
     }
@@ -188,8 +188,11 @@ pub(crate) fn has_deviations(model: &Model, ring: Ring, steady_speed: Option<f64
 }
 
 /// Names of the forms of the state.
-pub(crate) const FORMS: [(&str, FormKind); 3] =
-    [("deviations", FormKind::Deviations), ("gaps", FormKind::Gaps), ("positions", FormKind::Positions)];
+pub(crate) const FORMS: [(&str, StateVariables); 3] = [
+    ("deviations", StateVariables::Deviations),
+    ("gaps", StateVariables::Spacings),
+    ("positions", StateVariables::Positions),
+];
 
 /// Below this response of the uniform flow to a gap, its force has lost digits to underflow.
 const LEAST_RESPONSE: f64 = 1e-280;
@@ -197,7 +200,7 @@ const LEAST_RESPONSE: f64 = 1e-280;
 /// A run by adaptive steps is at least as long: far longer than the shortest of them.
 const SHORTEST_RUN: f64 = 1e-250;
 
-pub(crate) fn at_overlap(run: &mut Reader<'_>, model: &Model) -> Result<AtOverlap, RecipeError> {
+pub(crate) fn at_overlap(run: &mut Reader<'_>, model: &Model) -> Result<AtOverlap, SceneError> {
     if !run.has("at_overlap") {
         return Ok(AtOverlap::Stop);
     }
@@ -213,7 +216,7 @@ pub(crate) fn at_overlap(run: &mut Reader<'_>, model: &Model) -> Result<AtOverla
 }
 
 /// The first pedestrian whose acceleration is not finite at the start, and that.
-pub(crate) fn without_value(form: &dyn Form, start: Start, ring: Ring) -> Option<(usize, f64)> {
+pub(crate) fn without_value(form: &dyn RingSystem, start: Start, ring: Ring) -> Option<(usize, f64)> {
     let state = form.start(start);
     let mut rates = vec![0.0; state.len()];
     form.rates(&state, &mut rates);
@@ -223,7 +226,7 @@ pub(crate) fn without_value(form: &dyn Form, start: Start, ring: Ring) -> Option
 }
 
 /// The steady speed that is meant, where a formula has several.
-pub(crate) fn uniform_speed(file: &str, section: &Section) -> Result<Option<f64>, RecipeError> {
+pub(crate) fn uniform_speed(file: &str, section: &Section) -> Result<Option<f64>, SceneError> {
     let mut reader = Reader::new(file, "uniform", section);
     let speed = reader.optional_number("speed", FINITE)?;
     reader.finish()?;
@@ -231,7 +234,7 @@ pub(crate) fn uniform_speed(file: &str, section: &Section) -> Result<Option<f64>
 }
 
 /// A formula looks no further than once around the ring.
-fn stencil_fits(ring_reader: &Reader<'_>, law: &Formula, ring: Ring) -> Result<(), RecipeError> {
+fn stencil_fits(ring_reader: &Reader<'_>, law: &Formula, ring: Ring) -> Result<(), SceneError> {
     too_wide(law, ring).map_or(Ok(()), |problem| Err(ring_reader.complaint("pedestrians", &problem)))
 }
 
@@ -243,7 +246,7 @@ pub(crate) fn too_wide(law: &Formula, ring: Ring) -> Option<String> {
     (reach >= ring.pedestrians).then(problem)
 }
 
-fn ring(file: &str, ring: &Section, start: &Section, model: &Model) -> Result<(Ring, Start), RecipeError> {
+fn ring(file: &str, ring: &Section, start: &Section, model: &Model) -> Result<(Ring, Start), SceneError> {
     let mut reader = Reader::new(file, "ring", ring);
     let ring =
         Ring { pedestrians: reader.count("pedestrians", 2, 10_000_000)?, length: reader.number("length", POSITIVE)? };
@@ -269,7 +272,7 @@ fn ring(file: &str, ring: &Section, start: &Section, model: &Model) -> Result<(R
 }
 
 /// `most_steps`, or what is usual. Of fixed steps the number is known before the first.
-fn most_steps(run: &mut Reader<'_>, control: Control, t_end: f64, purpose: Purpose) -> Result<u64, RecipeError> {
+fn most_steps(run: &mut Reader<'_>, control: Control, t_end: f64, purpose: Purpose) -> Result<u64, SceneError> {
     let named = run.optional_number("most_steps", 1.0..=MOST_FIXED_STEPS as f64)?.map(|most| most as u64);
     match control {
         Control::Adaptive { .. } => Ok(named.unwrap_or(ode::MOST_STEPS)),
@@ -284,12 +287,12 @@ fn most_steps(run: &mut Reader<'_>, control: Control, t_end: f64, purpose: Purpo
     }
 }
 
-pub(crate) fn method(run: &mut Reader<'_>) -> Result<Method, RecipeError> {
+pub(crate) fn method(run: &mut Reader<'_>) -> Result<Method, SceneError> {
     run.one_of("method", &Method::ALL.map(|method| (method.name(), method)))
 }
 
 /// `tolerance` for methods that choose their steps, `dt` for any.
-pub(crate) fn control(run: &mut Reader<'_>, method: Method) -> Result<Control, RecipeError> {
+pub(crate) fn control(run: &mut Reader<'_>, method: Method) -> Result<Control, SceneError> {
     let tolerance = run.optional_number("tolerance", 1e-15..=1e-2)?;
     let step = run.optional_number("dt", POSITIVE)?;
     match (tolerance, step) {

@@ -1,14 +1,14 @@
 //! Running a scene: the tables of its standard deviation and trajectories, its events, its statistics.
 
-use crate::checkpoint::{Checkpoint, Remembered, Underway};
+use crate::checkpoint::{Checkpoint, PartialRun, Remembered};
 use crate::run::{AtOverlap, Scene};
 use files::table::Table;
-use jam::events::{Event, Happening, Watch};
+use jam::events::{Event, EventKind, Watch};
 use jam::jams;
 use jam::laws::Model;
 use jam::outcome::{Judge, Verdict};
-use jam::states::{Form, FormKind, gaps_state};
-use ode::{Control, Mark, Observer, Problem, Sampler, Statistics, Step, integrate, resume};
+use jam::states::{RingSystem, StateVariables, gaps_state};
+use ode::{Control, Observer, Problem, ResumePoint, Sampler, Statistics, Step, integrate, resume};
 use std::ops::ControlFlow;
 
 /// What a run gives.
@@ -20,7 +20,7 @@ pub struct Outcome {
     pub trajectories: Table,
     /// The first event of each kind, with everybody to whom it happens at once, in order of time; those after a stop belong
     /// to the continued run.
-    pub events: Vec<Happening>,
+    pub events: Vec<Event>,
     /// Steps, evaluations, the time reached.
     pub statistics: Statistics,
     /// Positions and speeds at the time reached.
@@ -37,14 +37,14 @@ pub struct Outcome {
 
 impl Outcome {
     /// The first event that ends the tables.
-    pub fn stop(&self) -> Option<&Happening> {
-        self.events.iter().find(|happening| stops(happening.event, self.at_overlap))
+    pub fn stop(&self) -> Option<&Event> {
+        self.events.iter().find(|happening| stops(happening.kind, self.at_overlap))
     }
 }
 
 /// Whether an event ends the tables.
-fn stops(event: Event, at_overlap: AtOverlap) -> bool {
-    event.is_stop() && (event != Event::Overlap || at_overlap == AtOverlap::Stop)
+fn stops(event: EventKind, at_overlap: AtOverlap) -> bool {
+    event.is_stop() && (event != EventKind::Overlap || at_overlap == AtOverlap::Stop)
 }
 
 /// A run that could not go on.
@@ -86,7 +86,7 @@ impl std::fmt::Display for Broken {
 impl std::error::Error for Broken {}
 
 /// Looks on while a scene runs; the run does not depend on it.
-pub trait Onlooker {
+pub trait RunObserver {
     /// Sees every accepted step of adaptive length; of fixed ones, those that the run needs to see.
     fn after(&mut self, _step: &Step<'_>) {}
 
@@ -97,7 +97,7 @@ pub trait Onlooker {
     fn sampled(&mut self, _std: &Table, _trajectories: &Table) {}
 
     /// Sees the run every few thousand steps.
-    fn between(&mut self, _underway: &Underway<'_>) {}
+    fn between(&mut self, _underway: &PartialRun<'_>) {}
 
     /// Whether the outcome of the run is judged. Methods that interpolate by evaluations then make some more of them.
     fn judging(&self) -> Judging {
@@ -120,7 +120,7 @@ pub enum Judging {
 #[allow(missing_debug_implementations)]
 pub struct Sight<'a, 'w> {
     /// The events in it.
-    pub new: &'a [Happening],
+    pub new: &'a [Event],
     /// The watch that found them.
     pub watch: &'a mut Watch<'w>,
     /// The times of the first and the last sample that is taken in it.
@@ -128,10 +128,10 @@ pub struct Sight<'a, 'w> {
 }
 
 /// Nobody looks on.
-impl Onlooker for () {}
+impl RunObserver for () {}
 
 /// Two look on.
-impl<A: Onlooker, B: Onlooker> Onlooker for (A, B) {
+impl<A: RunObserver, B: RunObserver> RunObserver for (A, B) {
     fn after(&mut self, step: &Step<'_>) {
         self.0.after(step);
         self.1.after(step);
@@ -147,7 +147,7 @@ impl<A: Onlooker, B: Onlooker> Onlooker for (A, B) {
         self.1.sampled(std, trajectories);
     }
 
-    fn between(&mut self, underway: &Underway<'_>) {
+    fn between(&mut self, underway: &PartialRun<'_>) {
         self.0.between(underway);
         self.1.between(underway);
     }
@@ -159,7 +159,7 @@ impl<A: Onlooker, B: Onlooker> Onlooker for (A, B) {
 }
 
 /// Somebody else's looks.
-impl<A: Onlooker> Onlooker for &mut A {
+impl<A: RunObserver> RunObserver for &mut A {
     fn after(&mut self, step: &Step<'_>) {
         (**self).after(step);
     }
@@ -172,7 +172,7 @@ impl<A: Onlooker> Onlooker for &mut A {
         (**self).sampled(std, trajectories);
     }
 
-    fn between(&mut self, underway: &Underway<'_>) {
+    fn between(&mut self, underway: &PartialRun<'_>) {
         (**self).between(underway);
     }
 
@@ -193,9 +193,9 @@ pub fn run(scene: &Scene) -> Result<Outcome, Broken> {
 ///
 /// # Errors
 /// As [`run`]; or a checkpoint of a scene with another rule for its steps.
-pub fn run_from(scene: &Scene, from: Option<Checkpoint>, onlooker: &mut dyn Onlooker) -> Result<Outcome, Broken> {
+pub fn run_from(scene: &Scene, from: Option<Checkpoint>, onlooker: &mut dyn RunObserver) -> Result<Outcome, Broken> {
     let form = scene.form.build(&scene.model, scene.ring);
-    let near_walls = FormKind::Gaps.build(&scene.model, scene.ring);
+    let near_walls = StateVariables::Spacings.build(&scene.model, scene.ring);
     let mut recorder = Recorder::new(scene, &*form, onlooker);
     let mut made = match from {
         Some(checkpoint) => recorder.resume(&*form, &*near_walls, checkpoint),
@@ -255,7 +255,7 @@ struct Recorder<'a> {
     watch: Watch<'a>,
     judge: Option<Judge>,
     record: Record<'a>,
-    onlooker: &'a mut dyn Onlooker,
+    onlooker: &'a mut dyn RunObserver,
     is_stopped: bool,
     /// Whether the leg in deviations has ended near a wall, and the next begins.
     turns_to_walls: bool,
@@ -267,7 +267,7 @@ struct Recorder<'a> {
 }
 
 impl<'a> Recorder<'a> {
-    fn new(scene: &'a Scene, form: &'a dyn Form, onlooker: &'a mut dyn Onlooker) -> Recorder<'a> {
+    fn new(scene: &'a Scene, form: &'a dyn RingSystem, onlooker: &'a mut dyn RunObserver) -> Recorder<'a> {
         let judge =
             (onlooker.judging() != Judging::No).then(|| Judge::new(&scene.model, scene.ring, scene.steady_speed));
         Recorder {
@@ -301,13 +301,13 @@ impl<'a> Recorder<'a> {
     }
 
     /// Integrates from this time and state to the end of the run, or until an event or the walls break it off.
-    fn leg(&mut self, form: &dyn Form, begin: f64, state: &[f64]) -> Made {
+    fn leg(&mut self, form: &dyn RingSystem, begin: f64, state: &[f64]) -> Made {
         let made = integrate(&self.problem(form, begin, state), self);
         self.made(made)
     }
 
     /// Goes on from a checkpoint as [`Recorder::leg`] would have.
-    fn resume(&mut self, form: &dyn Form, near_walls: &'a dyn Form, checkpoint: Checkpoint) -> Made {
+    fn resume(&mut self, form: &dyn RingSystem, near_walls: &'a dyn RingSystem, checkpoint: Checkpoint) -> Made {
         let Checkpoint { place, statistics, state, pace, found, std, trajectories, drift, .. } = checkpoint;
         // one sample for each multiple of the interval, from 0; none after a stop
         self.sampler.resume(std.len() as u64);
@@ -328,7 +328,7 @@ impl<'a> Recorder<'a> {
             judge.recall(memory);
         }
         let pace = pace.as_ref().map(Remembered::pace);
-        let mark = Mark { place, statistics: &statistics, state: &state, pace };
+        let mark = ResumePoint { place, statistics: &statistics, state: &state, pace };
         let made = resume(&self.problem(form, begin, &state), &mark, self);
         self.made(made)
     }
@@ -341,7 +341,7 @@ impl<'a> Recorder<'a> {
     }
 
     /// Goes on in clearances; returns the state in that form.
-    fn enter_walls(&mut self, near_walls: &'a dyn Form, state: &[f64]) -> Vec<f64> {
+    fn enter_walls(&mut self, near_walls: &'a dyn RingSystem, state: &[f64]) -> Vec<f64> {
         let Record { form, positions, gaps, speeds, .. } = &mut self.record;
         form.write_positions(state, positions);
         form.read(state, gaps, speeds);
@@ -391,7 +391,7 @@ impl<'a> Recorder<'a> {
         let is_at_wall = is_singular && is_stuck && room < NO_ROOM;
         if is_at_wall {
             let time = reached.time;
-            self.watch.add(Happening { event: Event::BlowUp, time, pedestrian, gap, step: 0.0 });
+            self.watch.add(Event { kind: EventKind::BlowUp, time, pedestrian, gap, step: 0.0 });
         }
         is_at_wall
     }
@@ -414,7 +414,7 @@ impl<'a> Recorder<'a> {
             let Some(pedestrian) = accelerations.iter().position(|a| !a.is_finite()) else { continue };
             form.read(&reached.state, &mut gaps, &mut accelerations);
             let (time, gap) = (reached.time, gaps[pedestrian]);
-            self.watch.add(Happening { event: Event::Undefined, time, pedestrian, gap, step: 0.0 });
+            self.watch.add(Event { kind: EventKind::Undefined, time, pedestrian, gap, step: 0.0 });
             return true;
         }
         false
@@ -430,20 +430,20 @@ impl<'a> Recorder<'a> {
     }
 
     fn is_in_gaps(&self) -> bool {
-        self.is_near_walls || self.scene.form == FormKind::Gaps
+        self.is_near_walls || self.scene.form == StateVariables::Spacings
     }
 
-    fn stops(&self, happening: &Happening) -> bool {
-        stops(happening.event, self.scene.at_overlap)
+    fn stops(&self, happening: &Event) -> bool {
+        stops(happening.kind, self.scene.at_overlap)
     }
 
-    fn problem<'b>(&self, form: &'b dyn Form, begin: f64, start: &'b [f64]) -> Problem<'b> {
+    fn problem<'b>(&self, form: &'b dyn RingSystem, begin: f64, start: &'b [f64]) -> Problem<'b> {
         let Scene { t_end: end, method, control, .. } = *self.scene;
         Problem { system: form, start, begin, end, method, control }
     }
 
     /// Goes on in another form of the same state.
-    fn change_form(&mut self, form: &'a dyn Form) {
+    fn change_form(&mut self, form: &'a dyn RingSystem) {
         self.watch.change_form(form);
         self.record.form = form;
         self.sampler.change_dimension(form.dimension());
@@ -452,7 +452,7 @@ impl<'a> Recorder<'a> {
     /// Whether the run is one in deviations that may go on in clearances. Fixed steps stay in the form they were asked for.
     fn can_turn(&self) -> bool {
         let is_adaptive = matches!(self.scene.control, Control::Adaptive { .. });
-        !self.is_near_walls && self.scene.form == FormKind::Deviations && is_adaptive
+        !self.is_near_walls && self.scene.form == StateVariables::Deviations && is_adaptive
     }
 
     /// Whether the leg in deviations ends here.
@@ -473,7 +473,7 @@ fn advice(failure: &ode::Failure, scene: &Scene) -> Option<&'static str> {
         }
         ode::Failure::TooManySteps { .. } => Some("raise the tolerance"),
         ode::Failure::NotFinite { .. } => Some("a smaller step may help"),
-        ode::Failure::StepTooSmall { .. } if scene.form == FormKind::Positions => {
+        ode::Failure::StepTooSmall { .. } if scene.form == StateVariables::Positions => {
             Some("state = \"deviations\" keeps more digits of small gaps")
         }
         _ => None,
@@ -518,10 +518,10 @@ impl Observer for Recorder<'_> {
             self.record.begin = step.end;
             return ControlFlow::Break(());
         }
-        let happened = |event: Event| self.watch.found().iter().any(|happening| happening.event == event);
+        let happened = |event: EventKind| self.watch.found().iter().any(|happening| happening.kind == event);
         let continues = !self.scene.model.is_singular();
-        let is_over = happened(Event::BlowUp)
-            || self.is_stopped && (!continues || happened(Event::NegativeSpeed) && happened(Event::Exchange));
+        let is_over = happened(EventKind::BlowUp)
+            || self.is_stopped && (!continues || happened(EventKind::NegativeSpeed) && happened(EventKind::Exchange));
         if is_over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
@@ -543,13 +543,14 @@ impl Observer for Recorder<'_> {
         self.reached = reached.clone();
     }
 
-    fn between(&mut self, mark: &Mark<'_>) {
+    fn between(&mut self, mark: &ResumePoint<'_>) {
         let Record { std, trajectories, drift, followed, begin, .. } = &self.record;
         let (found, earlier, followed) = (self.watch.found(), self.earlier, *followed);
         let near_walls = self.is_near_walls.then_some(*begin);
         let scene = self.scene;
         let judge = self.judge.as_ref();
-        let underway = Underway { scene, mark, found, std, trajectories, drift, followed, near_walls, earlier, judge };
+        let underway =
+            PartialRun { scene, mark, found, std, trajectories, drift, followed, near_walls, earlier, judge };
         self.onlooker.between(&underway);
     }
 }
@@ -567,7 +568,7 @@ pub(crate) fn trajectories_table() -> Table {
 /// The tables under way.
 struct Record<'a> {
     scene: &'a Scene,
-    form: &'a dyn Form,
+    form: &'a dyn RingSystem,
     std: Table,
     trajectories: Table,
     positions: Vec<f64>,
@@ -581,7 +582,7 @@ struct Record<'a> {
 }
 
 impl<'a> Record<'a> {
-    fn new(scene: &'a Scene, form: &'a dyn Form) -> Record<'a> {
+    fn new(scene: &'a Scene, form: &'a dyn RingSystem) -> Record<'a> {
         let zeros = || vec![0.0; scene.ring.pedestrians];
         Record {
             scene,

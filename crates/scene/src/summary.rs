@@ -38,7 +38,7 @@ pub fn of_run(scene: &Scene, ended: &Ended, flow: Option<Stability>, errors: Opt
         .enumerate()
         .map(|(index, happening)| {
             let mut event = json!({
-                "event": happening.event.name(),
+                "event": happening.kind.name(),
                 "t": happening.time,
                 "n": happening.pedestrian,
                 "gap": happening.gap,
@@ -99,7 +99,7 @@ pub fn of_verdict(verdict: &Verdict) -> Value {
 /// What ended the tables: an event, the end of the run, or why it could not go on.
 fn stop(outcome: &Outcome, broken: Option<&Broken>) -> &'static str {
     match (outcome.stop(), broken) {
-        (Some(happening), _) => happening.event.name(),
+        (Some(happening), _) => happening.kind.name(),
         (None, Some(broken)) => broken.failure.name(),
         (None, None) => "t_end",
     }

@@ -4,10 +4,10 @@
 use crate::hard::rows::{Rows, row};
 use crate::thresholds::critical::exponential;
 use figures::failure::Failure;
-use jam::events::{Event, Watch};
+use jam::events::{EventKind, Watch};
 use jam::laws::{Algebraic, Logarithmic, Model};
 use jam::ring::{Ring, Start};
-use jam::states::FormKind;
+use jam::states::StateVariables;
 use jam::uniform::steady_speed;
 use ode::{Control, Method, Observer, Problem, Step, integrate};
 use std::ops::ControlFlow;
@@ -134,7 +134,7 @@ fn follow(model: &Model, (method, control): (Method, Control)) -> Result<Followe
         _ => (false, 67),
     };
     let ring = Ring { pedestrians, length: 200.0 };
-    let form = FormKind::Gaps.build(model, ring);
+    let form = StateVariables::Spacings.build(model, ring);
     let start = form.start(Start { shift: 1e-4 });
     let watch = Watch::new(model.clone(), &*form, pedestrians);
     let mut following = Following { watch, negative: None, stop: None, goes_on };
@@ -147,7 +147,7 @@ fn follow(model: &Model, (method, control): (Method, Control)) -> Result<Followe
         (None, Err(ode::Failure::StepTooSmall { time, .. } | ode::Failure::NotFinite { time, .. }))
             if least < CLOSED =>
         {
-            (Event::Overlap.name(), time)
+            (EventKind::Overlap.name(), time)
         }
         (None, Err(failure)) => return Err(Failure::work(failure)),
         (None, Ok(_)) => return Err(Failure::work(format!("{}: no stop by t = {END}", model.name()))),
@@ -158,10 +158,11 @@ fn follow(model: &Model, (method, control): (Method, Control)) -> Result<Followe
 impl Observer for Following<'_> {
     fn after(&mut self, step: &mut Step<'_>) -> ControlFlow<()> {
         let new = self.watch.look(step);
-        let time = |event: Event| new.iter().find(|happening| happening.event == event).map(|happening| happening.time);
-        self.negative = self.negative.or(time(Event::NegativeSpeed));
-        let stop = new.iter().find(|happening| happening.event.is_stop());
-        self.stop = self.stop.or(stop.map(|happening| (happening.event.name(), happening.time)));
+        let time =
+            |event: EventKind| new.iter().find(|happening| happening.kind == event).map(|happening| happening.time);
+        self.negative = self.negative.or(time(EventKind::NegativeSpeed));
+        let stop = new.iter().find(|happening| happening.kind.is_stop());
+        self.stop = self.stop.or(stop.map(|happening| (happening.kind.name(), happening.time)));
         let is_over = self.stop.is_some() && (self.negative.is_some() || !self.goes_on);
         if is_over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }

@@ -5,7 +5,7 @@ mod journal;
 mod work;
 
 use crate::failure::{Failure, print};
-use files::recipe::{self, Kind, Recipe};
+use files::scene_file::{self, Kind, SceneFile};
 use files::write::{sha256, sha256_file, with_path};
 use journal::Shard;
 use scene::sweep::tiles::tiles;
@@ -59,7 +59,7 @@ fn shard(text: &str) -> Result<(usize, usize), String> {
 
 /// A sweep with the hash of what determines it.
 pub(crate) struct Task {
-    pub(crate) recipe: Recipe,
+    pub(crate) recipe: SceneFile,
     pub(crate) sweep: Sweep,
     /// The SHA-256 of scene and program.
     pub(crate) hash: String,
@@ -99,7 +99,7 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn read(arguments: &Arguments) -> Result<Task, Failure> {
-    let recipe = recipe::read(&arguments.scene)?;
+    let recipe = scene_file::read(&arguments.scene)?;
     let mut panels = recipe.panels.iter().filter(|panel| panel.kind == Kind::Sweep);
     let panel = match (&arguments.panel, panels.next(), panels.next()) {
         (Some(name), ..) => recipe.panel(name)?,

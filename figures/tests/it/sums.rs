@@ -1,7 +1,7 @@
 //! Every figure from nothing and once more from its tables alone: the bytes that are committed.
 
 use crate::{root, succeed};
-use files::recipe::{self, Kind};
+use files::scene_file::{self, Kind};
 use files::write::sha256_file;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -24,7 +24,7 @@ fn slugs() -> Vec<String> {
 
 /// Makes the runs of a figure's scene and returns the arguments that name them.
 fn runs(slug: &str, scene: &str, scratch: &Path) -> Vec<String> {
-    let recipe = recipe::read(&root().join(scene)).expect("a scene");
+    let recipe = scene_file::read(&root().join(scene)).expect("a scene");
     let mut arguments = Vec::new();
     for panel in recipe.panels.iter().filter(|panel| panel.kind == Kind::Run) {
         let folder = scratch.join("runs").join(format!("{slug}-{}", panel.name));

@@ -3,7 +3,7 @@
 
 use super::judge;
 use crate::cli::ExplainArgs;
-use crate::record::{self, Record, Records, Survey};
+use crate::record::{self, FigureState, Record, Records};
 use crate::sources::Sources;
 use checkout::failure::Failure;
 use checkout::figure;
@@ -41,7 +41,7 @@ pub fn run(paths: &Paths, arguments: &ExplainArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-fn command(survey: &Survey<'_>) -> String {
+fn command(survey: &FigureState<'_>) -> String {
     format!("cargo xtask figures {}", survey.figure.id)
 }
 
@@ -55,7 +55,7 @@ fn change(record: Option<&Record>, name: &str, hash: &str) -> &'static str {
     }
 }
 
-fn to_text(survey: &Survey<'_>, record: Option<&Record>) -> String {
+fn to_text(survey: &FigureState<'_>, record: Option<&Record>) -> String {
     let figure = survey.figure;
     let mut rows = Vec::new();
     for (name, hash) in &survey.inputs {
@@ -72,7 +72,7 @@ fn to_text(survey: &Survey<'_>, record: Option<&Record>) -> String {
     format!("{} {} {title}\n{}{state}rebuild: {}\n", figure.slug, figure.label(), print::table(&rows), command(survey))
 }
 
-fn to_json(survey: &Survey<'_>, record: Option<&Record>) -> Value {
+fn to_json(survey: &FigureState<'_>, record: Option<&Record>) -> Value {
     let input = |(name, hash): (&String, &String)| {
         let (kind, change) = (record::kind(name), change(record, name, hash));
         json!({ "kind": kind, "name": name, "sha256": hash, "change": change })

@@ -8,7 +8,7 @@ use crate::lock::Lock;
 use crate::measured;
 use crate::plan::{self, Node, Step, Wish};
 use crate::pool::Outcome;
-use crate::record::{self, Record, Records, Survey};
+use crate::record::{self, FigureState, Record, Records};
 use crate::sources::Sources;
 use crate::store;
 use crate::work::{self, Ends, Made};
@@ -86,8 +86,8 @@ fn choose<'a>(all: &'a [Figure], arguments: &FiguresArgs) -> Result<Vec<&'a Figu
     }
 }
 
-fn wishes(paths: &Paths, surveys: &[Survey<'_>], records: &Records, arguments: &FiguresArgs) -> Vec<Wish> {
-    let wish = |survey: &Survey<'_>| {
+fn wishes(paths: &Paths, surveys: &[FigureState<'_>], records: &Records, arguments: &FiguresArgs) -> Vec<Wish> {
+    let wish = |survey: &FigureState<'_>| {
         let draw = arguments.force || !survey.reasons.is_empty();
         let measured = records.get(paths, survey.figure).is_some_and(|record| record.measured.is_some());
         Wish { draw, measure: paths.scheme == Scheme::Adaptive && (draw || !measured) }
@@ -98,7 +98,7 @@ fn wishes(paths: &Paths, surveys: &[Survey<'_>], records: &Records, arguments: &
 /// Carries out the plan. Each figure is recorded as soon as it is made, so that a run that is broken off loses nothing.
 fn make(
     paths: &Paths,
-    surveys: &[Survey<'_>],
+    surveys: &[FigureState<'_>],
     nodes: &[Node],
     arguments: &FiguresArgs,
     records: &mut Records,
@@ -130,7 +130,7 @@ fn make(
 fn measure(
     paths: &Paths,
     all: &[Figure],
-    surveys: &[Survey<'_>],
+    surveys: &[FigureState<'_>],
     sources: &Sources,
     records: &mut Records,
 ) -> Result<(), Failure> {
@@ -160,7 +160,7 @@ fn measure(
     measured::write(paths, all, &measured)
 }
 
-fn checks_are_stored(paths: &Paths, survey: &Survey<'_>) -> bool {
+fn checks_are_stored(paths: &Paths, survey: &FigureState<'_>) -> bool {
     survey.runs.iter().all(|(_, key)| store::folder(paths, &store::check_key(key)).is_dir())
 }
 
@@ -233,7 +233,7 @@ impl Display for Forecast {
     }
 }
 
-fn reason<'a>(survey: &'a Survey<'_>, arguments: &FiguresArgs) -> &'a str {
+fn reason<'a>(survey: &'a FigureState<'_>, arguments: &FiguresArgs) -> &'a str {
     let forced = if arguments.force { "forced" } else { "fresh" };
     survey.reasons.first().map_or(forced, String::as_str)
 }

@@ -1,7 +1,7 @@
 //! The program that judges: built when a verb needs it, told what was made.
 
 use crate::compile;
-use crate::record::{self, Survey};
+use crate::record::{self, FigureState};
 use crate::sources::Sources;
 use checkout::disk;
 use checkout::failure::Failure;
@@ -49,9 +49,12 @@ pub fn request(paths: &Paths, request: &Request) -> Result<PathBuf, Failure> {
 }
 
 /// A request about these figures; everything else is as without figures picked.
-pub fn about(made: &Paths, all: &[Figure], sources: &Sources, surveys: &[Survey<'_>]) -> Request {
-    let entry =
-        |one: &Survey<'_>| Entry { id: one.figure.id.clone(), runs: one.runs.clone(), outputs: one.outputs.clone() };
+pub fn about(made: &Paths, all: &[Figure], sources: &Sources, surveys: &[FigureState<'_>]) -> Request {
+    let entry = |one: &FigureState<'_>| Entry {
+        id: one.figure.id.clone(),
+        runs: one.runs.clone(),
+        outputs: one.outputs.clone(),
+    };
     Request {
         base: made.base.clone(),
         scheme: made.scheme,

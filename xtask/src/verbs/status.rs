@@ -1,7 +1,7 @@
 //! `status`: what is stale and why, without running anything.
 
 use crate::cli::StatusArgs;
-use crate::record::{self, Records, Survey};
+use crate::record::{self, FigureState, Records};
 use crate::sources::Sources;
 use checkout::failure::Failure;
 use checkout::figure;
@@ -35,11 +35,11 @@ pub fn run(paths: &Paths, arguments: &StatusArgs) -> Result<(), Failure> {
     }
 }
 
-fn state(survey: &Survey<'_>) -> &'static str {
+fn state(survey: &FigureState<'_>) -> &'static str {
     if survey.reasons.is_empty() { "fresh" } else { "stale" }
 }
 
-fn why(survey: &Survey<'_>) -> String {
+fn why(survey: &FigureState<'_>) -> String {
     let shown: Vec<&str> = survey.reasons.iter().take(SHOWN).map(String::as_str).collect();
     match survey.reasons.len().saturating_sub(SHOWN) {
         0 => shown.join("; "),
@@ -47,6 +47,6 @@ fn why(survey: &Survey<'_>) -> String {
     }
 }
 
-fn to_json(survey: &Survey<'_>) -> Value {
+fn to_json(survey: &FigureState<'_>) -> Value {
     json!({ "figure": survey.figure.id, "binary": survey.figure.slug, "state": state(survey), "why": survey.reasons })
 }

@@ -1,7 +1,7 @@
 //! The summary of `figures`: a line for each figure, and whether everything is as committed.
 
 use crate::measured::Measured;
-use crate::record::{Records, Survey};
+use crate::record::{FigureState, Records};
 use crate::work::Ends;
 use checkout::failure::Failure;
 use checkout::figure::Figure;
@@ -32,7 +32,7 @@ struct Line<'a> {
 }
 
 impl<'a> Line<'a> {
-    fn new(paths: &Paths, survey: &Survey<'a>, records: &Records, committed: &Committed, ends: &Ends) -> Line<'a> {
+    fn new(paths: &Paths, survey: &FigureState<'a>, records: &Records, committed: &Committed, ends: &Ends) -> Line<'a> {
         let figure = survey.figure;
         let lost = match () {
             () if ends.failed.contains(&figure.slug) => Some("failed"),
@@ -90,7 +90,7 @@ impl<'a> Report<'a> {
     /// Judges the figures; `ends` are those of the nodes of this run.
     pub fn new(
         paths: &Paths,
-        surveys: &[Survey<'a>],
+        surveys: &[FigureState<'a>],
         records: &Records,
         committed: Committed,
         ends: &Ends,

@@ -8,7 +8,7 @@ use crate::costs;
 use crate::gate;
 use crate::lock::Lock;
 use crate::plan::{self, Node, Wish};
-use crate::record::{self, Records, Survey};
+use crate::record::{self, FigureState, Records};
 use crate::sources::Sources;
 use crate::work::{self, Made};
 use checkout::costs::Costs;
@@ -127,7 +127,7 @@ fn recompute<'a>(
     selected: &[&'a Figure],
     sources: &Sources,
     arguments: &VerifyArgs,
-) -> Result<Vec<Survey<'a>>, Failure> {
+) -> Result<Vec<FigureState<'a>>, Failure> {
     let surveys = record::survey(scratch, selected, sources, &Records::default())?;
     let wishes = vec![Wish { draw: true, measure: false }; surveys.len()];
     let nodes = plan::make(scratch, &surveys, &wishes, true)?;

@@ -2,7 +2,7 @@
 
 use crate::shop::Shop;
 use checkout::print::duration;
-use xtask::child::Word;
+use xtask::child::Message;
 use xtask::plan::{Node, Step};
 use xtask::pool::Job;
 use xtask::progress::Track;
@@ -57,10 +57,10 @@ fn words_about_progress_reach_no_log() {
     let shop = Shop::new("progress-log");
     shop.xtask(&["figures", "11"]).expect(1);
     assert_eq!(shop.read("target/xtask/log/fig11-run-main.txt"), "");
-    assert_eq!(Word::parse("progress 0.42"), Some(Word::Progress(0.42)));
-    assert_eq!(Word::parse("resumed 0.4"), Some(Word::Resumed(0.4)));
+    assert_eq!(Message::parse("progress 0.42"), Some(Message::Progress(0.42)));
+    assert_eq!(Message::parse("resumed 0.4"), Some(Message::Resumed(0.4)));
     for other in ["progress", "progress far", "no space left on device", ""] {
-        assert_eq!(Word::parse(other), None, "{other}");
+        assert_eq!(Message::parse(other), None, "{other}");
     }
 }
 

@@ -3,7 +3,7 @@
 use browser::rejudge;
 use browser::simulate::{self, Hearer};
 use browser::{FIGURES, Tables, exports, flow};
-use files::recipe;
+use files::scene_file;
 use serde_json::json;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -11,7 +11,7 @@ use std::path::Path;
 #[test]
 fn every_panel_has_a_table() -> Result<(), Box<dyn std::error::Error>> {
     for figure in FIGURES.iter().filter(|figure| figure.id != "fig01") {
-        let recipe = recipe::parse(figure.id, figure.scene)?;
+        let recipe = scene_file::parse(figure.id, figure.scene)?;
         let panels: BTreeSet<&str> = recipe.panels.iter().map(|panel| panel.name.as_str()).collect();
         let used: BTreeSet<&str> = figure.tables.iter().map(|entry| entry.panel).collect();
         assert_eq!(panels, used, "{}", figure.id);

@@ -3,6 +3,6 @@
 mod corpus;
 mod pairs;
 mod reader;
-mod recipe;
+mod scene_file;
 mod table;
 mod write;

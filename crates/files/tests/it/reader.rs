@@ -41,7 +41,7 @@ fn ranges_in_words() {
     let section = parse("x = -5");
     let complaint = |wanted: &str| format!("my.toml:1: top.x = -5: must be {wanted}");
     let reader = || Reader::new("my.toml", "top", &section);
-    let text = |error: files::reader::RecipeError| error.to_string();
+    let text = |error: files::reader::SceneError| error.to_string();
     assert_eq!(text(reader().number("x", POSITIVE).unwrap_err()), complaint("a number > 0.0"));
     assert_eq!(text(reader().number("x", NOT_NEGATIVE).unwrap_err()), complaint("a number >= 0.0"));
     assert_eq!(text(reader().number("x", 1.0..=2.0).unwrap_err()), complaint("a number >= 1.0 and <= 2.0"));
@@ -155,7 +155,7 @@ fn decimal_commas_and_typographic_minus_signs_are_named() {
 fn complaints_say_apart_what_they_are_about() {
     let section = parse("a = -1.5\nb = 2.0");
     let mut reader = Reader::new("my.toml", "law", &section);
-    let about = |error: files::reader::RecipeError| *error.about.expect("about a key");
+    let about = |error: files::reader::SceneError| *error.about.expect("about a key");
     let wrong = about(reader.number("a", POSITIVE).expect_err("negative"));
     assert_eq!((wrong.key.as_str(), wrong.value), ("law.a", Some(Value::Number(-1.5))));
     assert_eq!(wrong.allowed.as_deref(), Some("a number > 0.0"));

@@ -1,8 +1,8 @@
 //! A value with its derivative in one direction, of any number: with derivatives in double-double, and with derivatives
 //! whose error is carried along.
 
+use math::double_double::DoubleDouble;
 use math::number::Number;
-use math::twofold::Twofold;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// The double nearest to a number: which side of a kink it is on.
@@ -16,7 +16,7 @@ impl Nearest for f64 {
     }
 }
 
-impl Nearest for Twofold {
+impl Nearest for DoubleDouble {
     fn nearest(self) -> f64 {
         self.hi
     }

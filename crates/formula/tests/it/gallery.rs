@@ -2,7 +2,7 @@
 //! criterion; thresholds of stability, from the dispersion relation over all waves, are the published ones.
 
 use files::reader::{Section, Value as Entry};
-use files::recipe::{self, Recipe};
+use files::scene_file::{self, SceneFile};
 use formula::{Bound, Definition, Given, Graph, Place, Variable, law};
 use math::dual::Dual;
 use math::{complex_sqrt, cos, exp, sin};
@@ -14,12 +14,12 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/gallery")
 }
 
-fn scene(name: &str) -> Recipe {
-    recipe::read(&folder().join(name)).unwrap_or_else(|error| panic!("{error}"))
+fn scene(name: &str) -> SceneFile {
+    scene_file::read(&folder().join(name)).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// The law of a panel; `change` may replace expressions, `axes` are parameters that the law leaves to a map.
-fn graph(scene: &Recipe, panel: &str, change: impl Fn(&str) -> String, axes: &[(&str, f64)]) -> Graph {
+fn graph(scene: &SceneFile, panel: &str, change: impl Fn(&str) -> String, axes: &[(&str, f64)]) -> Graph {
     let tables = &scene.panel(panel).unwrap_or_else(|error| panic!("{error}")).tables;
     let section = tables.section("law").expect("a law");
     let place = |line: usize| Place { line: line as u32, column: 1 };
@@ -167,7 +167,7 @@ fn every_scene_parses_has_a_value_and_says_where_its_numbers_come_from() {
         if path.extension().is_none_or(|extension| extension != "toml") {
             continue;
         }
-        let scene = recipe::read(&path).unwrap_or_else(|error| panic!("{error}"));
+        let scene = scene_file::read(&path).unwrap_or_else(|error| panic!("{error}"));
         for panel in &scene.panels {
             let numbers = |name: &str| {
                 let section = panel.tables.section(name).cloned().unwrap_or_else(Section::default);

@@ -1,9 +1,9 @@
 //! What expressions mean.
 
 use formula::{Expression, Place};
+use math::double_double::DoubleDouble;
 use math::lane;
 use math::number::Number;
-use math::twofold::Twofold;
 use std::f64::consts::{E, PI};
 
 const HERE: Place = Place { line: 7, column: 9 };
@@ -102,8 +102,8 @@ fn names_are_listed_in_the_order_of_the_text_with_their_places() {
     assert_eq!(expression.eval(|name| values[name]).expect("a value"), 12.0);
     let constant = Expression::parse("claims.toml", HERE, "2*pi").expect("an expression");
     assert_eq!(constant.eval(|_| panic!("no variable")), Ok(2.0 * PI));
-    let exact = constant.carry_out(Twofold::from, |_| panic!("no variable"));
-    assert_eq!(exact, Twofold::from(2.0 * PI));
+    let exact = constant.carry_out(DoubleDouble::from, |_| panic!("no variable"));
+    assert_eq!(exact, DoubleDouble::from(2.0 * PI));
 }
 
 #[test]
@@ -144,9 +144,9 @@ fn the_first_wins_a_tie_and_nan_is_not_swallowed() {
         assert_eq!((f(0.0, -0.0).to_bits(), f(-0.0, 0.0).to_bits()), (0.0_f64.to_bits(), (-0.0_f64).to_bits()));
         assert!(f(f64::NAN, 1.0).is_nan() && f(1.0, f64::NAN).is_nan());
     }
-    let (a, b) = (Twofold::sum(1.0, 1e-20), Twofold::ONE);
+    let (a, b) = (DoubleDouble::sum(1.0, 1e-20), DoubleDouble::ONE);
     assert_eq!((Number::min(a, b), Number::max(b, a)), (b, a));
-    for f in [<Twofold as Number>::min, <Twofold as Number>::max] {
-        assert!(f(Twofold::from(f64::NAN), a).hi.is_nan() && f(a, Twofold::from(f64::NAN)).hi.is_nan());
+    for f in [<DoubleDouble as Number>::min, <DoubleDouble as Number>::max] {
+        assert!(f(DoubleDouble::from(f64::NAN), a).hi.is_nan() && f(a, DoubleDouble::from(f64::NAN)).hi.is_nan());
     }
 }

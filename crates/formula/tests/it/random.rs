@@ -6,7 +6,7 @@ use crate::dual::Dual;
 use crate::running::Running;
 use crate::trees::{PARAMETERS, tree};
 use formula::{Bound, Kink, Variable};
-use math::twofold::Twofold;
+use math::double_double::DoubleDouble;
 
 const COUNT: usize = 10_000;
 
@@ -57,7 +57,7 @@ fn errors_keep_within_the_running_bound() {
         }
         let plain = bound.eval(root, state).unwrap_or_else(|error| panic!("{text}: {error}"));
         assert_eq!(plain.to_bits(), value.to_bits(), "{text}");
-        let exact = bound.carry_out(root, Twofold::from, |variable| Twofold::from(state(variable)));
+        let exact = bound.carry_out(root, DoubleDouble::from, |variable| DoubleDouble::from(state(variable)));
         let error = (exact - plain).hi.abs();
         assert!(error <= allowed, "{text}: {plain} is off by {error:e}, allowed are {allowed:e}");
         checked += 1;
@@ -92,17 +92,20 @@ fn derivatives_are_those_of_differences() {
             continue;
         }
         let at = |t: f64| {
-            let moved = |variable| Twofold::sum(state(variable), direction(variable) * t);
-            bound.carry_out(root, Twofold::from, moved)
+            let moved = |variable| DoubleDouble::sum(state(variable), direction(variable) * t);
+            bound.carry_out(root, DoubleDouble::from, moved)
         };
         let central = |h: f64| (at(h) - at(-h)) / (2.0 * h);
-        let dual = |variable| Dual { value: Twofold::from(state(variable)), slope: Twofold::from(direction(variable)) };
-        let flat = |value| Dual { value: Twofold::from(value), slope: Twofold::ZERO };
+        let dual = |variable| Dual {
+            value: DoubleDouble::from(state(variable)),
+            slope: DoubleDouble::from(direction(variable)),
+        };
+        let flat = |value| Dual { value: DoubleDouble::from(value), slope: DoubleDouble::ZERO };
         let exact = bound.carry_out(root, flat, dual).slope;
         // errors h^2, h^4; their difference bounds that of the better one
         let h = 1.0 / (1u64 << 20) as f64;
         let d = [h, h / 2.0, h / 4.0].map(central);
-        let better = |coarse: Twofold, fine: Twofold| fine + (fine - coarse) / 3.0;
+        let better = |coarse: DoubleDouble, fine: DoubleDouble| fine + (fine - coarse) / 3.0;
         let (first, second) = (better(d[0], d[1]), better(d[1], d[2]));
         let size = exact.hi.abs() + at(0.0).hi.abs();
         // below 1e-250 tails of double-doubles underflow

@@ -4,7 +4,7 @@ mod program;
 mod sqlite;
 mod text;
 
-use files::recipe;
+use files::scene_file;
 use interchange::header::Header;
 
 /// A ring of two pedestrians; its title tries to mislead a reader of comments.
@@ -32,7 +32,7 @@ pub const TABLE: &str = "t,n,x,v\n0,0,-0.125,0\n0,1,5,0\n0.25,0,0.3,0.1\n0.25,1,
 
 /// What its files say of themselves, with this `a_0`.
 pub fn header(a_0: Option<f64>) -> Header {
-    let recipe = recipe::parse("two.toml", &scene()).expect("a scene");
+    let recipe = scene_file::parse("two.toml", &scene()).expect("a scene");
     Header::new(&recipe, recipe.panel("main").expect("a panel"), a_0, 0.5, 8.0).expect("a header")
 }
 

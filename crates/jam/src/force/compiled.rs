@@ -9,7 +9,7 @@ use crate::ramp::Bend;
 use math::change::{Player, Recorder, Tape};
 use math::lanes::Lanes;
 use math::simd::{Kernel, dispatch};
-use ode::Burst;
+use ode::Batch;
 use std::cell::RefCell;
 
 /// The force of a law.
@@ -94,8 +94,8 @@ impl<L: Law> Force for Compiled<L> {
         super::series::compiled(self.law, motion, &mut self.memory.borrow_mut());
     }
 
-    fn heun(&self, steps: Steps, cut: Option<Cut>, state: &mut [f64]) -> Burst {
-        heun::burst(&self.law, steps, cut, state)
+    fn heun(&self, steps: Steps, cut: Option<Cut>, state: &mut [f64]) -> Batch {
+        heun::batch(&self.law, steps, cut, state)
     }
 }
 

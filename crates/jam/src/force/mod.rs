@@ -13,7 +13,7 @@ pub use series::Motion;
 
 use crate::ramp::Bend;
 use math::simd::Width;
-use ode::Burst;
+use ode::Batch;
 
 /// The force on the pedestrians of a ring, of whom each follows the next and the last the first. Rows hold a number for
 /// each of them.
@@ -58,7 +58,7 @@ pub trait Force: std::fmt::Debug + Send {
 
     /// Makes steps of Heun's scheme of the state `[x_0 .. x_{N-1}, v_0 .. v_{N-1}]`, in one piece or cut. A batch in which
     /// something happens leaves the state untouched.
-    fn heun(&self, steps: Steps, cut: Option<Cut>, state: &mut [f64]) -> Burst;
+    fn heun(&self, steps: Steps, cut: Option<Cut>, state: &mut [f64]) -> Batch;
 }
 
 /// A number for each spacing and each speed.

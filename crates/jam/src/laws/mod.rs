@@ -53,7 +53,7 @@ const RAMP_WIDTH: f64 = 0.1;
 /// use jam::ramp::Bend;
 /// use jam::ring::{Ring, Start};
 /// use jam::stability::Waves;
-/// use jam::states::{Deviations, Form};
+/// use jam::states::{Deviations, RingSystem};
 /// use math::number::Number;
 ///
 /// /// `dv_n/dt = v_0 (1 - exp(-(s_n - 2) / l)) - v_n`.

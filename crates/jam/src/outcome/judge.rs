@@ -4,7 +4,7 @@ use super::least::{Ends, highest, lowest};
 use super::repeats::{Repeats, Repetition};
 use super::windows::{Stretch, drift, last};
 use super::{AGREEMENT, CONTRAST, Class, Decision, Memory, NEAR_FLOW, NEAR_LINE, START, Verdict};
-use crate::events::{Event, Happening, Watch};
+use crate::events::{Event, EventKind, Watch};
 use crate::laws::Model;
 use crate::observe::spread;
 use crate::ring::Ring;
@@ -102,7 +102,7 @@ impl Judge {
     }
 
     /// Looks at what happens at the start.
-    pub fn start(&mut self, watch: &Watch<'_>, found: &[Happening]) {
+    pub fn start(&mut self, watch: &Watch<'_>, found: &[Event]) {
         let now = watch.after();
         (self.least_gap, self.least_of_all) = (lowest(&now.rooms), lowest(&now.speeds));
         self.std = spread(&now.speeds);
@@ -110,7 +110,7 @@ impl Judge {
     }
 
     /// Looks at a step, after the watch has; `new` is what it found there.
-    pub fn look(&mut self, watch: &mut Watch<'_>, step: &mut Step<'_>, new: &[Happening]) {
+    pub fn look(&mut self, watch: &mut Watch<'_>, step: &mut Step<'_>, new: &[Event]) {
         if self.verdict.is_some() {
             return;
         }
@@ -137,7 +137,7 @@ impl Judge {
     }
 
     /// The verdict of a run that ended at this time, with these events: those that no step showed among them.
-    pub fn end(mut self, time: f64, found: &[Happening]) -> Verdict {
+    pub fn end(mut self, time: f64, found: &[Event]) -> Verdict {
         if self.verdict.is_none() {
             self.stopped(found, f64::INFINITY);
         }
@@ -206,25 +206,25 @@ impl Judge {
     }
 
     /// Decides by the first event that ends a run.
-    fn happened(&mut self, watch: &Watch<'_>, new: &[Happening]) {
-        if let Some(stop) = new.iter().find(|happening| happening.event.is_stop()) {
+    fn happened(&mut self, watch: &Watch<'_>, new: &[Event]) {
+        if let Some(stop) = new.iter().find(|happening| happening.kind.is_stop()) {
             self.stopped(new, watch.after().room_rates[stop.pedestrian].abs() / self.scale);
         }
     }
 
     /// The same, of a gap that closes at this speed, in units of the desired one.
-    fn stopped(&mut self, found: &[Happening], closing: f64) {
-        let Some(stop) = found.iter().find(|happening| happening.event.is_stop()) else { return };
-        let (class, distance) = match stop.event {
-            Event::Undefined => (Class::Undefined, f64::INFINITY),
-            Event::BlowUp => (Class::BlowUp, f64::INFINITY),
+    fn stopped(&mut self, found: &[Event], closing: f64) {
+        let Some(stop) = found.iter().find(|happening| happening.kind.is_stop()) else { return };
+        let (class, distance) = match stop.kind {
+            EventKind::Undefined => (Class::Undefined, f64::INFINITY),
+            EventKind::BlowUp => (Class::BlowUp, f64::INFINITY),
             _ => (Class::Contact, if closing.is_nan() { f64::INFINITY } else { closing }),
         };
         if class == Class::Contact {
             // the step goes on beyond it
             self.least_gap = 0.0;
         }
-        self.decide(class, stop.time, Decision::Event, distance);
+        self.decide(class, stop.time, Decision::EventKind, distance);
     }
 
     /// Whether the state is back at the uniform flow, and stays there.

@@ -94,8 +94,14 @@ impl Memory {
 }
 
 /// What can have decided before the end of a run.
-const KEPT: [Decision; 6] =
-    [Decision::Start, Decision::Event, Decision::Return, Decision::Falling, Decision::Repetition, Decision::Windows];
+const KEPT: [Decision; 6] = [
+    Decision::Start,
+    Decision::EventKind,
+    Decision::Return,
+    Decision::Falling,
+    Decision::Repetition,
+    Decision::Windows,
+];
 
 /// A number that counts something.
 fn whole(number: f64) -> Option<usize> {

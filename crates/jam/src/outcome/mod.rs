@@ -91,7 +91,7 @@ pub enum Decision {
     /// The start itself.
     Start,
     /// An event.
-    Event,
+    EventKind,
     /// The state is near the uniform flow, and every wave of the ring decays by the linearised law.
     Return,
     /// The perturbation is weak and falls, and every wave of the ring decays by the linearised law.
@@ -109,7 +109,7 @@ impl Decision {
     pub fn name(&self) -> &'static str {
         match self {
             Decision::Start => "start",
-            Decision::Event => "event",
+            Decision::EventKind => "event",
             Decision::Return => "return to the uniform flow",
             Decision::Falling => "a falling perturbation of a stable flow",
             Decision::Repetition => "the state repeats itself",

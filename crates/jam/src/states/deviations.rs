@@ -1,10 +1,10 @@
-//! Gaps and speeds as deviations from the uniform flow that is integrated along.
+//! Spacings and speeds as deviations from the uniform flow that is integrated along.
 //!
 //! State: `[u_0 .. u_{N-1}, w_0 .. w_{N-1}, x_0 - X, X, V]` with gaps `Delta y + u_n`, speeds `V + w_n`, and the
 //! distance `X` and speed `V` of the uniform flow, `dX/dt = V`, `dV/dt = f(V, V, Delta y)`. A perturbation of any size
 //! keeps all its digits, and an error is one of the perturbation, not of the state.
 
-use super::{FlowAlong, Form, LEAST_SIZE, closing_rates};
+use super::{FlowAlong, LEAST_SIZE, RingSystem, closing_rates};
 use crate::force::{Flow, Force, Motion};
 use crate::observe::spread;
 use crate::ring::{Ring, Start};
@@ -119,7 +119,7 @@ impl System for Deviations {
     }
 }
 
-impl Form for Deviations {
+impl RingSystem for Deviations {
     fn start(&self, start: Start) -> Vec<f64> {
         let mut state = vec![0.0; self.dimension()];
         state[0] -= start.shift;

@@ -3,17 +3,17 @@
 //! | form | state | for |
 //! |---|---|---|
 //! | [`Deviations`] | gaps and speeds minus those of the uniform flow | the default: errors are relative to the perturbation |
-//! | [`Gaps`] | gaps and speeds | the textbook form |
+//! | [`Spacings`] | gaps and speeds | the textbook form |
 //! | [`Positions`] | unwrapped positions and speeds | the scheme of the paper, word for word |
 
 mod deviations;
-mod gaps;
 mod positions;
+mod spacings;
 
 pub use crate::force::{Cut, heun_steps};
 pub use deviations::Deviations;
-pub use gaps::Gaps;
 pub use positions::Positions;
+pub use spacings::Spacings;
 
 use crate::laws::Model;
 use crate::ring::{Ring, Start};
@@ -21,7 +21,7 @@ use math::simd::{Kernel, dispatch};
 use std::ops::Range;
 
 /// A ring in one of the forms. Pedestrian `n` follows `n + 1`, the last follows the first.
-pub trait Form: ode::System {
+pub trait RingSystem: ode::System {
     /// The state at the start.
     fn start(&self, start: Start) -> Vec<f64>;
 
@@ -64,28 +64,28 @@ const LEAST_SIZE: f64 = 1e-305;
 
 /// Which form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FormKind {
+pub enum StateVariables {
     /// See [`Deviations`].
     Deviations,
-    /// See [`Gaps`].
-    Gaps,
+    /// See [`Spacings`].
+    Spacings,
     /// See [`Positions`].
     Positions,
 }
 
-impl FormKind {
+impl StateVariables {
     /// The ring in this form, with the law reduced to the terms it names.
-    pub fn build(self, model: &Model, ring: Ring) -> Box<dyn Form> {
+    pub fn build(self, model: &Model, ring: Ring) -> Box<dyn RingSystem> {
         let force = model.force();
         match self {
-            FormKind::Deviations => Box::new(Deviations::new(force, ring)),
-            FormKind::Gaps => Box::new(Gaps::new(force, ring)),
-            FormKind::Positions => Box::new(Positions::new(force, ring)),
+            StateVariables::Deviations => Box::new(Deviations::new(force, ring)),
+            StateVariables::Spacings => Box::new(Spacings::new(force, ring)),
+            StateVariables::Positions => Box::new(Positions::new(force, ring)),
         }
     }
 }
 
-/// The state of the form [`Gaps`] with these gaps, speeds and position of pedestrian 0.
+/// The state of the form [`Spacings`] with these gaps, speeds and position of pedestrian 0.
 pub fn gaps_state(model: &Model, gaps: &[f64], speeds: &[f64], first: f64) -> Vec<f64> {
     let contact = model.contact();
     gaps.iter().map(|gap| gap - contact).chain(speeds.iter().copied()).chain([first]).collect()

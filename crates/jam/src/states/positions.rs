@@ -1,11 +1,11 @@
 //! Unwrapped positions and speeds, as the paper writes its equations: `[x_0 .. x_{N-1}, v_0 .. v_{N-1}]`.
 
-use super::Form;
+use super::RingSystem;
 use crate::force::{Cut, Flow, Force, Steps};
 use crate::observe::spread;
 use crate::ring::{Ring, Start};
 use math::simd::Width;
-use ode::{Burst, Group, Measure, System};
+use ode::{Batch, Group, Measure, System};
 use std::cell::RefCell;
 use std::ops::Range;
 
@@ -14,7 +14,7 @@ use std::ops::Range;
 pub struct Positions {
     force: Box<dyn Force>,
     ring: Ring,
-    /// Room for the gaps of one evaluation, so that a step allocates nothing.
+    /// Scratch for the gaps of one evaluation, so that a step allocates nothing.
     gaps: RefCell<Vec<f64>>,
 }
 
@@ -65,7 +65,7 @@ impl System for Positions {
         vec![Group { range: 0..self.dimension(), measure: Measure::Largest, floor: 1.0 }]
     }
 
-    fn heun(&self, state: &mut [f64], h: f64, count: u64) -> Burst {
+    fn heun(&self, state: &mut [f64], h: f64, count: u64) -> Batch {
         let steps = Steps { length: self.ring.length, h, count, limit: Width::Eight };
         self.force.heun(steps, Cut::of(self.ring.pedestrians), state)
     }
@@ -95,7 +95,7 @@ impl System for Positions {
     }
 }
 
-impl Form for Positions {
+impl RingSystem for Positions {
     fn start(&self, start: Start) -> Vec<f64> {
         let n = self.ring.pedestrians;
         let mut state = vec![0.0; 2 * n];

@@ -2,7 +2,7 @@
 
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
 use jam::ring::{Ring, Start};
-use jam::states::{Form, FormKind};
+use jam::states::{RingSystem, StateVariables};
 use ode::{Control, Method, Problem, Step, integrate};
 use std::ops::ControlFlow;
 
@@ -31,7 +31,7 @@ fn smooth_laws() -> [Model; 3] {
     ]
 }
 
-fn end(form: &dyn Form, method: Method, control: Control) -> Vec<f64> {
+fn end(form: &dyn RingSystem, method: Method, control: Control) -> Vec<f64> {
     let start = form.start(Start { shift: 0.4 });
     let problem = Problem { system: form, start: &start, begin: 0.0, end: 4.0, method, control };
     integrate(&problem, &mut |_: &mut Step<'_>| ControlFlow::Continue(())).expect("it runs").state
@@ -59,7 +59,7 @@ fn orders_on_every_law() {
         (Method::Dop853, [20, 12, 12], 0.2),
     ];
     for (law, model) in smooth_laws().into_iter().enumerate() {
-        let form = FormKind::Deviations.build(&model, RING);
+        let form = StateVariables::Deviations.build(&model, RING);
         let truth = end(&*form, Method::Extrapolation, Control::Adaptive { tolerance: 1e-15 });
         let fixed = cases.into_iter().map(|(method, steps)| (method, steps, 0.2));
         for (method, steps, above) in fixed.chain(pairs.map(|(method, steps, above)| (method, steps[law], above))) {

@@ -3,8 +3,8 @@
 use crate::sample::{Random, algebraic, deviation, laws, variants};
 use jam::laws::{Algebraic, Model};
 use jam::ring::{Ring, Start};
-use jam::states::FormKind;
-use math::twofold::Twofold;
+use jam::states::StateVariables;
+use math::double_double::DoubleDouble;
 
 /// Gap and speed of a uniform flow with room, and where its room is.
 fn flow(model: &Model, random: &mut Random) -> (f64, f64, f64) {
@@ -129,12 +129,12 @@ fn whole_powers_agree_with_twofold_numbers() {
             let gap = 2.0 + random.uniform(0.3, 3.0);
             let d = gap - 2.0;
             let (u, w) = (d * random.magnitude(-15.0, -0.1) * random.uniform(-1.0, 1.0), random.uniform(-1e-3, 1e-3));
-            let power = |x: Twofold| (1..q).fold(x, |power, _| power * x);
-            let (before, after) = (power(Twofold::from(d)), power(Twofold::sum(d, u)));
-            // 1 / after - 1 / before, over one denominator; twofold numbers keep 16 digits of it down to u = 1e-15 d
+            let power = |x: DoubleDouble| (1..q).fold(x, |power, _| power * x);
+            let (before, after) = (power(DoubleDouble::from(d)), power(DoubleDouble::sum(d, u)));
+            // 1 / after - 1 / before, over one denominator; double-double numbers keep 16 digits of it down to u = 1e-15 d
             let difference = (before - after) / (before * after);
-            let force = Twofold::product(law.strength, law.strength) * difference;
-            let exact = Twofold::from(-w) - force;
+            let force = DoubleDouble::product(law.strength, law.strength) * difference;
+            let exact = DoubleDouble::from(-w) - force;
             let computed = deviation(&Model::Algebraic(law), gap, 0.7, [u, w, 0.0]);
             let error = (exact - computed).abs().hi / (w.abs() + force.hi.abs());
             worst = math::larger(worst, error);
@@ -151,7 +151,7 @@ fn a_ring_of_deviations_has_the_bits_of_its_pedestrians_one_by_one() {
     for count in [2, 3, 8, 9, 57, 67, 133, 256, 257, 515] {
         for model in variants(&mut random) {
             let ring = Ring { pedestrians: count, length: count as f64 * 4.5 };
-            let form = FormKind::Deviations.build(&model, ring);
+            let form = StateVariables::Deviations.build(&model, ring);
             let mut state = form.start(Start { shift: 0.1 });
             state[..2 * count].iter_mut().for_each(|deviation| *deviation += random.uniform(-0.1, 0.1));
             state[2 * count + 2] = 0.3;
@@ -172,7 +172,7 @@ fn a_ring_is_open_while_everybody_has_room() {
     let (mut open, mut closed) = (0, 0);
     for model in (0..40).flat_map(|_| variants(&mut random)).collect::<Vec<_>>() {
         let ring = Ring { pedestrians: 5, length: 5.0 * 4.5 };
-        let form = FormKind::Deviations.build(&model, ring);
+        let form = StateVariables::Deviations.build(&model, ring);
         let gaps: Vec<f64> = (0..5).map(|_| model.contact() + random.uniform(-0.1, 0.9)).collect();
         let speeds: Vec<f64> = (0..5).map(|_| random.uniform(0.0, 0.6)).collect();
         let rooms = (0..5).map(|n| model.room(gaps[n], speeds[n], speeds[(n + 1) % 5]));
@@ -181,7 +181,7 @@ fn a_ring_is_open_while_everybody_has_room() {
         let positions: Vec<f64> = (0..5).map(|n| gaps[..n].iter().sum()).collect();
         // of a ring that is as long as these gaps
         let length: f64 = gaps.iter().sum();
-        let by_positions = FormKind::Positions.build(&model, Ring { pedestrians: 5, length });
+        let by_positions = StateVariables::Positions.build(&model, Ring { pedestrians: 5, length });
         assert_eq!(by_positions.in_domain(&[positions, speeds.clone()].concat()), expected, "{model:?}");
         let uniform = 0.2;
         let mut deviations = vec![0.0; form.dimension()];
@@ -207,15 +207,15 @@ fn a_ring_with_a_room_of_exactly_nothing_is_closed() {
         let (mut gaps, speeds) = ([4.0; 4], [2.0; 4]);
         gaps[victim] = 3.0;
         gaps[(victim + 1) % 4] = 5.0;
-        for kind in [FormKind::Deviations, FormKind::Gaps, FormKind::Positions] {
+        for kind in [StateVariables::Deviations, StateVariables::Spacings, StateVariables::Positions] {
             let form = kind.build(&model, ring);
             let mut state = form.start(Start { shift: 0.0 });
             let places: Vec<f64> = (0..4).map(|n| gaps[..n].iter().sum()).collect();
             for n in 0..4 {
                 let (place, speed) = match kind {
-                    FormKind::Deviations => (gaps[n] - 4.0, speeds[n]),
-                    FormKind::Gaps => (gaps[n] - 2.0, speeds[n]),
-                    FormKind::Positions => (places[n], speeds[n]),
+                    StateVariables::Deviations => (gaps[n] - 4.0, speeds[n]),
+                    StateVariables::Spacings => (gaps[n] - 2.0, speeds[n]),
+                    StateVariables::Positions => (places[n], speeds[n]),
                 };
                 (state[n], state[4 + n]) = (place, speed);
             }

@@ -1,9 +1,9 @@
 //! Events of constructed trajectories: when, who, and in which order.
 
-use jam::events::{BLOW_UP, Event, Happening, Watch};
+use jam::events::{BLOW_UP, Event, EventKind, Watch};
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
 use jam::ring::{Ring, Start};
-use jam::states::{Form, FormKind, gaps_state};
+use jam::states::{RingSystem, StateVariables, gaps_state};
 use ode::{Control, Group, Measure, Method, Problem, Step, System, integrate};
 use std::cell::Cell;
 use std::f64::consts::PI;
@@ -41,7 +41,7 @@ impl System for Swing {
     }
 }
 
-impl Form for Swing {
+impl RingSystem for Swing {
     fn start(&self, _start: Start) -> Vec<f64> {
         vec![1.0, 0.0]
     }
@@ -81,7 +81,7 @@ fn relaxation(widening: f64) -> Model {
 }
 
 /// The events of a run, and whether each was reported once.
-fn watched(form: &dyn Form, model: Model, start: &[f64], count: usize, end: f64, control: Control) -> Vec<Happening> {
+fn watched(form: &dyn RingSystem, model: Model, start: &[f64], count: usize, end: f64, control: Control) -> Vec<Event> {
     let mut watch = Watch::new(model, form, count);
     let mut reported = Vec::new();
     let problem = Problem { system: form, start, begin: 0.0, end, method: Method::Dop853, control };
@@ -94,17 +94,17 @@ fn watched(form: &dyn Form, model: Model, start: &[f64], count: usize, end: f64,
     reported
 }
 
-fn swing_events(swing: &Swing, widening: f64, control: Control) -> Vec<Happening> {
+fn swing_events(swing: &Swing, widening: f64, control: Control) -> Vec<Event> {
     watched(swing, relaxation(widening), &[1.0, 0.0], 3, 6.0, control)
 }
 
 const ADAPTIVE: Control = Control::Adaptive { tolerance: 1e-13 };
 
 /// Event, pedestrian, and the cosine at its time, which tells the time on the way down.
-fn assert_events(found: &[Happening], expected: &[(Event, usize, f64)]) {
+fn assert_events(found: &[Event], expected: &[(EventKind, usize, f64)]) {
     assert_eq!(found.len(), expected.len(), "{found:?}");
     for (happening, (event, pedestrian, cos)) in found.iter().zip(expected) {
-        assert_eq!((happening.event, happening.pedestrian), (*event, *pedestrian), "{found:?}");
+        assert_eq!((happening.kind, happening.pedestrian), (*event, *pedestrian), "{found:?}");
         assert!(happening.time > 0.0 && happening.time < PI, "on the way down: {happening:?}");
         assert!((math::cos(happening.time) - cos).abs() < 1e-12, "{happening:?}: {}", math::cos(happening.time));
     }
@@ -114,19 +114,20 @@ fn assert_events(found: &[Happening], expected: &[(Event, usize, f64)]) {
 fn overlap_negative_speed_and_exchange_in_order() {
     let swing = Swing::new([(5.0, 0.0), (3.0, 4.0), (2.5, 0.5)], [(1.0, 0.0), (0.5, 0.0), (0.25, 0.5)]);
     // gap 2: 3 + 4 cos = 2; speed 2: 1/4 + cos / 2 = 0; gap 1: 3 + 4 cos = 0; gap 2 just touches 2 at cos = -1
-    let expected = [(Event::Overlap, 1, -0.25), (Event::NegativeSpeed, 2, -0.5), (Event::Exchange, 1, -0.75)];
+    let expected =
+        [(EventKind::Overlap, 1, -0.25), (EventKind::NegativeSpeed, 2, -0.5), (EventKind::Exchange, 1, -0.75)];
     assert_events(&swing_events(&swing, 0.0, ADAPTIVE), &expected);
     // the same with steps so long that a pedestrian comes and goes within a few of them
     let coarse = swing_events(&swing, 0.0, Control::Fixed { step: 0.5 });
-    let events: Vec<Event> = coarse.iter().map(|happening| happening.event).collect();
-    assert_eq!(events, [Event::Overlap, Event::NegativeSpeed, Event::Exchange]);
+    let events: Vec<EventKind> = coarse.iter().map(|happening| happening.kind).collect();
+    assert_eq!(events, [EventKind::Overlap, EventKind::NegativeSpeed, EventKind::Exchange]);
 }
 
 #[test]
 fn widening_makes_the_overlap_earlier() {
     let swing = Swing::new([(5.0, 0.0), (3.0, 4.0), (5.0, 0.0)], [(1.0, 0.0), (0.5, 0.0), (0.25, 0.0)]);
     // room of 1: 3 + 4 cos - 2 - a_v (1/2 + 1/4) = 0 for a_v = 2: cos = 1/8; exchange as before
-    let expected = [(Event::Overlap, 1, 0.125), (Event::Exchange, 1, -0.75)];
+    let expected = [(EventKind::Overlap, 1, 0.125), (EventKind::Exchange, 1, -0.75)];
     assert_events(&swing_events(&swing, 2.0, ADAPTIVE), &expected);
 }
 
@@ -136,7 +137,7 @@ fn a_dip_within_a_step_is_seen() {
     let swing = Swing::new([(2.98, 1.0), (5.0, 0.0), (5.0, 0.0)], [(1.0, 0.0); 3]);
     let found = swing_events(&swing, 0.0, Control::Fixed { step: 2.0 });
     assert_eq!(found.len(), 1, "{found:?}");
-    assert_eq!((found[0].event, found[0].pedestrian), (Event::Overlap, 0));
+    assert_eq!((found[0].kind, found[0].pedestrian), (EventKind::Overlap, 0));
     // dense output over steps of 2: an error of the cosine of 2^8 / 40320
     assert!((math::cos(found[0].time) + 0.98).abs() < 1e-2, "{found:?}");
 }
@@ -151,7 +152,7 @@ fn nothing_happens_where_nothing_is_negative() {
 fn of_equals_all_are_named() {
     let swing = Swing::new([(5.0, 0.0), (3.0, 4.0), (3.0, 4.0)], [(1.0, 0.0); 3]);
     let both = |event, cos| [(event, 1, cos), (event, 2, cos)];
-    let expected = [both(Event::Overlap, -0.25), both(Event::Exchange, -0.75)].concat();
+    let expected = [both(EventKind::Overlap, -0.25), both(EventKind::Exchange, -0.75)].concat();
     assert_events(&swing_events(&swing, 0.0, ADAPTIVE), &expected);
     // one that is later by more than a thousand millionth of the time is not at once with the first
     let later = Swing::new([(5.0, 0.0), (3.0, 4.0), (3.0 + 1e-6, 4.0)], [(1.0, 0.0); 3]);
@@ -165,9 +166,9 @@ fn of_equals_all_are_named() {
 fn widening_counts_from_the_last_pedestrian_to_the_first() {
     // room of 2: 7 + 2 cos - 2 - (2 + 2) = 0 at cos = -1/2; the widening is what is missing, and no gap is small
     let swing = Swing::new([(20.0, 0.0), (20.0, 0.0), (7.0, 2.0)], [(2.0, 0.0), (0.5, 0.0), (2.0, 0.0)]);
-    assert_events(&swing_events(&swing, 1.0, ADAPTIVE), &[(Event::Overlap, 2, -0.5)]);
+    assert_events(&swing_events(&swing, 1.0, ADAPTIVE), &[(EventKind::Overlap, 2, -0.5)]);
     let swing = Swing::new([(20.0, 0.0), (7.0, 2.0), (20.0, 0.0)], [(0.5, 0.0), (2.0, 0.0), (2.0, 0.0)]);
-    assert_events(&swing_events(&swing, 1.0, ADAPTIVE), &[(Event::Overlap, 1, -0.5)]);
+    assert_events(&swing_events(&swing, 1.0, ADAPTIVE), &[(EventKind::Overlap, 1, -0.5)]);
 }
 
 /// Readings of gaps and speeds by a watch over so many steps of this length, from this phase of the swing on.
@@ -223,14 +224,14 @@ fn blow_up_is_a_speed_beyond_the_bound() {
     // |v_1| = 1e12 (1 - cos t) passes the bound at t = pi / 2, backwards, so its speed is negative from the start on
     let swing = Swing::new([(5.0, 0.0); 3], [(1.0, 0.0), (-BLOW_UP, BLOW_UP), (1.0, 0.0)]);
     let found = swing_events(&swing, 0.0, ADAPTIVE);
-    let blow_up = found.iter().find(|happening| happening.event == Event::BlowUp).expect("it blows up");
+    let blow_up = found.iter().find(|happening| happening.kind == EventKind::BlowUp).expect("it blows up");
     assert_eq!(blow_up.pedestrian, 1);
     assert!((blow_up.time - std::f64::consts::FRAC_PI_2).abs() < 1e-12, "{blow_up:?}");
 }
 
 #[test]
 fn stops_and_names() {
-    let known: Vec<(&str, bool)> = Event::ALL.iter().map(|event| (event.name(), event.is_stop())).collect();
+    let known: Vec<(&str, bool)> = EventKind::ALL.iter().map(|event| (event.name(), event.is_stop())).collect();
     assert_eq!(
         known,
         [("overlap", true), ("negative_speed", false), ("exchange", false), ("undefined", true), ("blow_up", true)]
@@ -245,14 +246,14 @@ fn runner() -> (Model, Ring, Vec<f64>, Vec<f64>) {
 #[test]
 fn a_faster_pedestrian_passes_at_the_time_of_the_formula() {
     let (model, ring, gaps, speeds) = runner();
-    let form = FormKind::Gaps.build(&model, ring);
+    let form = StateVariables::Spacings.build(&model, ring);
     let start = gaps_state(&model, &gaps, &speeds, 0.0);
     let found = watched(&*form, model, &start, 3, 5.0, ADAPTIVE);
     // overlap at s = 2: 1 - exp(-t) = 1/4; exchange at s = 0: 3/4
-    let expected = [(Event::Overlap, -math::ln(0.75)), (Event::Exchange, -math::ln(0.25))];
+    let expected = [(EventKind::Overlap, -math::ln(0.75)), (EventKind::Exchange, -math::ln(0.25))];
     assert_eq!(found.len(), 2, "{found:?}");
     for (happening, (event, time)) in found.iter().zip(expected) {
-        assert_eq!((happening.event, happening.pedestrian), (event, 0));
+        assert_eq!((happening.kind, happening.pedestrian), (event, 0));
         // the gap closes with a speed of at least 1 there, so the time errs as the gap does
         assert!((happening.time - time).abs() < 1e-12, "{happening:?} not {time}");
     }
@@ -261,7 +262,7 @@ fn a_faster_pedestrian_passes_at_the_time_of_the_formula() {
 #[test]
 fn a_watch_goes_on_in_another_form() {
     let (model, ring, gaps, speeds) = runner();
-    let (first, second) = (FormKind::Gaps.build(&model, ring), FormKind::Positions.build(&model, ring));
+    let (first, second) = (StateVariables::Spacings.build(&model, ring), StateVariables::Positions.build(&model, ring));
     let mut watch = Watch::new(model.clone(), &*first, 3);
     let start = gaps_state(&model, &gaps, &speeds, 0.0);
     let problem =
@@ -296,13 +297,13 @@ fn for_the_logarithmic_law_an_overlap_is_an_exchange() {
     assert_eq!((model.contact(), model.room(0.5, 1.0, 1.0)), (0.0, 0.5));
     let swing = Swing::new([(0.5, 1.0), (5.0, 0.0), (5.0, 0.0)], [(1.0, 0.0); 3]);
     let found = watched(&swing, model, &[1.0, 0.0], 3, 6.0, ADAPTIVE);
-    assert_events(&found, &[(Event::Overlap, 0, -0.5), (Event::Exchange, 0, -0.5)]);
+    assert_events(&found, &[(EventKind::Overlap, 0, -0.5), (EventKind::Exchange, 0, -0.5)]);
     assert_eq!(found[0].time, found[1].time);
 }
 
 /// What both ways to look at the steps of a run find, and how many steps one of them passed over.
-fn looked_at(model: &Model, ring: Ring, shift: f64, end: f64) -> ([Vec<Happening>; 2], usize) {
-    let form = FormKind::Deviations.build(model, ring);
+fn looked_at(model: &Model, ring: Ring, shift: f64, end: f64) -> ([Vec<Event>; 2], usize) {
+    let form = StateVariables::Deviations.build(model, ring);
     let start = form.start(Start { shift });
     let watch = || Watch::new(model.clone(), &*form, ring.pedestrians);
     let (mut all, mut new, mut quiet) = (watch(), watch(), 0);
@@ -312,7 +313,7 @@ fn looked_at(model: &Model, ring: Ring, shift: f64, end: f64) -> ([Vec<Happening
         let found = all.look(step);
         assert_eq!(new.look_for_new(step), found, "at t = {}", step.end);
         quiet += usize::from(new.is_quiet());
-        let is_over = found.iter().any(|happening| happening.event.is_stop());
+        let is_over = found.iter().any(|happening| happening.kind.is_stop());
         if is_over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     assert!(done.is_ok(), "{done:?}");
@@ -332,7 +333,7 @@ fn steps_near_a_uniform_flow_are_passed_over_and_no_event_with_them() {
     let ring = Ring { pedestrians: 133, length: 200.0 };
     let logarithmic = Model::Logarithmic(Logarithmic { desired_speed: 2.0, widening: 0.0, epsilon: 0.01 });
     let ([all, new], quiet) = looked_at(&logarithmic, ring, 1e-4, 3000.0);
-    assert!(all.iter().any(|happening| happening.event == Event::Overlap), "{all:?}");
+    assert!(all.iter().any(|happening| happening.kind == EventKind::Overlap), "{all:?}");
     assert_eq!(all, new);
     assert!(quiet > 50, "{quiet}");
 }

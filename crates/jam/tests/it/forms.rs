@@ -2,10 +2,10 @@
 
 use crate::sample::{Random, variants};
 use jam::ring::{Ring, Start};
-use jam::states::{Form, FormKind};
+use jam::states::{RingSystem, StateVariables};
 
 /// Components that `fill` wrote to.
-fn written(form: &dyn Form, fill: impl Fn(&[f64], &mut [f64])) -> Vec<bool> {
+fn written(form: &dyn RingSystem, fill: impl Fn(&[f64], &mut [f64])) -> Vec<bool> {
     let state = form.start(Start { shift: 0.1 });
     let mut rates = vec![f64::NAN; form.dimension()];
     fill(&state, &mut rates);
@@ -15,7 +15,7 @@ fn written(form: &dyn Form, fill: impl Fn(&[f64], &mut [f64])) -> Vec<bool> {
 #[test]
 fn positions_are_what_kinematics_moves_and_groups_hold_every_component() {
     for model in variants(&mut Random(32)) {
-        for kind in [FormKind::Deviations, FormKind::Gaps, FormKind::Positions] {
+        for kind in [StateVariables::Deviations, StateVariables::Spacings, StateVariables::Positions] {
             let form = kind.build(&model, Ring { pedestrians: 7, length: 7.0 * 4.5 });
             let moved = written(&*form, |state, rates| form.kinematics(state, rates));
             let driven = written(&*form, |state, rates| form.dynamics(state, rates));

@@ -2,7 +2,7 @@
 
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
 use jam::ring::Ring;
-use jam::states::FormKind;
+use jam::states::StateVariables;
 use jam::uniform::steady_speed;
 use jam::waves;
 use ode::{Control, Method, Problem, Step, integrate};
@@ -18,7 +18,7 @@ fn errors(model: &Model, ring: Ring, l: usize) -> (f64, f64) {
     let speed = steady_speed(model, ring.headway()).expect("there is room");
     let k = 2.0 * PI * l as f64 / count as f64;
     let (re, im) = model.linearise(ring.headway(), speed).root(k);
-    let form = FormKind::Deviations.build(model, ring);
+    let form = StateVariables::Deviations.build(model, ring);
     let start = waves::start(count, speed, (re, im), k, AMPLITUDE);
     let time = if re.abs() > 0.02 { 4.0 / re.abs() } else { 200.0 };
     let control = Control::Adaptive { tolerance: 1e-14 };

@@ -3,12 +3,12 @@
 use crate::sample::{Random, paper_laws, variants};
 use jam::laws::{Exponential, Logarithmic, Model};
 use jam::ring::{Ring, Start};
-use jam::states::{Cut, Form, FormKind, heun_steps};
+use jam::states::{Cut, RingSystem, StateVariables, heun_steps};
 use math::simd::Width;
-use ode::Burst;
+use ode::Batch;
 
 /// A start where nobody has the distance of another one.
-fn uneven(form: &dyn Form, count: usize) -> Vec<f64> {
+fn uneven(form: &dyn RingSystem, count: usize) -> Vec<f64> {
     let mut random = Random(14);
     let mut state = form.start(Start { shift: 0.05 });
     state[..count].iter_mut().for_each(|x| *x += random.uniform(0.0, 0.1));
@@ -31,22 +31,22 @@ fn heun_steps_have_the_same_bits_at_every_width_and_size() {
         // around whole registers, and around whole rows
         for count in [2, 3, 5, 7, 8, 9, 16, 57, 67, 133, 255, 256, 257, 520 + turn] {
             let ring = Ring { pedestrians: count, length: count as f64 * 4.5 };
-            let form = FormKind::Positions.build(&model, ring);
+            let form = StateVariables::Positions.build(&model, ring);
             let start = uneven(&*form, count);
             let (h, steps) = (0.001, 20);
             let mut expected = start.clone();
             step_by_step(&*form, &mut expected, h, steps);
             for width in [Width::Baseline, Width::Four, Width::Eight] {
                 let mut state = start.clone();
-                let burst = heun_steps(&model, ring, (h, steps), &mut state, None, width);
-                assert_eq!((burst, bits(&state)), (Burst::Quiet, bits(&expected)), "{model:?} {count} {width:?}");
+                let batch = heun_steps(&model, ring, (h, steps), &mut state, None, width);
+                assert_eq!((batch, bits(&state)), (Batch::Done, bits(&expected)), "{model:?} {count} {width:?}");
             }
         }
     }
 }
 
 /// Heun's scheme as printed, from the rates of the form.
-fn step_by_step(form: &dyn Form, state: &mut [f64], h: f64, steps: u64) {
+fn step_by_step(form: &dyn RingSystem, state: &mut [f64], h: f64, steps: u64) {
     let n = state.len();
     let (mut first, mut second, mut guess) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
     for _ in 0..steps {
@@ -63,17 +63,17 @@ fn heun_steps_have_the_same_bits_however_the_ring_is_cut() {
     for model in many_laws() {
         for pedestrians in [1000, 1003] {
             let ring = Ring { pedestrians, length: pedestrians as f64 * 4.5 };
-            let form = FormKind::Positions.build(&model, ring);
+            let form = StateVariables::Positions.build(&model, ring);
             let start = uneven(&*form, pedestrians);
             let mut expected = start.clone();
             let in_one = heun_steps(&model, ring, (h, count), &mut expected, None, Width::Eight);
-            assert_eq!(in_one, Burst::Quiet, "{model:?}");
+            assert_eq!(in_one, Batch::Done, "{model:?}");
             for (block, steps, threads) in [(64, 16, 1), (100, 7, 1), (999, 3, 1), (37, 1, 3), (300, 20, 2), (5, 16, 1)]
             {
                 let cut = Cut { block, steps, threads };
                 let mut state = start.clone();
-                let burst = heun_steps(&model, ring, (h, count), &mut state, Some(cut), Width::Eight);
-                assert_eq!((burst, bits(&state)), (in_one, bits(&expected)), "{model:?} {pedestrians} {cut:?}");
+                let batch = heun_steps(&model, ring, (h, count), &mut state, Some(cut), Width::Eight);
+                assert_eq!((batch, bits(&state)), (in_one, bits(&expected)), "{model:?} {pedestrians} {cut:?}");
             }
         }
     }
@@ -83,7 +83,7 @@ fn heun_steps_have_the_same_bits_however_the_ring_is_cut() {
 fn a_cut_burst_with_an_event_leaves_the_state_untouched() {
     let [algebraic, ..] = paper_laws();
     let ring = Ring { pedestrians: 1000, length: 3000.0 };
-    let form = FormKind::Positions.build(&algebraic, ring);
+    let form = StateVariables::Positions.build(&algebraic, ring);
     for victim in [0, 1, 499, 500, 998, 999] {
         // it stands so close to the next one that it is thrown back
         let mut start = form.start(Start { shift: 0.0 });
@@ -93,7 +93,7 @@ fn a_cut_burst_with_an_event_leaves_the_state_untouched() {
             let cut = Cut { block: 100, steps: 16, threads };
             assert_eq!(
                 heun_steps(&algebraic, ring, (0.001, 100), &mut state, Some(cut), Width::Eight),
-                Burst::Eventful
+                Batch::NeedsInspection
             );
             assert_eq!(state, start);
         }
@@ -104,15 +104,15 @@ fn a_cut_burst_with_an_event_leaves_the_state_untouched() {
 fn whoever_passes_the_one_ahead_ends_a_burst_under_laws_without_a_wall() {
     let ring = Ring { pedestrians: 20, length: 20.0 * 4.5 };
     for model in many_laws().into_iter().filter(|model| !model.is_singular()) {
-        let form = FormKind::Positions.build(&model, ring);
+        let form = StateVariables::Positions.build(&model, ring);
         for victim in [0, 7, 19] {
             // through the one ahead within 45 of the steps: no force of these laws stops a speed of 100
             let mut start = form.start(Start { shift: 0.0 });
             start[20..].fill(1.0);
             start[20 + victim] = 100.0;
             let mut state = start.clone();
-            let burst = heun_steps(&model, ring, (0.001, 100), &mut state, None, Width::Eight);
-            assert_eq!((burst, state), (Burst::Eventful, start), "{model:?} {victim}");
+            let batch = heun_steps(&model, ring, (0.001, 100), &mut state, None, Width::Eight);
+            assert_eq!((batch, state), (Batch::NeedsInspection, start), "{model:?} {victim}");
         }
     }
 }
@@ -135,17 +135,17 @@ fn positions(gaps: &[f64], speeds: &[f64]) -> Vec<f64> {
     places.chain(speeds.iter().copied()).collect()
 }
 
-/// What a burst of so many steps of 0.001 says of a ring with one pedestrian who is different, in one piece.
-fn burst_with(model: &Model, size: usize, victim: usize, (gap, speed): (f64, f64), ahead: f64, steps: u64) -> Burst {
+/// What a batch of so many steps of 0.001 says of a ring with one pedestrian who is different, in one piece.
+fn burst_with(model: &Model, size: usize, victim: usize, (gap, speed): (f64, f64), ahead: f64, steps: u64) -> Batch {
     let (mut gaps, mut speeds) = (vec![4.5; size], vec![1.0; size]);
     (gaps[victim], speeds[victim]) = (gap, speed);
     speeds[(victim + 1) % size] = ahead;
     let ring = Ring { pedestrians: size, length: gaps.iter().sum() };
     let mut state = positions(&gaps, &speeds);
     let before = state.clone();
-    let burst = heun_steps(model, ring, (0.001, steps), &mut state, None, Width::Eight);
-    assert_eq!(burst == Burst::Eventful, state == before, "a burst is whole or leaves the state as it was");
-    burst
+    let batch = heun_steps(model, ring, (0.001, steps), &mut state, None, Width::Eight);
+    assert_eq!(batch == Batch::NeedsInspection, state == before, "a batch is whole or leaves the state as it was");
+    batch
 }
 
 /// No force but the drive, of this law's contact.
@@ -163,8 +163,12 @@ fn what_is_no_more_after_the_last_step_is_seen_as_well() {
             for victim in [0, 1, size - 2, size - 1] {
                 let said = |own, ahead, steps| burst_with(&model, size, victim, own, ahead, steps);
                 // 0.05 of room, and 0.1 walked in the one step
-                assert_eq!(said((contact + 0.05, 100.0), 1.0, 1), Burst::Eventful, "{model:?} {victim} of {size}");
-                assert_eq!(said((contact + 0.15, 100.0), 1.0, 1), Burst::Quiet, "{model:?} {victim} of {size}");
+                assert_eq!(
+                    said((contact + 0.05, 100.0), 1.0, 1),
+                    Batch::NeedsInspection,
+                    "{model:?} {victim} of {size}"
+                );
+                assert_eq!(said((contact + 0.15, 100.0), 1.0, 1), Batch::Done, "{model:?} {victim} of {size}");
             }
         }
     }
@@ -179,7 +183,7 @@ fn what_is_no_more_after_the_last_step_is_seen_as_well() {
     });
     for victim in [0, 1, 18, 19] {
         let said = |gap| burst_with(&wide, 20, victim, (gap, 20.0), 10.0, 1);
-        assert_eq!([said(5.005), said(5.02)], [Burst::Eventful, Burst::Quiet], "{victim}");
+        assert_eq!([said(5.005), said(5.02)], [Batch::NeedsInspection, Batch::Done], "{victim}");
     }
     // slower than nothing after one step: a force of some 7 on who nearly stands
     let strong = Model::Exponential(Exponential {
@@ -192,8 +196,8 @@ fn what_is_no_more_after_the_last_step_is_seen_as_well() {
     });
     for victim in [0, 1, 18, 19] {
         let said = |speed| burst_with(&strong, 20, victim, (2.5, speed), 1.0, 1);
-        assert_eq!(said(0.001), Burst::Eventful, "{victim}");
-        assert_eq!(said(0.1), Burst::Quiet, "{victim}");
+        assert_eq!(said(0.001), Batch::NeedsInspection, "{victim}");
+        assert_eq!(said(0.1), Batch::Done, "{victim}");
     }
 }
 
@@ -208,14 +212,14 @@ fn what_is_no_more_for_a_moment_within_is_seen_as_well() {
                 // too close at the start, but the one ahead leaves; walking backwards, but speeding up; both
                 let cases = [((contact - 0.01, 1.0), 2.0), ((4.0, -0.01), 2.0), ((contact - 0.01, -0.01), 2.0)];
                 for (own, ahead) in cases {
-                    assert_eq!(said(own, ahead), Burst::Eventful, "{model:?} {victim} of {size}: {own:?}");
+                    assert_eq!(said(own, ahead), Batch::NeedsInspection, "{model:?} {victim} of {size}: {own:?}");
                 }
-                assert_eq!(said((contact + 0.01, 0.5), 2.0), Burst::Quiet, "{model:?} {victim} of {size}");
+                assert_eq!(said((contact + 0.01, 0.5), 2.0), Batch::Done, "{model:?} {victim} of {size}");
                 // too close and backwards before the first step, neither after it
                 let both = (contact - 0.0005, -0.0005);
                 assert_eq!(
                     burst_with(&model, size, victim, both, 2.0, 1),
-                    Burst::Eventful,
+                    Batch::NeedsInspection,
                     "{model:?} {victim} of {size}"
                 );
             }

@@ -4,7 +4,7 @@ use crate::sample::{Random, laws};
 use jam::laws::Model;
 use jam::stability::Linear;
 use jam::uniform::steady_speed;
-use math::twofold::Twofold;
+use math::double_double::DoubleDouble;
 use std::f64::consts::PI;
 
 /// The derivative of `f` at 0 from central differences with `h` and `2 h` (error of `h^4`), and how far it may be off:
@@ -117,10 +117,11 @@ fn roots_solve_the_polynomial_and_are_the_larger_ones() {
     }
 }
 
-/// The root of `z^2 + b z + c` next to `z`, by Newton's method in twofold numbers: its real part.
-fn exact_growth_rate(z: (f64, f64), b: (f64, f64), c: (f64, f64)) -> Twofold {
-    let (b, c) = ((Twofold::from(b.0), Twofold::from(b.1)), (Twofold::from(c.0), Twofold::from(c.1)));
-    let mut z = (Twofold::from(z.0), Twofold::from(z.1));
+/// The root of `z^2 + b z + c` next to `z`, by Newton's method in double-double numbers: its real part.
+fn exact_growth_rate(z: (f64, f64), b: (f64, f64), c: (f64, f64)) -> DoubleDouble {
+    let (b, c) =
+        ((DoubleDouble::from(b.0), DoubleDouble::from(b.1)), (DoubleDouble::from(c.0), DoubleDouble::from(c.1)));
+    let mut z = (DoubleDouble::from(z.0), DoubleDouble::from(z.1));
     for _ in 0..3 {
         let residual =
             (z.0 * z.0 - z.1 * z.1 + b.0 * z.0 - b.1 * z.1 + c.0, z.0 * z.1 * 2.0 + b.0 * z.1 + b.1 * z.0 + c.1);
@@ -141,7 +142,7 @@ fn a_refined_growth_rate_is_the_double_next_to_the_exact_one() {
         let (root, (b, c)) = (linear.root(k), linear.polynomial(k));
         let exact = exact_growth_rate(root, b, c);
         let refined = linear.refined_growth_rate(k);
-        let error = |value: f64| (exact - Twofold::from(value)).abs().hi;
+        let error = |value: f64| (exact - DoubleDouble::from(value)).abs().hi;
         // half a unit in the last place, and the correction, some 1e-16 of the root, to a few of its digits
         let (re, im) = (root.0.abs(), root.1.abs());
         let allowed = 0.5 * f64::EPSILON * re + 64.0 * f64::EPSILON * f64::EPSILON * (re + im);

@@ -3,18 +3,18 @@
 use crate::sample::{HEADWAYS, Random, laws, paper_laws};
 use jam::laws::Model;
 use jam::ring::{Ring, Start};
-use jam::states::{Form, FormKind, gaps_state};
-use ode::{Burst, Control, Method, Problem, Statistics, Step, integrate};
+use jam::states::{RingSystem, StateVariables, gaps_state};
+use ode::{Batch, Control, Method, Problem, Statistics, Step, integrate};
 use std::ops::ControlFlow;
 
 const COUNT: usize = 21;
 
-fn integrated(form: &dyn Form, start: &[f64], end: f64, method: Method, control: Control) -> Statistics {
+fn integrated(form: &dyn RingSystem, start: &[f64], end: f64, method: Method, control: Control) -> Statistics {
     let mut observer = |_: &mut Step<'_>| ControlFlow::Continue(());
     integrate(&Problem { system: form, start, begin: 0.0, end, method, control }, &mut observer).expect("it runs")
 }
 
-fn read(form: &dyn Form, state: &[f64], count: usize) -> (Vec<f64>, Vec<f64>) {
+fn read(form: &dyn RingSystem, state: &[f64], count: usize) -> (Vec<f64>, Vec<f64>) {
     let (mut gaps, mut speeds) = (vec![0.0; count], vec![0.0; count]);
     form.read(state, &mut gaps, &mut speeds);
     (gaps, speeds)
@@ -25,7 +25,7 @@ fn labels_do_not_matter() {
     let mut random = Random(6);
     for model in [laws(&mut random), laws(&mut random), laws(&mut random), laws(&mut random)].concat() {
         let ring = Ring { pedestrians: COUNT, length: COUNT as f64 * 3.5 };
-        for kind in [FormKind::Deviations, FormKind::Gaps] {
+        for kind in [StateVariables::Deviations, StateVariables::Spacings] {
             let form = kind.build(&model, ring);
             let mut start = form.start(Start { shift: 0.0 });
             for value in &mut start[..2 * COUNT] {
@@ -56,7 +56,7 @@ fn gaps_sum_to_the_length() {
     // to their rounding: after n steps the sum is off by less than n N eps s, s the largest gap
     for (model, headway) in paper_laws().into_iter().zip(HEADWAYS) {
         let ring = Ring { pedestrians: COUNT, length: COUNT as f64 * headway };
-        for kind in [FormKind::Deviations, FormKind::Gaps] {
+        for kind in [StateVariables::Deviations, StateVariables::Spacings] {
             let form = kind.build(&model, ring);
             let start = form.start(Start { shift: 0.1 });
             for (method, control) in [
@@ -81,7 +81,7 @@ fn the_three_forms_start_alike_and_stay_together() {
     for (model, headway) in paper_laws().into_iter().zip(HEADWAYS) {
         let ring = Ring { pedestrians: COUNT, length: COUNT as f64 * headway };
         let shift = 0.05;
-        let ends: Vec<_> = [FormKind::Deviations, FormKind::Gaps, FormKind::Positions]
+        let ends: Vec<_> = [StateVariables::Deviations, StateVariables::Spacings, StateVariables::Positions]
             .map(|kind| {
                 let form = kind.build(&model, ring);
                 let start = form.start(Start { shift });
@@ -104,7 +104,7 @@ fn the_three_forms_start_alike_and_stay_together() {
 }
 
 /// Equal distances, all at rest, pedestrian 0 ahead by the shift.
-fn assert_start(form: &dyn Form, start: &[f64], ring: Ring, shift: f64) {
+fn assert_start(form: &dyn RingSystem, start: &[f64], ring: Ring, shift: f64) {
     let mut positions = vec![0.0; COUNT];
     form.write_positions(start, &mut positions);
     for (n, position) in positions.iter().enumerate() {
@@ -121,7 +121,7 @@ fn assert_start(form: &dyn Form, start: &[f64], ring: Ring, shift: f64) {
 fn rates_of_gaps_and_speeds_are_those_of_the_state() {
     for (model, headway) in paper_laws().into_iter().zip(HEADWAYS) {
         let ring = Ring { pedestrians: COUNT, length: COUNT as f64 * headway };
-        for kind in [FormKind::Deviations, FormKind::Gaps, FormKind::Positions] {
+        for kind in [StateVariables::Deviations, StateVariables::Spacings, StateVariables::Positions] {
             let form = kind.build(&model, ring);
             let mut random = Random(7);
             let mut state = form.start(Start { shift: 0.05 });
@@ -151,7 +151,7 @@ fn another_form_of_the_same_state() {
         let gaps: Vec<f64> = (0..COUNT).map(|n| headway + 0.01 * n as f64).collect();
         let speeds: Vec<f64> = (0..COUNT).map(|n| 0.1 * n as f64).collect();
         let state = gaps_state(&model, &gaps, &speeds, 1.25);
-        let form = FormKind::Gaps.build(&model, ring);
+        let form = StateVariables::Spacings.build(&model, ring);
         assert_eq!(state.len(), form.dimension());
         let (same_gaps, same_speeds) = read(&*form, &state, COUNT);
         assert!(gaps.iter().zip(&same_gaps).all(|(a, b)| (a - b).abs() <= 2.0 * f64::EPSILON * a));
@@ -169,7 +169,7 @@ fn the_domain_ends_where_a_gap_of_a_singular_law_closes() {
     for (model, singular) in [(algebraic, true), (exponential, false), (logarithmic, false)] {
         assert_eq!(model.is_singular(), singular);
         let ring = Ring { pedestrians: 4, length: 12.0 };
-        for kind in [FormKind::Deviations, FormKind::Gaps, FormKind::Positions] {
+        for kind in [StateVariables::Deviations, StateVariables::Spacings, StateVariables::Positions] {
             let form = kind.build(&model, ring);
             assert!(form.in_domain(&form.start(Start { shift: 0.99 })));
             for shift in [1.01, -1.01] {
@@ -197,23 +197,23 @@ fn heun_steps_in_a_burst_are_those_one_by_one() {
     let mut random = Random(13);
     for model in paper_laws().into_iter().chain((0..5).flat_map(|_| laws(&mut random))) {
         let ring = Ring { pedestrians: COUNT, length: COUNT as f64 * 3.5 };
-        let form = FormKind::Positions.build(&model, ring);
+        let form = StateVariables::Positions.build(&model, ring);
         let start = form.start(Start { shift: 0.05 });
         let (h, count) = (0.001, 1000);
         let one_by_one = integrated(&*form, &start, h * count as f64, Method::Heun, Control::Fixed { step: h });
         assert_eq!(one_by_one.steps, count);
         let mut state = start.clone();
-        let burst = form.heun(&mut state, h, count);
+        let batch = form.heun(&mut state, h, count);
         // a strong law among the random ones may push backwards, which is for the steps one by one to see
-        assert!(burst == Burst::Quiet || !paper_laws().contains(&model), "{model:?}: {burst:?}");
+        assert!(batch == Batch::Done || !paper_laws().contains(&model), "{model:?}: {batch:?}");
         let bits = |state: &[f64]| state.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
-        let expected = if burst == Burst::Quiet { &one_by_one.state } else { &start };
-        assert_eq!(bits(&state), bits(expected), "{model:?}: {burst:?}");
+        let expected = if batch == Batch::Done { &one_by_one.state } else { &start };
+        assert_eq!(bits(&state), bits(expected), "{model:?}: {batch:?}");
         // the other forms have no such way
-        for kind in [FormKind::Deviations, FormKind::Gaps] {
+        for kind in [StateVariables::Deviations, StateVariables::Spacings] {
             let form = kind.build(&model, ring);
             let mut state = form.start(Start { shift: 0.05 });
-            assert_eq!(form.heun(&mut state, h, count), Burst::NotOffered);
+            assert_eq!(form.heun(&mut state, h, count), Batch::Unsupported);
         }
     }
 }
@@ -221,10 +221,10 @@ fn heun_steps_in_a_burst_are_those_one_by_one() {
 #[test]
 fn a_burst_with_an_event_leaves_the_state_untouched() {
     let [algebraic, ..] = paper_laws();
-    let form = FormKind::Positions.build(&algebraic, Ring { pedestrians: 4, length: 12.0 });
+    let form = StateVariables::Positions.build(&algebraic, Ring { pedestrians: 4, length: 12.0 });
     // pedestrian 0 stands so close to 1 that it is thrown back
     let start = form.start(Start { shift: 0.7 });
     let mut state = start.clone();
-    assert_eq!(form.heun(&mut state, 0.001, 100), Burst::Eventful);
+    assert_eq!(form.heun(&mut state, 0.001, 100), Batch::NeedsInspection);
     assert_eq!(state, start);
 }

@@ -3,7 +3,7 @@
 use crate::sample::{Random, variants};
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
 use jam::ring::{Ring, Start};
-use jam::states::{Form, FormKind};
+use jam::states::{RingSystem, StateVariables};
 
 const ORDER: usize = 18;
 
@@ -25,8 +25,8 @@ fn models() -> Vec<Model> {
     models
 }
 
-/// Gaps and speeds moved at random by up to `size`; the uniform flow at rest.
-fn state(form: &dyn Form, pedestrians: usize, size: f64, random: &mut Random) -> Vec<f64> {
+/// Spacings and speeds moved at random by up to `size`; the uniform flow at rest.
+fn state(form: &dyn RingSystem, pedestrians: usize, size: f64, random: &mut Random) -> Vec<f64> {
     let mut state = form.start(Start { shift: 0.0 });
     for component in &mut state[..2 * pedestrians] {
         *component += random.uniform(-size, size);
@@ -52,7 +52,7 @@ const UNIT: f64 = 0.75;
 /// The largest difference between the derivative of the series and the rates at its value, relative to the size of the
 /// perturbation, and the largest for what the form keeps beside gaps and speeds, of order 1. Both the rounding of a few dozen operations and the term of order 18, below 1e-17 of the first at this
 /// time, stay far under the bound of the callers.
-fn residual(model: &Model, kind: FormKind, pedestrians: usize, size: f64, random: &mut Random) -> (f64, f64) {
+fn residual(model: &Model, kind: StateVariables, pedestrians: usize, size: f64, random: &mut Random) -> (f64, f64) {
     let ring = Ring { pedestrians, length: 3.0 * pedestrians as f64 };
     let form = kind.build(model, ring);
     let n = form.dimension();
@@ -77,7 +77,7 @@ fn series_solve_the_equations() {
     let mut random = Random(17);
     for model in models() {
         for pedestrians in [2, 7, 16, 33, 67] {
-            for kind in [FormKind::Deviations, FormKind::Gaps] {
+            for kind in [StateVariables::Deviations, StateVariables::Spacings] {
                 let (ring, rest) = residual(&model, kind, pedestrians, 0.3, &mut random);
                 assert!(ring < 1e-13 && rest < 1e-14, "{} {kind:?} {pedestrians}: {ring:e}, {rest:e}", model.name());
             }
@@ -89,7 +89,7 @@ fn series_solve_the_equations() {
 fn series_of_deviations_keep_the_digits_of_a_small_perturbation() {
     let mut random = Random(18);
     for model in models() {
-        let (ring, _) = residual(&model, FormKind::Deviations, 33, 1e-100, &mut random);
+        let (ring, _) = residual(&model, StateVariables::Deviations, 33, 1e-100, &mut random);
         assert!(ring < 1e-13, "{}: {ring:e}", model.name());
     }
 }
@@ -103,12 +103,12 @@ fn deviations_have_a_series_where_the_force_depends_on_the_gap_alone() {
             Model::Logarithmic(law) => law.widening == 0.0,
             Model::Formula(_) => false,
         };
-        for kind in [FormKind::Deviations, FormKind::Gaps, FormKind::Positions] {
+        for kind in [StateVariables::Deviations, StateVariables::Spacings, StateVariables::Positions] {
             let form = kind.build(&model, Ring { pedestrians: 5, length: 22.5 });
             let expected = match kind {
-                FormKind::Deviations => of_the_gap,
-                FormKind::Gaps => true,
-                FormKind::Positions => false,
+                StateVariables::Deviations => of_the_gap,
+                StateVariables::Spacings => true,
+                StateVariables::Positions => false,
             };
             assert_eq!(form.has_series(), expected, "{model:?} {kind:?}");
         }

@@ -3,7 +3,7 @@
 use crate::sample::{HEADWAYS, Random, laws, paper_laws};
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
 use jam::ring::{Ring, Start};
-use jam::states::FormKind;
+use jam::states::StateVariables;
 use jam::uniform::steady_speed;
 use ode::{Control, Method, Problem, Step, integrate};
 use std::ops::ControlFlow;
@@ -87,7 +87,7 @@ fn the_search_for_a_steady_speed_ends_at_so_many_desired_ones() {
 fn run(
     model: &Model,
     ring: Ring,
-    kind: FormKind,
+    kind: StateVariables,
     method: Method,
     control: Control,
     look: &mut dyn FnMut(&[f64], &[f64]),
@@ -119,7 +119,7 @@ fn uniform_flow_is_stationary() {
         for (model, headway) in paper_laws().into_iter().zip(HEADWAYS).chain(laws(&mut random).map(|law| (law, 3.1))) {
             // a number of pedestrians that leaves a remainder in every width of vector registers
             let ring = Ring { pedestrians: 23, length: 23.0 * headway };
-            for kind in [FormKind::Deviations, FormKind::Gaps] {
+            for kind in [StateVariables::Deviations, StateVariables::Spacings] {
                 for method in Method::ALL {
                     for control in controls(method) {
                         run(&model, ring, kind, method, control, &mut |gaps, speeds| {
@@ -145,7 +145,7 @@ fn uniform_flow_in_positions_is_stationary_to_their_rounding() {
         let ring = Ring { pedestrians: 23, length: 23.0 * headway };
         for method in Method::ALL {
             let mut worst: f64 = 0.0;
-            run(&model, ring, FormKind::Positions, method, Control::Fixed { step: 0.05 }, &mut |gaps, _| {
+            run(&model, ring, StateVariables::Positions, method, Control::Fixed { step: 0.05 }, &mut |gaps, _| {
                 worst = gaps.iter().map(|gap| (gap - headway).abs()).fold(worst, math::larger);
             });
             assert!(worst < allowed, "{} {}: {worst:e}, allowed {allowed:e}", model.name(), method.name());
@@ -159,7 +159,7 @@ fn a_flow_from_rest_reaches_the_steady_speed() {
         let ring = Ring { pedestrians: 5, length: 5.0 * headway };
         let mut last = 0.0;
         let control = Control::Adaptive { tolerance: 1e-13 };
-        run(&model, ring, FormKind::Deviations, Method::Dop853, control, &mut |_, speeds| last = speeds[0]);
+        run(&model, ring, StateVariables::Deviations, Method::Dop853, control, &mut |_, speeds| last = speeds[0]);
         let steady = steady_speed(&model, headway).expect("there is room");
         // what is left of the start, v' exp(-30), and some tolerances
         assert!((last - steady).abs() < steady * math::exp(-30.0) + 1e-11, "{}: {last} not {steady}", model.name());

@@ -1,17 +1,17 @@
 //! Fixed steps that jump over a wall: no step that ends beyond it goes unreported.
 
 use crate::sample::{Random, laws};
-use jam::events::{Event, Watch};
+use jam::events::{EventKind, Watch};
 use jam::laws::Model;
 use jam::ring::Ring;
-use jam::states::{Form, FormKind};
+use jam::states::{RingSystem, StateVariables};
 use ode::{Control, Failure, Group, Method, Problem, Step, System, integrate};
 use std::cell::Cell;
 use std::ops::{ControlFlow, Range};
 
 /// A ring that notices when its force is asked for beyond a wall.
 struct Guarded {
-    form: Box<dyn Form>,
+    form: Box<dyn RingSystem>,
     is_beyond: Cell<bool>,
 }
 
@@ -51,7 +51,15 @@ struct Counts {
 }
 
 /// Steps until the first stop; panics where a step ends beyond the wall and no overlap is reported in it.
-fn run(model: Model, ring: Ring, kind: FormKind, method: Method, step: f64, random: &mut Random, counts: &mut Counts) {
+fn run(
+    model: Model,
+    ring: Ring,
+    kind: StateVariables,
+    method: Method,
+    step: f64,
+    random: &mut Random,
+    counts: &mut Counts,
+) {
     let count = ring.pedestrians;
     let guarded = Guarded { form: kind.build(&model, ring), is_beyond: Cell::new(false) };
     let form = &*guarded.form;
@@ -72,7 +80,7 @@ fn run(model: Model, ring: Ring, kind: FormKind, method: Method, step: f64, rand
         form.read(taken.after(), &mut gaps, &mut speeds);
         let rooms = (0..count).map(|n| model.room(gaps[n], speeds[n], speeds[(n + 1) % count]));
         let narrowest = rooms.fold(f64::INFINITY, math::smaller);
-        let overlap = new.iter().find(|happening| happening.event == Event::Overlap);
+        let overlap = new.iter().find(|happening| happening.kind == EventKind::Overlap);
         if narrowest < 0.0 {
             let found = overlap.unwrap_or_else(|| panic!("{model:?} {kind:?} {}: {narrowest:e}", method.name()));
             assert!(found.time > taken.start && found.time <= taken.end * (1.0 + f64::EPSILON), "{found:?}");
@@ -92,7 +100,7 @@ fn run(model: Model, ring: Ring, kind: FormKind, method: Method, step: f64, rand
         }
         guarded.is_beyond.set(false);
         counts.overlaps += u32::from(overlap.is_some());
-        let blow_up = new.iter().any(|happening| happening.event == Event::BlowUp);
+        let blow_up = new.iter().any(|happening| happening.kind == EventKind::BlowUp);
         counts.blow_ups += u32::from(blow_up);
         if blow_up || overlap.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     };
@@ -115,7 +123,7 @@ fn no_step_that_ends_beyond_a_wall_goes_unreported() {
             for model in laws(&mut random) {
                 let headway = model.contact() + random.uniform(0.5, 1.5) + 4.0 * model.room_per_speed();
                 let ring = Ring { pedestrians: 5, length: 5.0 * headway };
-                for kind in [FormKind::Deviations, FormKind::Gaps, FormKind::Positions] {
+                for kind in [StateVariables::Deviations, StateVariables::Spacings, StateVariables::Positions] {
                     run(model.clone(), ring, kind, method, random.magnitude(-2.0, -0.3), &mut random, &mut counts);
                 }
             }

@@ -1,6 +1,6 @@
 //! The exponential function.
 
-use crate::twofold::Twofold;
+use crate::double_double::DoubleDouble;
 
 /// The double next to 1 / ln 2.
 const INVERSE_LN_2: f64 = std::f64::consts::LOG2_E;
@@ -111,10 +111,10 @@ impl Reduced {
     }
 
     /// e^x with another 5 bits or so beyond a double.
-    pub(super) fn exp_with_tail(self) -> Twofold {
+    pub(super) fn exp_with_tail(self) -> DoubleDouble {
         let power = f64::from_bits(self.exponent().wrapping_add(1.0_f64.to_bits()));
-        let sum = Twofold::ordered_sum(1.0, self.r);
-        Twofold::ordered_sum(sum.hi, sum.lo + self.rest()).times(power)
+        let sum = DoubleDouble::ordered_sum(1.0, self.r);
+        DoubleDouble::ordered_sum(sum.hi, sum.lo + self.rest()).times(power)
     }
 
     /// e^x - `less` for `less` = 0 or 1; right from x = -708 up to 709.

@@ -2,14 +2,14 @@
 
 use super::power_of_two;
 use super::series::{ODD_INVERSES, sum};
-use crate::twofold::Twofold;
+use crate::double_double::DoubleDouble;
 
 /// The natural logarithm; -infinity at zero, NaN below.
 pub fn ln(x: f64) -> f64 {
     if !(x > 0.0 && x < f64::INFINITY) {
         return beyond(x);
     }
-    Twofold::from(x).ln().into()
+    DoubleDouble::from(x).ln().into()
 }
 
 /// ln(1 + x), with full relative precision near 0; -infinity at -1, NaN below.
@@ -20,7 +20,7 @@ pub fn ln_1p(x: f64) -> f64 {
     if !(x > -1.0 && x < f64::INFINITY) {
         return beyond(1.0 + x);
     }
-    Twofold::from(x).ln_1p().into()
+    DoubleDouble::from(x).ln_1p().into()
 }
 
 /// The logarithm to base 10; -infinity at zero, NaN below.
@@ -28,7 +28,7 @@ pub fn log10(x: f64) -> f64 {
     if !(x > 0.0 && x < f64::INFINITY) {
         return beyond(x);
     }
-    (Twofold::from(x).ln() * Twofold::INVERSE_LN_10).into()
+    (DoubleDouble::from(x).ln() * DoubleDouble::INVERSE_LN_10).into()
 }
 
 /// The logarithm of an argument that is zero, negative, infinite or not a number.
@@ -42,18 +42,18 @@ fn beyond(x: f64) -> f64 {
     }
 }
 
-impl Twofold {
+impl DoubleDouble {
     /// ln x with a relative error of about 2^-80, for a finite x > 0; NaN for others.
-    pub fn ln(self) -> Twofold {
+    pub fn ln(self) -> DoubleDouble {
         if !(self.hi > 0.0 && self.hi < f64::INFINITY) {
-            return Twofold::from(f64::NAN);
+            return DoubleDouble::from(f64::NAN);
         }
         let (e, m) = halved(self);
-        Twofold::LN_2 * f64::from(e) + twice_artanh((m - 1.0) / (m + 1.0))
+        DoubleDouble::LN_2 * f64::from(e) + twice_artanh((m - 1.0) / (m + 1.0))
     }
 
     /// ln(1 + x) with a relative error of about 2^-80, for a finite x > -1; NaN for others.
-    pub fn ln_1p(self) -> Twofold {
+    pub fn ln_1p(self) -> DoubleDouble {
         if self.hi > -0.25 && self.hi < 0.4 {
             return twice_artanh(self / (self + 2.0));
         }
@@ -62,14 +62,14 @@ impl Twofold {
 }
 
 /// ln((1 + s) / (1 - s)) for |s| <= 0.172, by its Taylor series to s^35 / 35.
-fn twice_artanh(s: Twofold) -> Twofold {
+fn twice_artanh(s: DoubleDouble) -> DoubleDouble {
     sum(&ODD_INVERSES, 6, s * s) * s
 }
 
 /// The whole number e and m = x 2^-e, for a finite x > 0, with m near or between sqrt(1/2) and sqrt(2).
-fn halved(x: Twofold) -> (i32, Twofold) {
+fn halved(x: DoubleDouble) -> (i32, DoubleDouble) {
     if x.hi < f64::MIN_POSITIVE {
-        let (e, m) = halved(Twofold::from(x.hi * power_of_two(64)));
+        let (e, m) = halved(DoubleDouble::from(x.hi * power_of_two(64)));
         return (e - 64, m);
     }
     const ROOT_HALF: i64 = std::f64::consts::FRAC_1_SQRT_2.to_bits() as i64;

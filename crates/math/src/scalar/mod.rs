@@ -1,6 +1,6 @@
 //! Functions of one value, over the whole of their domain.
 //!
-//! Each works with [`Twofold`](crate::twofold::Twofold) numbers to some 80 bits
+//! Each works with [`DoubleDouble`](crate::double_double::DoubleDouble) numbers to some 80 bits
 //! and rounds once, so the result is the double nearest to the true value unless
 //! that lies within about 2^-20 of a unit of the middle between two doubles.
 //! A call takes some 50 to 170 ns; in long loops the [`lane`](crate::lane) functions take 1

@@ -1,7 +1,7 @@
 //! Powers with a real exponent.
 
 use super::exponential::rounded_exp;
-use crate::twofold::Twofold;
+use crate::double_double::DoubleDouble;
 
 /// x^y, with the special cases of the C standard: x^0 = 1 and 1^y = 1 for every
 /// argument, NaN for a negative x unless y is a whole number.
@@ -34,5 +34,5 @@ fn of_size(x: f64, y: f64) -> f64 {
     }
     // beyond this no power of a double but 1 is finite and not zero
     const LARGEST: f64 = 1e20;
-    rounded_exp(Twofold::from(x).ln() * y.clamp(-LARGEST, LARGEST))
+    rounded_exp(DoubleDouble::from(x).ln() * y.clamp(-LARGEST, LARGEST))
 }

@@ -1,41 +1,41 @@
-//! Power series in twofold numbers, and their coefficients (printed by `coefficients.py`).
+//! Power series in double-double numbers, and their coefficients (printed by `coefficients.py`).
 
-use crate::twofold::Twofold;
+use crate::double_double::DoubleDouble;
 
 /// The sum of c_n z^n over n, for |z| < 1 and coefficients of which none is smaller
 /// than the sum of all later terms. Terms from z^`precise` on are summed in doubles:
 /// there the caller knows them to be too small for the rest of the digits to matter.
 #[inline(always)]
-pub(super) fn sum(coefficients: &[Twofold], precise: usize, z: Twofold) -> Twofold {
+pub(super) fn sum(coefficients: &[DoubleDouble], precise: usize, z: DoubleDouble) -> DoubleDouble {
     let (leading, trailing) = coefficients.split_at(precise);
     let tail = trailing.iter().rev().fold(0.0, |tail, c| tail * z.hi + c.hi);
-    leading.iter().rev().fold(Twofold::from(tail), |sum, c| {
-        let product = Twofold::product(sum.hi, z.hi);
+    leading.iter().rev().fold(DoubleDouble::from(tail), |sum, c| {
+        let product = DoubleDouble::product(sum.hi, z.hi);
         let crossed = sum.hi * z.lo + sum.lo * z.hi;
-        let total = Twofold::ordered_sum(c.hi, product.hi);
-        Twofold { hi: total.hi, lo: total.lo + (product.lo + (crossed + c.lo)) }
+        let total = DoubleDouble::ordered_sum(c.hi, product.hi);
+        DoubleDouble { hi: total.hi, lo: total.lo + (product.lo + (crossed + c.lo)) }
     })
 }
 
 /// Every second entry of a table from `start` on, with alternating signs if asked.
-pub(super) const fn every_second<const N: usize>(start: usize) -> [Twofold; N] {
-    let mut chosen = [Twofold::ZERO; N];
+pub(super) const fn every_second<const N: usize>(start: usize) -> [DoubleDouble; N] {
+    let mut chosen = [DoubleDouble::ZERO; N];
     let mut n = 0;
     while n < N {
-        let Twofold { hi, lo } = INVERSE_FACTORIALS[start + 2 * n];
+        let DoubleDouble { hi, lo } = INVERSE_FACTORIALS[start + 2 * n];
         chosen[n] = if n % 2 == 0 { pair(hi, lo) } else { pair(-hi, -lo) };
         n += 1;
     }
     chosen
 }
 
-const fn pair(hi: f64, lo: f64) -> Twofold {
-    Twofold { hi, lo }
+const fn pair(hi: f64, lo: f64) -> DoubleDouble {
+    DoubleDouble { hi, lo }
 }
 
 /// 1 / n!
 #[rustfmt::skip]
-pub(crate) const INVERSE_FACTORIALS: [Twofold; 26] = [
+pub(crate) const INVERSE_FACTORIALS: [DoubleDouble; 26] = [
     pair(1.0, 0.0),
     pair(1.0, 0.0),
     pair(0.5, 0.0),
@@ -66,7 +66,7 @@ pub(crate) const INVERSE_FACTORIALS: [Twofold; 26] = [
 
 /// 2 / (2n + 1)
 #[rustfmt::skip]
-pub(super) const ODD_INVERSES: [Twofold; 18] = [
+pub(super) const ODD_INVERSES: [DoubleDouble; 18] = [
     pair(2.0, 0.0),
     pair(0.6666666666666666, 3.700743415417188e-17),
     pair(0.4, -2.2204460492503132e-17),

@@ -2,7 +2,7 @@
 
 use super::power_of_two;
 use super::series::{every_second, sum};
-use crate::twofold::Twofold;
+use crate::double_double::DoubleDouble;
 
 /// The sine of an angle in radians, of any size; NaN for an infinite angle.
 pub fn sin(x: f64) -> f64 {
@@ -20,30 +20,30 @@ pub fn cos(x: f64) -> f64 {
 }
 
 /// sin(angle + quadrant pi/2).
-fn rotated(quadrant: u64, angle: Twofold) -> f64 {
+fn rotated(quadrant: u64, angle: DoubleDouble) -> f64 {
     let value: f64 = if quadrant.is_multiple_of(2) { sine(angle) } else { cosine(angle) }.into();
     if quadrant & 2 == 0 { value } else { -value }
 }
 
 /// The sine for |r| <= pi/4, by its Taylor series to r^25 / 25!.
-fn sine(r: Twofold) -> Twofold {
-    const COEFFICIENTS: [Twofold; 13] = every_second(1);
+fn sine(r: DoubleDouble) -> DoubleDouble {
+    const COEFFICIENTS: [DoubleDouble; 13] = every_second(1);
     sum(&COEFFICIENTS, 6, r * r) * r
 }
 
 /// The cosine for |r| <= pi/4, by its Taylor series to r^24 / 24!.
-fn cosine(r: Twofold) -> Twofold {
-    const COEFFICIENTS: [Twofold; 13] = every_second(0);
+fn cosine(r: DoubleDouble) -> DoubleDouble {
+    const COEFFICIENTS: [DoubleDouble; 13] = every_second(0);
     sum(&COEFFICIENTS, 6, r * r)
 }
 
 /// A number of quarter turns (modulo 4) and the rest of the angle, at most pi/4 in size.
-fn reduced(x: f64) -> (u64, Twofold) {
+fn reduced(x: f64) -> (u64, DoubleDouble) {
     if x.abs() <= std::f64::consts::FRAC_PI_4 {
-        return (0, Twofold::from(x));
+        return (0, DoubleDouble::from(x));
     }
     if !x.is_finite() {
-        return (0, Twofold::from(f64::NAN));
+        return (0, DoubleDouble::from(f64::NAN));
     }
     let [first, second, third, fourth] = quarter_turns(x.abs());
     let quadrant = first >> 62;
@@ -51,7 +51,7 @@ fn reduced(x: f64) -> (u64, Twofold) {
     let low = wide(third, fourth) << 2;
     let (quadrant, turn) =
         if high >> 127 == 0 { (quadrant, fraction(high, low)) } else { (quadrant + 1, -fraction(!high, !low)) };
-    let angle = turn * Twofold::HALF_PI;
+    let angle = turn * DoubleDouble::HALF_PI;
     if x < 0.0 { (8 - quadrant, -angle) } else { (quadrant, angle) }
 }
 
@@ -76,13 +76,13 @@ fn quarter_turns(size: f64) -> [u64; 4] {
 }
 
 /// (high 2^128 + low) 2^-256 to 106 bits.
-fn fraction(high: u128, low: u128) -> Twofold {
+fn fraction(high: u128, low: u128) -> DoubleDouble {
     let zeros = high.leading_zeros().min(127);
     let leading = high << zeros | (low >> 1) >> (127 - zeros);
     let head = (leading >> 75) as f64;
     let tail = ((leading >> 22) & ((1 << 53) - 1)) as f64 * power_of_two(-53);
     let unit = power_of_two(-53 - zeros as i32);
-    Twofold::ordered_sum(head * unit, tail * unit)
+    DoubleDouble::ordered_sum(head * unit, tail * unit)
 }
 
 fn wide(high: u64, low: u64) -> u128 {

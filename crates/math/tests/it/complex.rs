@@ -2,18 +2,18 @@
 
 use crate::sample::{COUNT, Random, unit};
 use math::complex_sqrt;
-use math::twofold::Twofold;
+use math::double_double::DoubleDouble;
 
-/// The root in twofold numbers: the larger part from the modulus, the other from the product.
-fn truth(re: f64, im: f64) -> (Twofold, Twofold) {
-    let (a, b) = (Twofold::from(re.abs()), Twofold::from(im.abs()));
+/// The root in double-double numbers: the larger part from the modulus, the other from the product.
+fn truth(re: f64, im: f64) -> (DoubleDouble, DoubleDouble) {
+    let (a, b) = (DoubleDouble::from(re.abs()), DoubleDouble::from(im.abs()));
     let large = ((a + (a * a + b * b).sqrt()) / 2.0).sqrt();
     let small = b / (large * 2.0);
     let (real, imaginary) = if re >= 0.0 { (large, small) } else { (small, large) };
     (real, if im < 0.0 { -imaginary } else { imaginary })
 }
 
-fn error(computed: f64, exact: Twofold) -> f64 {
+fn error(computed: f64, exact: DoubleDouble) -> f64 {
     ((computed - exact.hi) - exact.lo).abs() / unit(exact.hi)
 }
 

@@ -2,16 +2,16 @@
 
 use crate::lane::{about, true_softplus};
 use crate::sample::{COUNT, Random, assert_error, error_in_units};
+use math::double_double::DoubleDouble;
 use math::lane::{SoftplusBase, softplus_difference};
-use math::twofold::Twofold;
 use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
 /// softplus(y0 + d) - softplus(y0): for small d as ln(1 + (e^d - 1) / (1 + e^-y0)),
 /// in which nothing cancels, and as it stands for larger ones.
-fn true_difference(y0: f64, d: f64) -> Twofold {
-    let (start, step) = (Twofold::from(y0), Twofold::from(d));
+fn true_difference(y0: f64, d: f64) -> DoubleDouble {
+    let (start, step) = (DoubleDouble::from(y0), DoubleDouble::from(d));
     if d.abs() > 1.0 {
-        return true_softplus(Twofold::sum(y0, d)) - true_softplus(start);
+        return true_softplus(DoubleDouble::sum(y0, d)) - true_softplus(start);
     }
     (step.exp_m1() / ((-start).exp() + 1.0)).ln_1p()
 }
@@ -96,7 +96,7 @@ fn far_points_behave() {
         assert!(change * d >= 0.0 && change.abs() <= d.abs(), "from {y0:e} by {d:e}: {change:e}");
         if d.abs() >= 0.5 {
             // as many units as the rounding of y0 + d makes
-            let truth = (true_softplus(Twofold::sum(y0, d)) - true_softplus(Twofold::from(y0))).hi;
+            let truth = (true_softplus(DoubleDouble::sum(y0, d)) - true_softplus(DoubleDouble::from(y0))).hi;
             let allowed = (3.0 + (y0 + d).abs()) * f64::EPSILON * truth.abs() + 4e-308;
             assert!((change - truth).abs() <= allowed, "from {y0:e} by {d:e}: {change:e} for {truth:e}");
         }
@@ -104,7 +104,7 @@ fn far_points_behave() {
             assert_eq!(change, d, "from {y0:e} by {d:e}");
         }
         if y0 <= 0.0 && y0 + d >= 750.0 {
-            assert_eq!(change, y0 + d - true_softplus(Twofold::from(y0)).hi, "from {y0:e} by {d:e}");
+            assert_eq!(change, y0 + d - true_softplus(DoubleDouble::from(y0)).hi, "from {y0:e} by {d:e}");
         }
     }
 }

@@ -3,11 +3,11 @@
 
 mod complex;
 mod difference;
+mod double_double;
 mod full;
 mod lane;
 mod pinned;
 mod sample;
 mod scalar;
 mod special;
-mod twofold;
 mod widths;

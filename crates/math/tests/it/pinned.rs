@@ -3,9 +3,9 @@
 //! new numbers from the message of the failed test.
 
 use crate::sample::{Map, Random};
+use math::double_double::{DoubleDouble, full};
 use math::lane::{self, SoftplusBase};
 use math::simd::dispatch;
-use math::twofold::{Twofold, full};
 
 /// The hash FNV-1a of the bits of the results, lowest byte first.
 fn hash(results: impl Iterator<Item = f64>) -> u64 {
@@ -65,11 +65,13 @@ fn lanes_have_the_pinned_bits() {
 
 #[test]
 fn twofold_functions_have_the_pinned_bits() {
-    let arguments = |low: f64, high: f64| -> Vec<Twofold> {
+    let arguments = |low: f64, high: f64| -> Vec<DoubleDouble> {
         let mut random = Random(91);
-        (0..20_000).map(|_| Twofold::sum(random.uniform(low, high), random.uniform(-1e-18, 1e-18))).collect()
+        (0..20_000).map(|_| DoubleDouble::sum(random.uniform(low, high), random.uniform(-1e-18, 1e-18))).collect()
     };
-    let of = |x: &[Twofold], f: fn(Twofold) -> Twofold| hash(x.iter().map(|x| f(*x)).flat_map(|y| [y.hi, y.lo]));
+    let of = |x: &[DoubleDouble], f: fn(DoubleDouble) -> DoubleDouble| {
+        hash(x.iter().map(|x| f(*x)).flat_map(|y| [y.hi, y.lo]))
+    };
     let (positive, signed) = (arguments(0.01, 10.0), arguments(-20.0, 20.0));
     let hashes = [
         ("exp", of(&signed, full::exp)),
@@ -78,11 +80,11 @@ fn twofold_functions_have_the_pinned_bits() {
         ("ln_1p", of(&positive, full::ln_1p)),
         ("softplus", of(&signed, full::softplus)),
         ("tanh", of(&signed, full::tanh)),
-        ("exp to 80 bits", of(&signed, Twofold::exp)),
-        ("exp_m1 to 80 bits", of(&signed, Twofold::exp_m1)),
-        ("ln to 80 bits", of(&positive, Twofold::ln)),
-        ("ln_1p to 80 bits", of(&positive, Twofold::ln_1p)),
-        ("sqrt", of(&positive, Twofold::sqrt)),
+        ("exp to 80 bits", of(&signed, DoubleDouble::exp)),
+        ("exp_m1 to 80 bits", of(&signed, DoubleDouble::exp_m1)),
+        ("ln to 80 bits", of(&positive, DoubleDouble::ln)),
+        ("ln_1p to 80 bits", of(&positive, DoubleDouble::ln_1p)),
+        ("sqrt", of(&positive, DoubleDouble::sqrt)),
     ];
     assert_pinned(&hashes, &TWOFOLDS);
 }

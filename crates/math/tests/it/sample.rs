@@ -1,8 +1,8 @@
 //! Random arguments, the same in every run, errors in units in the last place, and a
 //! loop over a lane function.
 
+use math::double_double::DoubleDouble;
 use math::simd::Kernel;
-use math::twofold::Twofold;
 
 /// How many random arguments a function is judged by.
 pub const COUNT: usize = if cfg!(debug_assertions) { 50_000 } else { 1_000_000 };
@@ -51,13 +51,17 @@ pub fn unit(value: f64) -> f64 {
 }
 
 /// The error in units in the last place of the true value.
-pub fn error_in_units(computed: f64, exact: Twofold) -> f64 {
+pub fn error_in_units(computed: f64, exact: DoubleDouble) -> f64 {
     ((computed - exact.hi) - exact.lo).abs() / unit(exact.hi)
 }
 
 /// The largest error over the arguments, in units in the last place of the true value,
 /// and the argument where it occurs.
-pub fn largest_error(arguments: &[f64], computed: impl Fn(f64) -> f64, truth: impl Fn(f64) -> Twofold) -> (f64, f64) {
+pub fn largest_error(
+    arguments: &[f64],
+    computed: impl Fn(f64) -> f64,
+    truth: impl Fn(f64) -> DoubleDouble,
+) -> (f64, f64) {
     let mut worst = (0.0, f64::NAN);
     for &x in arguments {
         let exact = truth(x);
@@ -77,7 +81,7 @@ pub fn assert_error(
     bound: f64,
     arguments: &[f64],
     computed: impl Fn(f64) -> f64,
-    truth: impl Fn(f64) -> Twofold,
+    truth: impl Fn(f64) -> DoubleDouble,
 ) {
     let (error, x) = largest_error(arguments, computed, truth);
     println!("{name}: at most {error:.3} units, at {x:e}");

@@ -2,7 +2,7 @@
 
 use crate::sample::{Map, Random};
 use math::lane::{self, SoftplusBase};
-use math::row::{self, Room};
+use math::row::{self, Scratch};
 use math::simd::{Kernel, Width, available, dispatch, dispatch_up_to};
 
 const WIDTHS: [Width; 3] = [Width::Baseline, Width::Four, Width::Eight];
@@ -71,14 +71,14 @@ fn kernels_that_return_a_value_have_the_same_bits_at_every_width() {
 }
 
 /// A function of rows, on a row.
-struct InRows<'a>(fn(&mut [f64], &mut Room), &'a mut [f64]);
+struct InRows<'a>(fn(&mut [f64], &mut Scratch), &'a mut [f64]);
 
 impl Kernel for InRows<'_> {
     type Output = ();
 
     #[inline(always)]
     fn run(self) {
-        (self.0)(self.1, &mut Room::default());
+        (self.0)(self.1, &mut Scratch::default());
     }
 }
 
@@ -98,7 +98,7 @@ fn rows_have_the_bits_of_their_lanes() {
         assert_row("tanh", x, row::tanh, lane::tanh);
         assert_row("ln_1p", &above, row::ln_1p, lane::ln_1p);
         let mut row = x.to_vec();
-        row::softplus_difference(&base, &mut row, &mut Room::default());
+        row::softplus_difference(&base, &mut row, &mut Scratch::default());
         let lanes: Vec<f64> = x.iter().map(|&x| lane::softplus_difference(&base, x)).collect();
         assert!(is_same(&row, &lanes), "softplus_difference, {length}");
     }
@@ -109,7 +109,7 @@ fn is_same(a: &[f64], b: &[f64]) -> bool {
 }
 
 #[track_caller]
-fn assert_row(name: &str, x: &[f64], in_row: fn(&mut [f64], &mut Room), lane: fn(f64) -> f64) {
+fn assert_row(name: &str, x: &[f64], in_row: fn(&mut [f64], &mut Scratch), lane: fn(f64) -> f64) {
     let mut row = x.to_vec();
     dispatch(InRows(in_row, &mut row));
     let lanes: Vec<f64> = x.iter().map(|&x| lane(x)).collect();

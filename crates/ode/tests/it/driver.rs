@@ -1,7 +1,7 @@
 //! Times, counts and sums of the two drivers.
 
 use crate::problems::{general_methods, kepler, oscillator, planet, solve, watched};
-use math::twofold::Twofold;
+use math::double_double::DoubleDouble;
 use ode::{Control, Group, Measure, Method, Problem, Step, System, integrate};
 use std::ops::{ControlFlow, Range};
 
@@ -51,7 +51,7 @@ fn adaptive_steps_follow_each_other_and_end_at_the_end() {
 fn the_time_gathers_no_rounding() {
     let steps = steps(5000.0, Control::Adaptive { tolerance: 1e-13 }, Method::Dop853);
     assert!(steps.len() > 10_000, "{} steps", steps.len());
-    let mut exact = Twofold::ZERO;
+    let mut exact = DoubleDouble::ZERO;
     for (_, end, length) in &steps {
         exact = exact + *length;
         let unit = end.next_up() - end;
@@ -64,7 +64,7 @@ fn the_time_gathers_no_rounding() {
 fn the_last_step_meets_the_end_for_any_end() {
     for end in (1..200).map(|i| 0.37 * f64::from(i)) {
         let steps = steps(end, Control::Adaptive { tolerance: 1e-8 }, Method::Dop853);
-        let sum = steps.iter().fold(Twofold::ZERO, |sum, (_, _, length)| sum + *length);
+        let sum = steps.iter().fold(DoubleDouble::ZERO, |sum, (_, _, length)| sum + *length);
         // the last length is what the sum and its carry leave, far below the rounding of the larger ends, 7e-15; the
         // carry lacks what is lost where the first steps grow
         assert!((sum - end).abs().hi <= 1e-16, "{end}: {:e}", (sum - end).hi);

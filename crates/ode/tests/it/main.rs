@@ -1,7 +1,7 @@
 //! Tests of the integrator: coefficients against the order conditions, solutions against known ones, the drivers
 //! against what they promise.
 
-mod bursts;
+mod batches;
 mod comparison;
 mod convergence;
 mod dense;

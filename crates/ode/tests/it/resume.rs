@@ -2,7 +2,7 @@
 
 use crate::problems::{general_methods, oscillator, solve};
 use ode::{
-    Control, Failure, Group, Mark, Measure, Method, Observer, Pace, Place, Problem, Statistics, Step, System,
+    Control, Failure, Group, Measure, Method, Observer, Pace, Place, Problem, ResumePoint, Statistics, Step, System,
     integrate, resume,
 };
 use std::ops::{ControlFlow, Range};
@@ -16,7 +16,7 @@ impl Observer for Keeper {
         ControlFlow::Continue(())
     }
 
-    fn between(&mut self, mark: &Mark<'_>) {
+    fn between(&mut self, mark: &ResumePoint<'_>) {
         self.0.push((mark.place, mark.statistics.clone(), mark.state.to_vec()));
     }
 }
@@ -32,7 +32,7 @@ fn a_run_resumed_from_any_mark_has_the_same_bits_and_counts() {
         assert_eq!(whole, solve(&system, &[1.0, 0.0], 20.0005, method, control), "marks change nothing");
         assert_eq!(keeper.0.len(), 20_001 / 4096, "{}", method.name());
         for (place, statistics, state) in &keeper.0 {
-            let mark = Mark { place: *place, statistics, state, pace: None };
+            let mark = ResumePoint { place: *place, statistics, state, pace: None };
             let resumed = resume(&problem, &mark, &mut Keeper::default()).expect("nothing stands in the way");
             assert_eq!(resumed, whole, "{} from {place:?}", method.name());
         }
@@ -59,7 +59,7 @@ impl Observer for PaceKeeper {
         ControlFlow::Continue(())
     }
 
-    fn between(&mut self, mark: &Mark<'_>) {
+    fn between(&mut self, mark: &ResumePoint<'_>) {
         let pace = mark.pace.expect("adaptive steps");
         self.0.push(Kept {
             place: mark.place,
@@ -86,7 +86,8 @@ fn adaptive_steps_resumed_from_any_mark_have_the_same_bits_and_counts() {
         for kept in keeper.0.iter().step_by(keeper.0.len().div_ceil(8)).chain(keeper.0.last()) {
             let (time, step, error, unit) = kept.numbers;
             let pace = Pace { rates: &kept.rates, carry: &kept.carry, time, step, error, unit };
-            let mark = Mark { place: kept.place, statistics: &kept.statistics, state: &kept.state, pace: Some(pace) };
+            let mark =
+                ResumePoint { place: kept.place, statistics: &kept.statistics, state: &kept.state, pace: Some(pace) };
             let resumed = resume(&problem, &mark, &mut PaceKeeper::default()).expect("nothing stands in the way");
             assert_eq!(resumed, whole, "{} from {time:?}", method.name());
         }
@@ -127,7 +128,7 @@ fn steps_are_resumed_from_marks_of_their_own_kind_alone() {
     let pace = Pace { rates: &[0.0, -1.0], carry: &[0.0; 2], time: [0.0; 2], step: 0.1, error: 1.0, unit: 1.0 };
     for (control, pace) in [(Control::Adaptive { tolerance: 1e-9 }, None), (Control::Fixed { step: 0.1 }, Some(pace))] {
         let problem = Problem { system: &system, start: &state, begin: 0.0, end: 1.0, method: Method::Dop853, control };
-        let mark = Mark { place: Place::default(), statistics: &Statistics::default(), state: &state, pace };
+        let mark = ResumePoint { place: Place::default(), statistics: &Statistics::default(), state: &state, pace };
         assert_eq!(resume(&problem, &mark, &mut Keeper::default()), Err(Failure::NotResumable));
     }
 }

@@ -7,7 +7,7 @@ use super::source::Source;
 use super::{laws, rejudged, scenes, sums};
 use checkout::failure::Failure;
 use checkout::figure::Figure;
-use files::recipe::{Kind, Panel, Recipe};
+use files::scene_file::{Kind, Panel, SceneFile};
 use files::table::Table;
 use plot::ColorScale;
 use serde_json::{Value, json};
@@ -71,7 +71,7 @@ pub fn collect(source: &Source<'_>) -> Result<Data, Failure> {
 }
 
 /// The colours that a figure's maps share.
-fn colors(source: &Source<'_>, figure: &Figure, recipe: &Recipe) -> Result<ColorScale, Failure> {
+fn colors(source: &Source<'_>, figure: &Figure, recipe: &SceneFile) -> Result<ColorScale, Failure> {
     let mut values = Vec::new();
     for panel in &recipe.panels {
         let table = source.table(&format!("{}/{}", figure.id, panel.name))?;
@@ -83,7 +83,7 @@ fn colors(source: &Source<'_>, figure: &Figure, recipe: &Recipe) -> Result<Color
 fn map(
     source: &Source<'_>,
     figure: &Figure,
-    (recipe, panel): (&Recipe, &Panel),
+    (recipe, panel): (&SceneFile, &Panel),
     limit: f64,
     numbers: &mut Numbers,
 ) -> Result<Value, Failure> {
@@ -123,7 +123,7 @@ fn axis(source: &Source<'_>, table: &str, panel: &Panel, which: &str) -> Result<
 fn figure_curves(
     source: &Source<'_>,
     figure: &Figure,
-    recipe: &Recipe,
+    recipe: &SceneFile,
     numbers: &mut Numbers,
 ) -> Result<Vec<Value>, Failure> {
     let mut curves = Vec::new();

@@ -4,7 +4,7 @@ use super::figures::name;
 use super::source::Source;
 use checkout::failure::Failure;
 use files::reader::{Section, Value as Toml};
-use files::recipe::{self, Kind, Panel, Recipe};
+use files::scene_file::{self, Kind, Panel, SceneFile};
 use serde_json::{Value, json};
 
 /// The folder of the gallery.
@@ -30,7 +30,7 @@ pub fn presets(source: &Source<'_>) -> Result<Value, Failure> {
     files.sort();
     let mut gallery = Vec::new();
     for file in files {
-        let recipe = recipe::read(&file).map_err(|error| Failure::failed(error.to_string()))?;
+        let recipe = scene_file::read(&file).map_err(|error| Failure::failed(error.to_string()))?;
         gallery.extend(runs(&recipe, &recipe.title, None));
     }
     groups.push(json!({ "name": "Gallery of published laws", "scenes": gallery }));
@@ -38,7 +38,7 @@ pub fn presets(source: &Source<'_>) -> Result<Value, Failure> {
 }
 
 /// `figure`: the one of the paper that it is a run of.
-fn runs(recipe: &Recipe, title: &str, figure: Option<&str>) -> Vec<Value> {
+fn runs(recipe: &SceneFile, title: &str, figure: Option<&str>) -> Vec<Value> {
     let panels: Vec<&Panel> = recipe.panels.iter().filter(|panel| panel.kind == Kind::Run).collect();
     let one = |panel: &&Panel| {
         let name = match panels.len() {

@@ -1,7 +1,7 @@
 //! Parameters of a figure, from its scene.
 
 use super::html::symbol;
-use files::recipe::{Panel, Recipe};
+use files::scene_file::{Panel, SceneFile};
 use std::collections::BTreeMap;
 
 /// Keys that say how a scene is computed or drawn, not what is.
@@ -21,7 +21,7 @@ fn plain(value: &str) -> String {
 }
 
 /// The values that all panels share.
-pub fn shared(recipe: &Recipe) -> BTreeMap<String, String> {
+pub fn shared(recipe: &SceneFile) -> BTreeMap<String, String> {
     let mut panels = recipe.panels.iter().map(values);
     let mut shared = panels.next().unwrap_or_default();
     for other in panels {
@@ -31,7 +31,7 @@ pub fn shared(recipe: &Recipe) -> BTreeMap<String, String> {
 }
 
 /// What tells a panel from the others: `μ = 0.45`; empty where there is one.
-pub fn difference(recipe: &Recipe, panel: &Panel) -> String {
+pub fn difference(recipe: &SceneFile, panel: &Panel) -> String {
     let shared = shared(recipe);
     let mine = values(panel);
     let own = mine.iter().filter(|(key, _)| !shared.contains_key(*key) && is_parameter(key));
@@ -64,7 +64,7 @@ pub fn name(key: &str) -> String {
 }
 
 /// A row for each value: symbol, value, panel, key, origin.
-pub fn rows(recipe: &Recipe) -> Vec<[String; 5]> {
+pub fn rows(recipe: &SceneFile) -> Vec<[String; 5]> {
     let shared = shared(recipe);
     let origin = |key: &str| {
         let found = recipe.origin.iter().find(|(name, _)| name == key);

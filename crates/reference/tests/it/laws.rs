@@ -1,7 +1,7 @@
 //! The laws, written twice, agree to the rounding of a double.
 
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
-use math::twofold::{Twofold, decimal};
+use math::double_double::{DoubleDouble, decimal};
 use reference::scenes::{NAMES, Parameters, scene};
 
 /// The same law in double precision, parameters as the figures' scene files have them.
@@ -34,12 +34,12 @@ fn accelerations_are_those_of_jam_to_rounding() {
     for name in NAMES {
         let (scene, model) = (scene(name, Parameters::Doubles).expect("a scene"), model(name));
         let (ring, n) = (scene.ring, scene.ring.pedestrians);
-        let mut state = vec![Twofold::ZERO; ring.dimension()];
+        let mut state = vec![DoubleDouble::ZERO; ring.dimension()];
         for i in 0..n {
             // gaps from near contact to far, speeds of both signs
             let gap = 2.125 + 0.0625 * i as f64;
-            state[i] = Twofold::from(if ring.law.contact() == 0.0 { gap - 1.5 } else { gap - 2.0 });
-            state[n + i] = Twofold::from(1.0 - i as f64 / 32.0);
+            state[i] = DoubleDouble::from(if ring.law.contact() == 0.0 { gap - 1.5 } else { gap - 2.0 });
+            state[n + i] = DoubleDouble::from(1.0 - i as f64 / 32.0);
         }
         let mut rates = state.clone();
         ring.rates(&state, &mut rates);
@@ -66,8 +66,8 @@ fn accelerations_are_those_of_the_formulas_to_30_digits() {
     ];
     for (name, gap, expected) in table {
         let ring = scene(name, Parameters::Doubles).expect("a scene").ring;
-        let mut state = vec![Twofold::from(0.5); ring.dimension()];
-        state[..ring.pedestrians].fill(Twofold::from(gap - ring.law.contact()));
+        let mut state = vec![DoubleDouble::from(0.5); ring.dimension()];
+        state[..ring.pedestrians].fill(DoubleDouble::from(gap - ring.law.contact()));
         let mut rates = state.clone();
         ring.rates(&state, &mut rates);
         let error = (rates[ring.pedestrians] - decimal::parse(expected).expect("a number")).hi.abs();
@@ -79,8 +79,8 @@ fn accelerations_are_those_of_the_formulas_to_30_digits() {
 #[test]
 fn parameters_are_the_doubles_or_the_decimals_of_the_scenes() {
     let shift = |name, parameters| scene(name, parameters).expect("a scene").shift;
-    assert_eq!(shift("logarithmic", Parameters::Doubles), Twofold::from(0.1));
-    assert_eq!(shift("algebraic_stable", Parameters::Doubles), Twofold::from(1e-4));
+    assert_eq!(shift("logarithmic", Parameters::Doubles), DoubleDouble::from(0.1));
+    assert_eq!(shift("algebraic_stable", Parameters::Doubles), DoubleDouble::from(1e-4));
     let tenth = shift("logarithmic", Parameters::Decimals);
     assert!((tenth * 10.0 - 1.0).hi.abs() < 1e-31 && tenth.lo != 0.0, "{tenth:?}");
     assert_eq!(scene("no such", Parameters::Doubles), None);
@@ -92,7 +92,7 @@ fn gaps_add_up_to_the_length_of_the_ring() {
         let scene = scene(name, Parameters::Doubles).expect("a scene");
         let n = scene.ring.pedestrians;
         let start = scene.ring.start(200.0, scene.shift);
-        let sum = start[..n].iter().fold(Twofold::ZERO, |sum, c| sum + *c + scene.ring.law.contact());
+        let sum = start[..n].iter().fold(DoubleDouble::ZERO, |sum, c| sum + *c + scene.ring.law.contact());
         // each of the 2N additions rounds a number below 200 at 2^-104
         assert!((sum - 200.0).hi.abs() < 2.0 * n as f64 * 200.0 * 5e-32, "{name}: {:e}", (sum - 200.0).hi);
     }

@@ -1,6 +1,6 @@
 //! The method has its order, and its steps do not depend on where the times of output lie.
 
-use math::twofold::Twofold;
+use math::double_double::DoubleDouble;
 use reference::extrapolation::Extrapolation;
 use reference::run::{Precision, Run};
 use reference::scenes::{Parameters, Scene, scene};
@@ -12,15 +12,15 @@ fn exponential() -> Scene {
 #[test]
 fn one_step_has_an_error_of_order_2k_plus_1() {
     let ring = exponential().ring;
-    let start = ring.start(200.0, Twofold::from(0.5));
+    let start = ring.start(200.0, DoubleDouble::from(0.5));
     let mut rates = start.clone();
     ring.rates(&start, &mut rates);
     let mut best = Extrapolation::new(14, ring.dimension());
     for rows in [2, 3, 4, 5] {
         let mut method = Extrapolation::new(rows, ring.dimension());
         let mut error = |h: f64| {
-            method.step(&ring, &start, &rates, Twofold::from(h));
-            best.step(&ring, &start, &rates, Twofold::from(h));
+            method.step(&ring, &start, &rates, DoubleDouble::from(h));
+            best.step(&ring, &start, &rates, DoubleDouble::from(h));
             let pairs = method.result.iter().zip(&best.result);
             pairs.fold(0.0_f64, |largest, (a, b)| math::larger(largest, (*a - *b).hi.abs()))
         };

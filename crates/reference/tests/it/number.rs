@@ -1,16 +1,16 @@
 //! Differences against subtraction in numbers of twice the digits; the laws in every kind of number.
 
-use math::twofold::Twofold;
+use math::double_double::DoubleDouble;
 use reference::formula::{Formula, smooth_ramp};
 use reference::number::{Difference, Number, Parted};
 
-fn whole(x: Difference<Twofold>) -> Twofold {
+fn whole(x: Difference<DoubleDouble>) -> DoubleDouble {
     x.whole()
 }
 
 #[test]
 fn differences_are_those_of_longer_numbers() {
-    type Function = (&'static str, fn(Difference<f64>) -> Difference<f64>, fn(Twofold) -> Twofold);
+    type Function = (&'static str, fn(Difference<f64>) -> Difference<f64>, fn(DoubleDouble) -> DoubleDouble);
     let functions: [Function; 11] = [
         ("exp", Number::exp, Number::exp),
         ("softplus", Number::softplus, Number::softplus),
@@ -22,17 +22,17 @@ fn differences_are_those_of_longer_numbers() {
         ("root", Number::root, Number::root),
         ("tanh", Number::tanh, Number::tanh),
         ("cube", |x| x.whole_power(3), |x| x.whole_power(3)),
-        ("quotient", |x| Difference::from(3.0) / x, |x| Twofold::from(3.0) / x),
+        ("quotient", |x| Difference::from(3.0) / x, |x| DoubleDouble::from(3.0) / x),
     ];
     for (name, difference, long) in functions {
         for base in [0.03, 0.7, 2.0, 30.0] {
             for change in [1e-12, -3e-9, 2e-5, -1e-3, 0.02, -0.029, 0.9, 1.1, 20.0] {
                 let x = Difference { base, change };
-                let expected = long(Twofold::sum(base, change)) - long(Twofold::from(base));
+                let expected = long(DoubleDouble::sum(base, change)) - long(DoubleDouble::from(base));
                 let error = (difference(x).change - f64::from(expected)).abs();
                 // a few roundings of the difference; of the values where the change is large
                 let size = f64::from(expected).abs();
-                let value = f64::from(long(Twofold::from(base))).abs();
+                let value = f64::from(long(DoubleDouble::from(base))).abs();
                 let rounding = if change.abs() < 0.02 { 0.0 } else { 2e-15 * value };
                 // both long values have roundings of their own, which a small difference of them inherits
                 let allowed = 2e-14 * size + rounding + 1e-31 * value;
@@ -52,8 +52,10 @@ fn a_law_in_differences_and_in_parts_is_the_law() {
     for law in laws {
         for (u, w, w_ahead) in [(1e-9, -2e-9, 1e-10), (0.3, 0.1, -0.2), (-0.4, 0.05, 0.06)] {
             let (s, v) = (3.1, 0.6);
-            let number =
-                |base: f64, change: f64| Difference { base: Twofold::from(base), change: Twofold::from(change) };
+            let number = |base: f64, change: f64| Difference {
+                base: DoubleDouble::from(base),
+                change: DoubleDouble::from(change),
+            };
             let ramp = &mut |x, epsilon| smooth_ramp(x, epsilon);
             let by_difference =
                 whole(law.acceleration(|_| number(s, u), |j| number(v, [w, w_ahead][j as usize]), &mut |x, e| {

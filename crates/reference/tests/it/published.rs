@@ -1,6 +1,6 @@
 //! The committed digits come out again, with other rows and another tolerance.
 
-use math::twofold::decimal;
+use math::double_double::decimal;
 use reference::run::{Precision, Run};
 use reference::scenes::{NAMES, Parameters, scene};
 use reference::table::spread;

@@ -1,6 +1,6 @@
 //! Collocation against the committed digits of extrapolation, and against a solution in closed form.
 
-use math::twofold::Twofold;
+use math::double_double::DoubleDouble;
 use reference::flow::Form;
 use reference::formula::Formula;
 use reference::number::Real;
@@ -70,7 +70,8 @@ fn a_lone_pedestrian_relaxes_exponentially() {
     let formula = Formula::Exponential { a: 0.0, b: 1.0, c: 0.0, a_v: 0.0, epsilon: 0.1, v0: 2.0 };
     let question = Question { formula, pedestrians: 2, length: 20.0, shift: 0.5, times: vec![0.3, 1.0, 7.0] };
     for form in [Form::Differences, Form::Clearances] {
-        for sample in solve::<Twofold>(&question, form, Care { nodes: 20, tolerance: 1e-20, ..CARE }, 1e6).samples {
+        for sample in solve::<DoubleDouble>(&question, form, Care { nodes: 20, tolerance: 1e-20, ..CARE }, 1e6).samples
+        {
             let decay = math::exp(-sample.time);
             let (v, x) = (2.0 * (1.0 - decay), 0.5 + 2.0 * (sample.time - 1.0 + decay));
             assert!((sample.speeds[0] - v).abs() < 1e-15 && (sample.positions[0] - x).abs() < 4e-15, "{sample:?}");

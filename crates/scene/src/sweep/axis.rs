@@ -1,6 +1,6 @@
 //! An axis of a sweep.
 
-use files::reader::{FINITE, Reader, RecipeError, Section};
+use files::reader::{FINITE, Reader, SceneError, Section};
 
 /// An axis: cells of equal width, or of equal ratio, with the values at their centres.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,7 +26,7 @@ impl Axis {
     ///
     /// # Errors
     /// What is missing, unknown or out of range.
-    pub(super) fn read(file: &str, name: &'static str, section: &Section) -> Result<Axis, RecipeError> {
+    pub(super) fn read(file: &str, name: &'static str, section: &Section) -> Result<Axis, SceneError> {
         let mut reader = Reader::new(file, name, section);
         let axis = Axis {
             parameter: reader

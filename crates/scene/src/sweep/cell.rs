@@ -2,7 +2,7 @@
 
 use super::Sweep;
 use crate::run::{Scene, fitting, flow, too_wide, without_value};
-use crate::simulation::{Judging, Onlooker, run_from};
+use crate::simulation::{Judging, RunObserver, run_from};
 use jam::laws::Model;
 use jam::outcome::{Class, Verdict};
 use jam::ring::{Ring, Start};
@@ -237,7 +237,7 @@ fn judged(scene: &Scene) -> Verdict {
 /// A run goes on until its outcome is certain.
 struct Judged;
 
-impl Onlooker for Judged {
+impl RunObserver for Judged {
     fn judging(&self) -> Judging {
         Judging::UntilCertain
     }

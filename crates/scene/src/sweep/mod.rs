@@ -18,7 +18,7 @@ pub use read::read;
 use crate::run::AtOverlap;
 use jam::laws::Model;
 use jam::ring::{Ring, Start};
-use jam::states::FormKind;
+use jam::states::StateVariables;
 use ode::{Control, Method};
 
 /// A plane of runs.
@@ -57,7 +57,7 @@ pub struct Settings {
     /// As many steps as a run may take.
     pub most_steps: u64,
     /// The form of the state, if the scene names one.
-    pub form: Option<FormKind>,
+    pub form: Option<StateVariables>,
     /// Whether an overlap ends a run: for outcomes it always does.
     pub at_overlap: AtOverlap,
 }

@@ -4,7 +4,7 @@ use super::axis::{Axis, OF_THE_RUN};
 use super::{Settings, Sweep};
 use crate::law;
 use crate::run::{self, AtOverlap, FORMS};
-use files::reader::{Entry, FINITE, POSITIVE, Reader, RecipeError, Section, Value};
+use files::reader::{Entry, FINITE, POSITIVE, Reader, SceneError, Section, Value};
 use jam::laws::Model;
 use jam::ring::{Ring, Start};
 use ode::Control;
@@ -16,7 +16,7 @@ const MOST_CELLS: usize = 400_000_000;
 ///
 /// # Errors
 /// What is missing, unknown or out of range, with file and line; an axis that is no parameter.
-pub fn read(file: &str, tables: &Section) -> Result<Sweep, RecipeError> {
+pub fn read(file: &str, tables: &Section) -> Result<Sweep, SceneError> {
     let mut top = Reader::new(file, "scene", tables);
     let section = top.section("sweep")?;
     let mut sweep = Reader::new(file, "sweep", section);
@@ -82,7 +82,7 @@ pub fn read(file: &str, tables: &Section) -> Result<Sweep, RecipeError> {
 
 /// The effective gap of the uniform flow, where `[uniform]` gives it in place of the ring's length: any length stands for
 /// that until the cells set it. Of a formula `[uniform]` says which steady speed is meant.
-fn gap(file: &str, tables: &mut Section, axes: [&Axis; 2]) -> Result<Option<f64>, RecipeError> {
+fn gap(file: &str, tables: &mut Section, axes: [&Axis; 2]) -> Result<Option<f64>, SceneError> {
     let (Some(law), Some(uniform)) = (tables.section("law").and_then(law::built_in), tables.section("uniform")) else {
         return Ok(None);
     };
@@ -110,7 +110,7 @@ fn gap(file: &str, tables: &mut Section, axes: [&Axis; 2]) -> Result<Option<f64>
 }
 
 /// `[run]` of a sweep: nothing is sampled and nothing recorded.
-fn settings(file: &str, section: &Section, model: &Model) -> Result<Settings, RecipeError> {
+fn settings(file: &str, section: &Section, model: &Model) -> Result<Settings, SceneError> {
     let mut run = Reader::new(file, "run", section);
     let t_end = run.number("t_end", POSITIVE)?;
     let method = run::method(&mut run)?;
@@ -138,7 +138,7 @@ fn settings(file: &str, section: &Section, model: &Model) -> Result<Settings, Re
 const MOST_STEPS: u64 = 1_000_000_000;
 
 /// A parameter that is an axis is not named where it belongs: any value stands for it until the cells set it.
-fn hold_place(file: &str, tables: &mut Section, axis: &Axis, section: &Section) -> Result<(), RecipeError> {
+fn hold_place(file: &str, tables: &mut Section, axis: &Axis, section: &Section) -> Result<(), SceneError> {
     let (table, key): (&'static str, &str) = match axis.parameter.as_str() {
         "shift" => ("start", "shift"),
         // the headway takes the place of the length

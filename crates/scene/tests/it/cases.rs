@@ -1,12 +1,12 @@
 //! Scenes from public reports that once went wrong (`tests/cases`), with values from independent programs.
 
 use crate::project::scene;
-use jam::events::{Event, Happening};
+use jam::events::{Event, EventKind};
 use ode::{Control, Method};
 use scene::map::{Computed, Map, Value};
 use scene::run::{AtOverlap, Scene};
 use scene::simulation::{Outcome, run};
-use scene::{Overrides, RecipeError};
+use scene::{Overrides, SceneError};
 use std::path::{Path, PathBuf};
 
 fn file(name: &str) -> PathBuf {
@@ -14,7 +14,7 @@ fn file(name: &str) -> PathBuf {
 }
 
 fn case(name: &str, overrides: &Overrides) -> Scene {
-    let recipe = files::recipe::read(&file(name)).unwrap_or_else(|error| panic!("{error}"));
+    let recipe = files::scene_file::read(&file(name)).unwrap_or_else(|error| panic!("{error}"));
     scene(&recipe, "main", overrides)
 }
 
@@ -23,7 +23,7 @@ fn plain(name: &str) -> Outcome {
 }
 
 fn map(name: &str) -> (Map, Computed) {
-    let recipe = files::recipe::read(&file(name)).expect("a scene");
+    let recipe = files::scene_file::read(&file(name)).expect("a scene");
     let map = scene::map::read(&recipe.file, &recipe.panels[0].tables).expect("a map");
     let computed = map.compute().expect("every cell has a value or is blank");
     (map, computed)
@@ -96,7 +96,7 @@ fn maps_of_free_flow_are_exact_or_blank() {
 #[test]
 fn margin_is_the_default_and_blank_cells_are_empty_in_the_table() {
     let text = std::fs::read_to_string(file("criterion-log-free")).expect("a file");
-    let recipe = files::recipe::parse("my.toml", &text.replace("value = \"criterion\"\n", "")).expect("a scene");
+    let recipe = files::scene_file::parse("my.toml", &text.replace("value = \"criterion\"\n", "")).expect("a scene");
     let map = scene::map::read("my.toml", &recipe.panels[0].tables).expect("a map");
     assert_eq!((map.value, map.columns()[2]), (Value::Margin, "margin"));
     let (map, computed) = self::map("criterion-log-free");
@@ -123,16 +123,16 @@ fn jams_have_one_speed_number_and_extent_for_any_sample() {
 }
 
 /// Event, time and pedestrians of the events at one time.
-fn at_once(events: &[Happening], event: Event) -> (f64, Vec<usize>) {
-    let own = || events.iter().filter(|happening| happening.event == event);
+fn at_once(events: &[Event], event: EventKind) -> (f64, Vec<usize>) {
+    let own = || events.iter().filter(|happening| happening.kind == event);
     (own().next().expect("it happens").time, own().map(|happening| happening.pedestrian).collect())
 }
 
 #[test]
 fn an_event_at_the_start_has_time_0_and_everybody() {
     let run = plain("event-at-0");
-    assert_eq!(at_once(&run.events, Event::NegativeSpeed), (0.0, (0..20).collect()));
-    assert_eq!(run.stop().map(|stop| stop.event), Some(Event::Overlap));
+    assert_eq!(at_once(&run.events, EventKind::NegativeSpeed), (0.0, (0..20).collect()));
+    assert_eq!(run.stop().map(|stop| stop.kind), Some(EventKind::Overlap));
 }
 
 #[test]
@@ -155,14 +155,14 @@ fn an_unstable_run_ends_by_name_where_no_double_follows() {
             Overrides { method: Some(method.to_owned()), tolerance: Some(tolerance), ..Overrides::default() };
         let run = run(&case("blow-up-guo", &overrides)).unwrap_or_else(|broken| panic!("{broken}"));
         let stop = run.stop().expect("it stops");
-        assert_eq!((stop.event, stop.pedestrian), (Event::BlowUp, 1), "{method}");
+        assert_eq!((stop.kind, stop.pedestrian), (EventKind::BlowUp, 1), "{method}");
         assert!((stop.time - 52.373_982_875).abs() < 2e-8, "{method}: {}", stop.time);
         assert_eq!(run.std.len(), 53, "samples up to there");
     }
 }
 
-fn refusal(text: &str) -> RecipeError {
-    let recipe = match files::recipe::parse("my.toml", text) {
+fn refusal(text: &str) -> SceneError {
+    let recipe = match files::scene_file::parse("my.toml", text) {
         Ok(recipe) => recipe,
         Err(error) => return error,
     };
@@ -176,7 +176,7 @@ fn an_end_too_near_for_adaptive_steps_is_named() {
     assert!(error.line == 13 && error.problem.contains("t_end = 1e-300"), "{error}");
     // steps of fixed length reach it
     let fixed = text.replace("tolerance = 1e-10", "dt = 1e-301");
-    let recipe = files::recipe::parse("my.toml", &fixed).expect("a scene");
+    let recipe = files::scene_file::parse("my.toml", &fixed).expect("a scene");
     let scene = scene::run::read("my.toml", &recipe.panels[0].tables).expect("a run");
     assert_eq!(run(&scene).expect("it runs").statistics.steps, 10);
 }
@@ -192,23 +192,23 @@ fn names_of_panels_are_no_paths() {
         assert!(error.line == 3 && error.problem.contains(&format!("{bad:?}")), "{bad}: {error}");
     }
     for good in ["x", "N_2-b", "7"] {
-        files::recipe::parse("my.toml", &format!("[panel.{good}.run]\nt_end = 2.0\n")).expect("a name");
+        files::scene_file::parse("my.toml", &format!("[panel.{good}.run]\nt_end = 2.0\n")).expect("a name");
     }
 }
 
 #[test]
 fn a_force_in_contact_is_seen_where_the_run_goes_on() {
     let stopped = plain("contact-force-hfv");
-    assert_eq!(stopped.stop().map(|stop| stop.event), Some(Event::Overlap));
+    assert_eq!(stopped.stop().map(|stop| stop.kind), Some(EventKind::Overlap));
     let text = std::fs::read_to_string(file("contact-force-hfv")).expect("a file");
     let text = text.replace("[run]\n", "[run]\nat_overlap = \"continue\"\n");
-    let recipe = files::recipe::parse("my.toml", &text).expect("a scene");
+    let recipe = files::scene_file::parse("my.toml", &text).expect("a scene");
     let scene = scene::run::read("my.toml", &recipe.panels[0].tables).expect("a run");
     assert_eq!(scene.at_overlap, AtOverlap::Continue);
     let on = run(&scene).expect("it runs");
-    let overlap = |run: &Outcome| at_once(&run.events, Event::Overlap);
+    let overlap = |run: &Outcome| at_once(&run.events, EventKind::Overlap);
     assert_eq!(overlap(&on), overlap(&stopped));
-    assert_ne!(on.stop().map(|stop| stop.event), Some(Event::Overlap));
+    assert_ne!(on.stop().map(|stop| stop.kind), Some(EventKind::Overlap));
     assert!(on.std.len() > stopped.std.len(), "{} and {}", on.std.len(), stopped.std.len());
     // where the force is infinite nothing goes on
     let text = std::fs::read_to_string(file("blow-up-guo")).expect("a file");

@@ -1,11 +1,11 @@
 //! Checkpoints: a run resumed from any of them is the run that never stopped, to the last bit.
 
 use crate::project::figure;
-use files::recipe;
+use files::scene_file;
 use scene::Overrides;
-use scene::checkpoint::{Checkpoint, Underway};
+use scene::checkpoint::{Checkpoint, PartialRun};
 use scene::run::{Scene, read};
-use scene::simulation::{Onlooker, Outcome, run, run_from};
+use scene::simulation::{Outcome, RunObserver, run, run_from};
 
 /// Thirty pedestrians that overlap, turn back and change places; by the time between samples and lines of `[run]`.
 fn scene(sample: f64, lines: &str) -> Scene {
@@ -13,7 +13,7 @@ fn scene(sample: f64, lines: &str) -> Scene {
         "[law]\nkind = \"exponential\"\na = 8.0\nb = 1.5\nv0 = 3.0\n[ring]\npedestrians = 30\nlength = 100.0\n\
          [start]\nshift = 0.1\n[run]\nt_end = 60.0\nsample = {sample:?}\n{lines}"
     );
-    let recipe = recipe::parse("my.toml", &text).expect("a scene");
+    let recipe = scene_file::parse("my.toml", &text).expect("a scene");
     read("my.toml", &recipe.panels[0].tables).expect("a run")
 }
 
@@ -29,8 +29,8 @@ struct Kept {
     fractions: Vec<f64>,
 }
 
-impl Onlooker for Kept {
-    fn between(&mut self, underway: &Underway<'_>) {
+impl RunObserver for Kept {
+    fn between(&mut self, underway: &PartialRun<'_>) {
         self.checkpoints.push(underway.to_bytes());
         self.fractions.push(underway.fraction());
     }
@@ -104,7 +104,7 @@ fn adaptive_runs_resumed_from_any_checkpoint_have_the_same_bits() {
     let text = "[law]\nkind = \"algebraic\"\nmu = 0.45\nq = 2.0\nv0 = 3.0\n[ring]\npedestrians = 2000\nlength = 5970.0\n\
                 [start]\nshift = 0.4\n[run]\nt_end = 150.0\nsample = 0.7\n";
     let own = |lines: &str| {
-        let recipe = recipe::parse("my.toml", &format!("{text}{lines}")).expect("a scene");
+        let recipe = scene_file::parse("my.toml", &format!("{text}{lines}")).expect("a scene");
         read("my.toml", &recipe.panels[0].tables).expect("a run")
     };
     // the last one changes its state near a wall

@@ -1,6 +1,6 @@
 //! Every complaint about a scene file, word for word: file, line, key, value, and what would be valid.
 
-use files::recipe::{self, Kind};
+use files::scene_file::{self, Kind};
 use ode::Method;
 
 /// A run whose lines the messages name.
@@ -44,7 +44,7 @@ const ALGEBRAIC: &str = "kind = \"algebraic\"\nmu = 0.5\nq = 2.0\nv0 = 3.0";
 
 /// Reads all panels as the programs do; the first complaint.
 fn complaint(text: &str) -> Option<String> {
-    let recipe = match recipe::parse("my.toml", text) {
+    let recipe = match scene_file::parse("my.toml", text) {
         Ok(recipe) => recipe,
         Err(error) => return Some(error.to_string()),
     };
@@ -355,7 +355,7 @@ fn complaints_about_the_whole_file() {
         let found = complaint(&RUN.replacen(from, to, 1)).expect("not TOML");
         assert!(found.starts_with(&format!("my.toml:{line}: ")) && found.len() > 20, "{found}");
     }
-    let recipe = recipe::parse("my.toml", RUN).expect("a scene");
+    let recipe = scene_file::parse("my.toml", RUN).expect("a scene");
     let error = recipe.panel("left").expect_err("it has no panels");
     assert_eq!(error.to_string(), "my.toml: no panel left; the scene has main");
 }
@@ -481,7 +481,7 @@ fn complaints_about_curves() {
 
 #[test]
 fn a_file_that_is_not_there() {
-    let error = recipe::read(std::path::Path::new("no/such/scene.toml")).expect_err("there is no such file");
+    let error = scene_file::read(std::path::Path::new("no/such/scene.toml")).expect_err("there is no such file");
     assert!(error.to_string().starts_with("no/such/scene.toml: "), "{error}");
 }
 

@@ -2,10 +2,10 @@
 
 use crate::project::{figure, figures, root};
 use files::reader::{Section, Value};
-use files::recipe::{self, Kind, Recipe};
+use files::scene_file::{self, Kind, SceneFile};
 
 /// Reads every panel as the figure's program does.
-fn read(recipe: &Recipe) {
+fn read(recipe: &SceneFile) {
     for panel in &recipe.panels {
         match panel.kind {
             Kind::Run => drop(scene::run::read(&recipe.file, &panel.tables).unwrap_or_else(|error| panic!("{error}"))),
@@ -37,7 +37,7 @@ fn all_scenes_can_be_read() {
         if path.extension().is_none_or(|extension| extension != "toml") {
             continue;
         }
-        let recipe = recipe::read(&path).unwrap_or_else(|error| panic!("{error}"));
+        let recipe = scene_file::read(&path).unwrap_or_else(|error| panic!("{error}"));
         read(&recipe);
         kinds.extend(recipe.panels.iter().map(|panel| panel.kind));
     }

@@ -1,13 +1,13 @@
 //! Scenes whose law is a formula.
 
-use files::recipe;
-use jam::events::Event;
+use files::scene_file;
+use jam::events::EventKind;
 use scene::map;
 use scene::run::{self, Scene};
 use scene::simulation::{Outcome, run as simulate};
 
 fn read(text: &str) -> Result<Scene, String> {
-    let recipe = recipe::parse("my.toml", text).map_err(|error| error.to_string())?;
+    let recipe = scene_file::parse("my.toml", text).map_err(|error| error.to_string())?;
     run::read("my.toml", &recipe.panels[0].tables).map_err(|error| error.to_string())
 }
 
@@ -95,7 +95,7 @@ fn a_law_without_a_uniform_flow_runs_in_spacings() {
 fn a_formula_that_loses_its_value_ends_by_name() {
     // ln(2.5 - t): the spacings shrink nowhere, speeds grow until the logarithm has no value
     let end = outcome(&optimal_velocity("acceleration = \"1 + 0.001*ln(3 - v)\"\nbody = 0.0", ""));
-    let event = end.events.iter().find(|happening| happening.event == Event::Undefined).expect("an end");
+    let event = end.events.iter().find(|happening| happening.kind == EventKind::Undefined).expect("an end");
     assert!((event.time - 3.0).abs() < 0.1, "{event:?}");
 }
 
@@ -104,7 +104,7 @@ fn a_gap_of_its_own_tells_the_overlap() {
     // from rest everybody but the first gains V(2) (1 - exp(-t)); the gap 2 - 1.1 * 2 v closes at v = 1/1.1
     let law = format!("{BANDO}\ngap = \"s - 1.1*(v + v[1])\"").replace("tanh(s - 2) + tanh(2)", "tanh(2)");
     let end = outcome(&optimal_velocity(&law.replace("kappa*(V - v)", "kappa*(V - v) + 0*s"), ""));
-    let overlap = end.events.iter().find(|happening| happening.event == Event::Overlap).expect("an overlap");
+    let overlap = end.events.iter().find(|happening| happening.kind == EventKind::Overlap).expect("an overlap");
     let full = 0.964_027_580_075_816_9;
     // the last pedestrian, whose spacing is shorter by the shift, is the first one
     let speed = (2.0 - 0.1) / 2.2;
@@ -119,7 +119,7 @@ fn margins_of_formulas_are_those_of_the_criteria() {
                 [uniform]\nheadway = 2.0\n[map]\nx = { parameter = \"kappa\", from = 1.0, to = 3.0, cells = 10 }\n\
                 y = { parameter = \"headway\", from = 1.5, to = 2.5, cells = 3 }\n";
     let text = text.replace("[uniform]\nheadway = 2.0\n", "");
-    let recipe = recipe::parse("my.toml", &text).expect("a map");
+    let recipe = scene_file::parse("my.toml", &text).expect("a map");
     let map = map::read("my.toml", &recipe.panels[0].tables).unwrap_or_else(|error| panic!("{error}"));
     let computed = map.compute().unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(computed.table.len(), 30);

@@ -2,9 +2,9 @@
 //! equations, and each law gives numbers that were found elsewhere.
 
 use files::reader::{Entry, Section, Value};
-use files::recipe::{self, Kind, Recipe};
-use jam::events::Event;
-use jam::states::{FormKind, gaps_state};
+use files::scene_file::{self, Kind, SceneFile};
+use jam::events::EventKind;
+use jam::states::{StateVariables, gaps_state};
 use scene::map;
 use scene::run::{self, AtOverlap, Scene};
 use scene::simulation::{Outcome, run as simulate};
@@ -15,11 +15,11 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/gallery")
 }
 
-fn recipe(name: &str) -> Recipe {
-    recipe::read(&folder().join(name)).unwrap_or_else(|error| panic!("{error}"))
+fn recipe(name: &str) -> SceneFile {
+    scene_file::read(&folder().join(name)).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn read(recipe: &Recipe, tables: &Section) -> Scene {
+fn read(recipe: &SceneFile, tables: &Section) -> Scene {
     run::read(&recipe.file, tables).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -72,7 +72,7 @@ impl Ring {
     fn derivatives(scene: &Scene, of: usize) -> Ring {
         const H: f64 = 2e-5;
         let (count, headway) = (scene.ring.pedestrians, scene.ring.headway());
-        let form = FormKind::Gaps.build(&scene.model, scene.ring);
+        let form = StateVariables::Spacings.build(&scene.model, scene.ring);
         let speed = scene.steady_speed.expect("a uniform flow");
         let rates = |part: usize, shift: f64| {
             let (mut gaps, mut speeds) = (vec![headway; count], vec![speed; count]);
@@ -178,7 +178,7 @@ fn every_verdict_is_that_of_the_whole_rings_linear_equations() {
         .collect();
     files.sort();
     for file in files {
-        let recipe = recipe::read(&file).unwrap_or_else(|error| panic!("{error}"));
+        let recipe = scene_file::read(&file).unwrap_or_else(|error| panic!("{error}"));
         for panel in &recipe.panels {
             let name = format!("{} {}", file.display(), panel.name);
             if panel.kind == Kind::Map {
@@ -203,8 +203,8 @@ fn every_verdict_is_that_of_the_whole_rings_linear_equations() {
 }
 
 /// The time of the first event of this kind, and to whom it happens.
-fn first(outcome: &Outcome, event: Event) -> (f64, usize) {
-    let found = outcome.events.iter().find(|happening| happening.event == event);
+fn first(outcome: &Outcome, event: EventKind) -> (f64, usize) {
+    let found = outcome.events.iter().find(|happening| happening.kind == event);
     found.map(|happening| (happening.time, happening.pedestrian)).unwrap_or_else(|| panic!("no {}", event.name()))
 }
 
@@ -234,11 +234,11 @@ fn social_force_overlaps_and_exchanges_at_the_times_of_another_integration() {
     assert_eq!(scene.at_overlap, AtOverlap::Continue);
     assert_near(scene.steady_speed.expect("a uniform flow"), -0.195_817_178_372, 1e-12);
     let outcome = outcome(&scene);
-    let (overlap, who) = first(&outcome, Event::Overlap);
+    let (overlap, who) = first(&outcome, EventKind::Overlap);
     assert_near(overlap, 3.410_341_912_942_59, 1e-10);
     assert_eq!(who, 12);
     // fixed steps across the kink: nine digits
-    assert_near(first(&outcome, Event::Exchange).0, 3.892_981_632, 2e-9);
+    assert_near(first(&outcome, EventKind::Exchange).0, 3.892_981_632, 2e-9);
 }
 
 #[test]
@@ -350,7 +350,7 @@ fn the_papers_laws_are_unstable_where_the_papers_criterion_says() {
 fn followers_of_a_leader_term_never_touch() {
     let scene = scene("follow-the-leader.toml", "main", &[("run", "t_end", 120.0), ("start", "shift", 2.0)]);
     let outcome = outcome(&scene);
-    assert!(outcome.events.iter().all(|happening| happening.event != Event::Overlap), "{:?}", outcome.events);
+    assert!(outcome.events.iter().all(|happening| happening.kind != EventKind::Overlap), "{:?}", outcome.events);
     assert!(extremes(spacings(&outcome, 230.0).into_iter()).0 > 4.5);
 }
 

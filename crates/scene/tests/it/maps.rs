@@ -1,16 +1,16 @@
 //! Maps and curves: cells, columns, values.
 
 use crate::project::figures;
-use files::recipe::{self, Kind, Recipe};
+use files::scene_file::{self, Kind, SceneFile};
 use jam::criteria;
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
 use jam::stability::Linear;
 use jam::uniform::steady_speed;
-use math::twofold::Twofold;
+use math::double_double::DoubleDouble;
 use std::f64::consts::LN_2;
 
-fn recipe(text: &str) -> Recipe {
-    recipe::parse("my.toml", text).unwrap_or_else(|error| panic!("{error}"))
+fn recipe(text: &str) -> SceneFile {
+    scene_file::parse("my.toml", text).unwrap_or_else(|error| panic!("{error}"))
 }
 
 const LAW: &str = "[law]\nkind = \"algebraic\"\nq = 2.0\nv0 = 3.0\n";
@@ -128,13 +128,13 @@ fn every_parameter_of_every_law_can_be_an_axis() {
     assert_axis(&lines, "v0", |desired_speed| Model::Logarithmic(Logarithmic { desired_speed, ..logarithmic }));
 }
 
-/// The growth rate of a law that answers to the gap alone, in twofold precision: `z^2 + z + phi (1 - e^{ik}) = 0` gives
+/// The growth rate of a law that answers to the gap alone, in double-double precision: `z^2 + z + phi (1 - e^{ik}) = 0` gives
 /// `2 Re z + 1 = sqrt((m + 1 - 4 c) / 2)` with `c + i d = phi (1 - e^{ik})` and `m = |1 - 4 (c + i d)|`.
 fn twofold_rate(linear: &Linear, k: f64) -> f64 {
-    let phi = Twofold::from(linear.phi);
-    let (sin, half) = (Twofold::from(math::sin(k)), Twofold::from(math::sin(0.5 * k)));
+    let phi = DoubleDouble::from(linear.phi);
+    let (sin, half) = (DoubleDouble::from(math::sin(k)), DoubleDouble::from(math::sin(0.5 * k)));
     let (c, d) = (phi * half * half * 2.0, phi * sin);
-    let (re, im) = (Twofold::from(1.0) - c * 4.0, d * 4.0);
+    let (re, im) = (DoubleDouble::from(1.0) - c * 4.0, d * 4.0);
     let size = (re * re + im * im).sqrt();
     ((((size + re) * 0.5).sqrt() - 1.0) * 0.5).hi
 }

@@ -1,14 +1,14 @@
 //! What became of a run: every class from a scene that is known to end in it.
 
-use files::recipe;
+use files::scene_file;
 use jam::outcome::{Class, Decision, Verdict};
-use scene::checkpoint::{Checkpoint, Underway};
+use scene::checkpoint::{Checkpoint, PartialRun};
 use scene::run::Scene;
-use scene::simulation::{Judging, Onlooker, Outcome, run_from};
+use scene::simulation::{Judging, Outcome, RunObserver, run_from};
 
 struct Along(Judging);
 
-impl Onlooker for Along {
+impl RunObserver for Along {
     fn judging(&self) -> Judging {
         self.0
     }
@@ -19,7 +19,7 @@ fn scene(law: &str, ring: (usize, f64), shift: f64, run: &str) -> Scene {
     let text = format!(
         "[law]\n{law}\n[ring]\npedestrians = {pedestrians}\nlength = {length:?}\n[start]\nshift = {shift:?}\n[run]\nsample = 1000.0\nrecord = \"std\"\n{run}\n"
     );
-    let recipe = recipe::parse("own.toml", &text).expect("TOML");
+    let recipe = scene_file::parse("own.toml", &text).expect("TOML");
     scene::run::read("own.toml", &recipe.panels[0].tables).expect("a scene")
 }
 
@@ -35,12 +35,12 @@ fn verdict(scene: &Scene) -> Verdict {
 #[derive(Default)]
 struct Kept(Vec<u8>);
 
-impl Onlooker for Kept {
+impl RunObserver for Kept {
     fn judging(&self) -> Judging {
         Judging::Along
     }
 
-    fn between(&mut self, underway: &Underway<'_>) {
+    fn between(&mut self, underway: &PartialRun<'_>) {
         self.0 = underway.to_bytes();
     }
 }
@@ -76,7 +76,7 @@ fn every_class_comes_from_a_scene_that_ends_in_it() {
         let decided = match class {
             Class::Decays => Decision::Return,
             Class::Waves | Class::WavesBackwards => Decision::Repetition,
-            _ => Decision::Event,
+            _ => Decision::EventKind,
         };
         assert_eq!(verdict.decision, decided, "{law}");
         assert!(verdict.time > 0.0 && verdict.time < 900.0, "{law}: {verdict:?}");

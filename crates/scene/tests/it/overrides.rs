@@ -1,7 +1,7 @@
 //! Values of the command line on top of a scene.
 
 use crate::project::{figure, scene};
-use jam::states::FormKind;
+use jam::states::StateVariables;
 use ode::{Control, Method};
 use scene::Overrides;
 
@@ -15,8 +15,8 @@ fn nothing_given_changes_nothing() {
 fn the_scheme_of_the_paper() {
     let plain = scene(&figure("fig04"), "stable", &Overrides::default());
     let paper = scene(&figure("fig04"), "stable", &Overrides::paper());
-    assert_eq!((plain.form, plain.method), (FormKind::Deviations, Method::Taylor));
-    assert_eq!((paper.form, paper.method), (FormKind::Positions, Method::Heun));
+    assert_eq!((plain.form, plain.method), (StateVariables::Deviations, Method::Taylor));
+    assert_eq!((paper.form, paper.method), (StateVariables::Positions, Method::Heun));
     assert_eq!(paper.control, Control::Fixed { step: 1e-5 });
     assert_eq!((paper.model, paper.ring, paper.t_end), (plain.model, plain.ring, plain.t_end));
 }
@@ -49,12 +49,12 @@ fn every_state_has_its_form() {
     let form = |state: Option<&str>| {
         scene(&recipe, "main", &Overrides { state: state.map(str::to_owned), ..Overrides::default() }).form
     };
-    assert_eq!(form(None), FormKind::Deviations);
-    assert_eq!([form(Some("deviations")), form(Some("gaps"))], [FormKind::Deviations, FormKind::Gaps]);
+    assert_eq!(form(None), StateVariables::Deviations);
+    assert_eq!([form(Some("deviations")), form(Some("gaps"))], [StateVariables::Deviations, StateVariables::Spacings]);
     // the series of the method ask for gaps or deviations
     let positions =
         Overrides { method: Some("dop853".to_owned()), state: Some("positions".to_owned()), ..Overrides::default() };
-    assert_eq!(scene(&recipe, "main", &positions).form, FormKind::Positions);
+    assert_eq!(scene(&recipe, "main", &positions).form, StateVariables::Positions);
 }
 
 #[test]

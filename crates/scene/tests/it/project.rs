@@ -1,6 +1,6 @@
 //! The project's own scene files, and scenes made of them.
 
-use files::recipe::{self, Kind, Recipe};
+use files::scene_file::{self, Kind, SceneFile};
 use scene::Overrides;
 use scene::run::Scene;
 use scene::simulation::Outcome;
@@ -13,31 +13,32 @@ pub fn root(path: &str) -> PathBuf {
 }
 
 /// The scene files in the folder `figures`, in order.
-pub fn figures() -> Vec<Recipe> {
+pub fn figures() -> Vec<SceneFile> {
     let folders = std::fs::read_dir(root("figures")).expect("the folder of the figures");
     let mut files: Vec<PathBuf> = folders
         .map(|entry| entry.expect("a readable entry").path().join("scene.toml"))
         .filter(|file| file.exists())
         .collect();
     files.sort();
-    files.iter().map(|file| recipe::read(file).unwrap_or_else(|error| panic!("{error}"))).collect()
+    files.iter().map(|file| scene_file::read(file).unwrap_or_else(|error| panic!("{error}"))).collect()
 }
 
 /// The scene of the figure whose folder starts so.
-pub fn figure(id: &str) -> Recipe {
-    let name = |recipe: &Recipe| recipe.file.split("figures").last().unwrap_or_default().trim_matches('/').to_owned();
+pub fn figure(id: &str) -> SceneFile {
+    let name =
+        |recipe: &SceneFile| recipe.file.split("figures").last().unwrap_or_default().trim_matches('/').to_owned();
     figures().into_iter().find(|recipe| name(recipe).starts_with(id)).unwrap_or_else(|| panic!("no figure {id}"))
 }
 
 /// The run of a panel, with other values on top.
-pub fn scene(recipe: &Recipe, panel: &str, overrides: &Overrides) -> Scene {
+pub fn scene(recipe: &SceneFile, panel: &str, overrides: &Overrides) -> Scene {
     let panel = recipe.panel(panel).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(panel.kind, Kind::Run);
     scene::run::read(&recipe.file, &overrides.apply(&panel.tables)).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// The run of a panel as it stands, and the one that checks it.
-pub fn with_check(recipe: &Recipe, panel: &str) -> [Outcome; 2] {
+pub fn with_check(recipe: &SceneFile, panel: &str) -> [Outcome; 2] {
     let plain = scene(recipe, panel, &Overrides::default());
     let ode::Control::Adaptive { tolerance } = plain.control else { panic!("{} is adaptive", recipe.file) };
     let check = scene(recipe, panel, &Overrides::check(tolerance));

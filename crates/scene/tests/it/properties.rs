@@ -3,8 +3,8 @@
 //! panic, no number in a table that is none, no run without an end.
 
 use crate::corpus::run::{Ending, run};
-use crate::corpus::scene_file;
-use files::recipe::{self, Kind};
+use crate::corpus::scene_file as any_scene;
+use files::scene_file::{self, Kind};
 use ode::Method;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, FileFailurePersistence, RngAlgorithm, TestRng, TestRunner};
@@ -164,8 +164,8 @@ fn scene() -> impl Strategy<Value = String> {
 
 /// What became of a scene, in words; a panic when something that must not be.
 fn fate(text: &str) -> String {
-    scene_file::read(text.as_bytes());
-    let recipe = recipe::parse("any.toml", text).expect("it is TOML with known tables");
+    any_scene::read(text.as_bytes());
+    let recipe = scene_file::parse("any.toml", text).expect("it is TOML with known tables");
     let panel = &recipe.panels[0];
     let read = match panel.kind {
         Kind::Run => scene::run::read(&recipe.file, &panel.tables).map(|scene| format!("run: {:?}", run(scene))),

@@ -69,7 +69,7 @@ fn events_are_those_of_the_reference() {
         for line in text.lines().filter(|line| line.starts_with(&format!("{name},"))) {
             let cells: Vec<&str> = line.split(',').collect();
             let (time, n): (f64, usize) = (cells[2].parse().expect("t"), cells[3].parse().expect("n"));
-            let own = outcome.events.iter().find(|own| own.event.name() == cells[1]).expect("the same event");
+            let own = outcome.events.iter().find(|own| own.kind.name() == cells[1]).expect("the same event");
             println!("{name} {}: {:?}, off by {:.1e}", cells[1], own.time, own.time - time);
             assert!((own.time - time).abs() < 1e-11 && own.pedestrian == n, "{line}: {own:?}");
             count += 1;

@@ -2,11 +2,11 @@
 
 use crate::project::{figure, jams, scene, with_check};
 use files::table::Table;
-use jam::events::Event;
-use jam::states::FormKind;
+use jam::events::EventKind;
+use jam::states::StateVariables;
 use ode::{Statistics, Step};
 use scene::Overrides;
-use scene::simulation::{Onlooker, Outcome, Place, run, run_from};
+use scene::simulation::{Outcome, Place, RunObserver, run, run_from};
 
 /// The largest difference of a column over the rows that both have, relative to its range.
 fn difference(runs: &[Outcome; 2], table: fn(&Outcome) -> &Table, column: &str) -> f64 {
@@ -18,8 +18,8 @@ fn difference(runs: &[Outcome; 2], table: fn(&Outcome) -> &Table, column: &str) 
     largest / (high - low)
 }
 
-fn events(run: &Outcome) -> Vec<Event> {
-    run.events.iter().map(|happening| happening.event).collect()
+fn events(run: &Outcome) -> Vec<EventKind> {
+    run.events.iter().map(|happening| happening.kind).collect()
 }
 
 #[test]
@@ -31,7 +31,7 @@ fn figures_4_and_7_agree_with_their_check() {
         assert!(error < 1e-8, "{id} {panel}: {error:e}");
         assert_eq!(events(&runs[0]), events(&runs[1]));
         for (a, b) in runs[0].events.iter().zip(&runs[1].events) {
-            println!("{} at {} and {}", a.event.name(), a.time, b.time);
+            println!("{} at {} and {}", a.kind.name(), a.time, b.time);
             // the time errs as the state does, divided by the rate at which the room shrinks, which is of order 1
             assert!((a.time - b.time).abs() < 1e-7 && a.pedestrian == b.pedestrian, "{a:?} {b:?}");
         }
@@ -42,9 +42,9 @@ fn figures_4_and_7_agree_with_their_check() {
 fn the_unstable_algebraic_run_blows_up_at_one_time() {
     let runs = with_check(&figure("fig04"), "unstable");
     for run in &runs {
-        assert_eq!(events(run), [Event::NegativeSpeed, Event::BlowUp]);
+        assert_eq!(events(run), [EventKind::NegativeSpeed, EventKind::BlowUp]);
         assert!(run.events[0].time < run.events[1].time);
-        assert_eq!(run.stop().map(|stop| stop.event), Some(Event::BlowUp));
+        assert_eq!(run.stop().map(|stop| stop.kind), Some(EventKind::BlowUp));
         // every gap is still open
         let gaps = run.positions.windows(2).map(|pair| pair[1] - pair[0]);
         assert!(gaps.fold(f64::INFINITY, math::smaller) > 0.0);
@@ -64,7 +64,7 @@ fn the_unstable_algebraic_run_blows_up_at_one_time() {
 #[derive(Default)]
 struct Ends(Vec<Vec<f64>>);
 
-impl Onlooker for Ends {
+impl RunObserver for Ends {
     fn after(&mut self, step: &Step<'_>) {
         self.0.push(step.after().to_vec());
     }
@@ -79,7 +79,7 @@ fn a_run_that_changes_its_state_at_the_walls_counts_both_parts() {
     let Statistics { steps, rejected, evaluations, .. } = run.statistics;
     assert_eq!(steps, seen.0.len() as u64);
     // deviations until somebody has less than a thousandth of the room in the uniform flow, then gaps
-    let form = FormKind::Deviations.build(&scene.model, scene.ring);
+    let form = StateVariables::Deviations.build(&scene.model, scene.ring);
     let (first, second): (Vec<_>, Vec<_>) = seen.0.iter().partition(|state| state.len() == form.dimension());
     let (mut gaps, mut speeds) = (vec![0.0; 67], vec![0.0; 67]);
     let mut least = |state: &[f64]| {
@@ -111,13 +111,13 @@ fn a_run_that_breaks_off_names_who_had_the_least_room() {
     // who has the least room changes as the wave goes round
     let mut named = std::collections::BTreeSet::new();
     for most in [3, 15, 30, 45, 60] {
-        let recipe = files::recipe::parse("my.toml", &format!("{text}{most}\n")).expect("a scene");
+        let recipe = files::scene_file::parse("my.toml", &format!("{text}{most}\n")).expect("a scene");
         let scene = scene::run::read("my.toml", &recipe.panels[0].tables).expect("a run");
         let mut seen = Ends::default();
         let Err(broken) = run_from(&scene, None, &mut seen) else { panic!("{most} steps are enough") };
         let Place { pedestrian, gap, room, speed } = broken.narrowest.expect("a state was reached");
         let (mut gaps, mut speeds) = ([0.0; 9], [0.0; 9]);
-        let form = FormKind::Deviations.build(&scene.model, scene.ring);
+        let form = StateVariables::Deviations.build(&scene.model, scene.ring);
         form.read(seen.0.last().expect("a step was made"), &mut gaps, &mut speeds);
         let rooms: Vec<f64> = (0..9).map(|n| gaps[n] - 0.2 * (speeds[n] + speeds[(n + 1) % 9]) - 2.0).collect();
         assert_eq!((gap, speed), (gaps[pedestrian], speeds[pedestrian]));
@@ -131,7 +131,7 @@ fn a_run_that_breaks_off_names_who_had_the_least_room() {
 #[test]
 fn the_unstable_exponential_run_overlaps_turns_back_and_exchanges() {
     let run = run(&scene(&figure("fig07"), "unstable", &Overrides::default())).expect("it runs");
-    assert_eq!(events(&run), [Event::Overlap, Event::NegativeSpeed, Event::Exchange]);
+    assert_eq!(events(&run), [EventKind::Overlap, EventKind::NegativeSpeed, EventKind::Exchange]);
     let stop = run.stop().expect("it stops");
     let last = run.std.column("t").expect("t").pop().expect("a last sample");
     assert!(last <= stop.time && last > stop.time - 1.0, "the table ends at the first stop");
@@ -182,7 +182,7 @@ fn short(changes: &[(&str, &str)]) -> Outcome {
     let text = "[law]\nkind = \"exponential\"\na = 3.0\nb = 1.5\nv0 = 3.0\n[ring]\npedestrians = 5\nlength = 15.0\n\
                 [start]\nshift = 0.1\n[run]\nt_end = 10.0\nsample = 0.75\nmethod = \"dop853\"\ntolerance = 1e-12\n";
     let text = changes.iter().fold(text.to_owned(), |text, (from, to)| text.replacen(from, to, 1));
-    let recipe = files::recipe::parse("my.toml", &text).expect("a scene");
+    let recipe = files::scene_file::parse("my.toml", &text).expect("a scene");
     run(&scene::run::read("my.toml", &recipe.panels[0].tables).expect("a run")).expect("it runs")
 }
 

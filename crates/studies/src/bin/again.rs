@@ -5,7 +5,7 @@
 use clap::{Parser, ValueEnum};
 use figures::failure::{Failure, exit, print};
 use figures::planes::cells_of;
-use files::recipe;
+use files::scene_file;
 use jam::outcome::Class;
 use scene::sweep::{self, DecidedBy};
 use std::path::PathBuf;
@@ -42,7 +42,7 @@ fn main() -> ExitCode {
 }
 
 fn again(arguments: &Arguments) -> Result<(), Failure> {
-    let recipe = recipe::read(&arguments.scene)?;
+    let recipe = scene_file::read(&arguments.scene)?;
     let sweep = sweep::read(&recipe.file, &recipe.panel(&arguments.panel)?.tables)?;
     let name = arguments.table.display().to_string();
     let text = std::fs::read_to_string(&arguments.table).map_err(|error| Failure::input(format!("{name}: {error}")))?;

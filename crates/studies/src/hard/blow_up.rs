@@ -6,12 +6,12 @@ use super::run::{Case, Leg, figure_4, two_methods};
 use figures::failure::Failure;
 use jam::events::BLOW_UP;
 use jam::ring::Ring;
-use jam::states::{Form, FormKind, gaps_state};
+use jam::states::{RingSystem, StateVariables, gaps_state};
 use ode::{Control, Method, Problem, Step, integrate};
 use std::ops::ControlFlow;
 
 /// The run of figure 4, unstable, in this form.
-pub fn case(kind: FormKind) -> Case {
+pub fn case(kind: StateVariables) -> Case {
     let model = figure_4(0.55);
     Case { model, ring: Ring { pedestrians: 67, length: 200.0 }, kind }
 }
@@ -27,7 +27,7 @@ pub const NEAR: f64 = 960.0;
 /// # Errors
 /// The run does not get there.
 pub fn near(method: Method, control: Control) -> Result<Vec<f64>, Failure> {
-    let deviations = case(FormKind::Deviations);
+    let deviations = case(StateVariables::Deviations);
     let run = deviations.run(SHIFT, Leg { method, control, begin: 0.0, end: NEAR }).whole()?;
     let mut positions = vec![0.0; run.gaps.len()];
     deviations.form().write_positions(&run.state, &mut positions);
@@ -59,7 +59,7 @@ struct Descent {
 
 /// Follows the run from [`NEAR`] until the speeds exceed [`BLOW_UP`] desired speeds.
 fn descend(method: Method, control: Control) -> Result<Descent, Failure> {
-    let case = case(FormKind::Gaps);
+    let case = case(StateVariables::Spacings);
     let form = case.form();
     let start = near(method, control)?;
     let count = case.ring.pedestrians;
@@ -80,7 +80,7 @@ fn descend(method: Method, control: Control) -> Result<Descent, Failure> {
 }
 
 /// The throw of pedestrian `n`, if its gap is smallest within this step.
-fn thrown(form: &dyn Form, step: &mut Step<'_>, n: usize) -> Option<Throw> {
+fn thrown(form: &dyn RingSystem, step: &mut Step<'_>, n: usize) -> Option<Throw> {
     let count = (step.before().len() - 1) / 2;
     let closing = |state: &[f64]| state[count + (n + 1) % count] - state[count + n];
     if !(closing(step.before()) < 0.0 && closing(step.after()) >= 0.0 && step.before()[n] < 0.1) {

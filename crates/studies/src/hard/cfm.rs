@@ -8,7 +8,7 @@ use jam::laws::Model;
 use jam::laws::presets::PRESETS;
 use jam::observe::spread;
 use jam::ring::Ring;
-use jam::states::FormKind;
+use jam::states::StateVariables;
 use jam::uniform::steady_speed;
 
 const END: f64 = 100.0;
@@ -35,7 +35,7 @@ pub fn tables(quick: bool) -> Result<Tables, Failure> {
         let model = Model::Algebraic(law);
         let speed = steady_speed(&model, ring.headway()).map_err(Failure::work)?;
         let linear = model.linearise(ring.headway(), speed);
-        let case = Case { model, ring, kind: FormKind::Deviations };
+        let case = Case { model, ring, kind: StateVariables::Deviations };
         let end = if quick { 10.0 } else { END };
         let [one, two] =
             two_methods(1e-11).map(|(method, control)| case.run(0.5, Leg { method, control, begin: 0.0, end }));

@@ -5,7 +5,7 @@ use super::blow_up::{NEAR, SHIFT, case, near};
 use super::rows::{Rows, row};
 use super::run::{Case, Leg, two_methods};
 use figures::failure::Failure;
-use jam::states::FormKind;
+use jam::states::StateVariables;
 use ode::{Control, Method};
 
 /// The time of the blow-up on which the two methods of `blow_up_time.csv` agree to 2e-10.
@@ -24,13 +24,13 @@ pub fn tables(quick: bool) -> Result<Tables, Failure> {
     // a series knows no wall: steps of fixed length far beyond its radius mean nothing
     for method in Method::ALL.into_iter().filter(|method| !method.needs_series()) {
         for &step in &STEPS[..if method.order() > 4 { 2 } else { few }] {
-            for kind in [FormKind::Deviations, FormKind::Positions] {
+            for kind in [StateVariables::Deviations, StateVariables::Positions] {
                 let case = case(kind);
                 push(&mut rows, case.clone(), &case.form().start(jam::ring::Start { shift: SHIFT }), method, step, 0.0);
             }
         }
         for &step in &STEPS_NEAR[..few_near] {
-            push(&mut rows, case(FormKind::Gaps), &start, method, step, NEAR);
+            push(&mut rows, case(StateVariables::Spacings), &start, method, step, NEAR);
         }
     }
     Ok(vec![("blow_up_fixed_steps", rows)])
@@ -38,7 +38,7 @@ pub fn tables(quick: bool) -> Result<Tables, Failure> {
 
 fn push(rows: &mut Rows, case: Case, start: &[f64], method: Method, step: f64, begin: f64) {
     let run = case.run_from(start, Leg { method, control: Control::Fixed { step }, begin, end: 1000.0 });
-    let negative = run.events.iter().find(|happening| happening.event == jam::events::Event::NegativeSpeed);
+    let negative = run.events.iter().find(|happening| happening.kind == jam::events::EventKind::NegativeSpeed);
     let (form, negative) = (name(case.kind), negative.map(|happening| happening.time));
     match run.stop {
         Some(stop) => rows.push(row![
@@ -61,10 +61,10 @@ fn push(rows: &mut Rows, case: Case, start: &[f64], method: Method, step: f64, b
 }
 
 /// The name of a form in scene files.
-pub fn name(kind: FormKind) -> &'static str {
+pub fn name(kind: StateVariables) -> &'static str {
     match kind {
-        FormKind::Deviations => "deviations",
-        FormKind::Gaps => "gaps",
-        FormKind::Positions => "positions",
+        StateVariables::Deviations => "deviations",
+        StateVariables::Spacings => "gaps",
+        StateVariables::Positions => "positions",
     }
 }

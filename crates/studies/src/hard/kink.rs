@@ -6,7 +6,7 @@ use super::run::{Case, Leg, difference, two_methods};
 use figures::failure::Failure;
 use jam::laws::{Logarithmic, Model};
 use jam::ring::Ring;
-use jam::states::FormKind;
+use jam::states::StateVariables;
 use ode::{Control, Method};
 
 const END: f64 = 8.0;
@@ -18,7 +18,7 @@ const MOST: u32 = 12;
 /// Eight pedestrians a little closer than where the logarithmic force begins: the gaps that open cross the kink twice.
 fn case(epsilon: f64) -> Case {
     let model = Model::Logarithmic(Logarithmic { desired_speed: 1.0, widening: 0.0, epsilon });
-    Case { model, ring: Ring { pedestrians: 8, length: 15.0 }, kind: FormKind::Gaps }
+    Case { model, ring: Ring { pedestrians: 8, length: 15.0 }, kind: StateVariables::Spacings }
 }
 
 /// `order` is the slope of the least-squares line through log error against log step, over the steps whose error is

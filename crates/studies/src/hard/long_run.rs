@@ -8,9 +8,9 @@ use figures::failure::Failure;
 use jam::laws::{Algebraic, Logarithmic, Model};
 use jam::observe::spread;
 use jam::ring::Ring;
-use jam::states::FormKind;
+use jam::states::StateVariables;
 use jam::uniform::steady_speed;
-use math::twofold::Twofold;
+use math::double_double::DoubleDouble;
 use ode::{Control, Method};
 
 const END: f64 = 1e5;
@@ -43,7 +43,7 @@ pub fn tables(quick: bool) -> Result<Tables, Failure> {
     ]);
     let end = if quick { 1e3 } else { END };
     for (law, model, ring) in rings() {
-        for kind in [FormKind::Deviations, FormKind::Gaps, FormKind::Positions] {
+        for kind in [StateVariables::Deviations, StateVariables::Spacings, StateVariables::Positions] {
             let case = Case { model: model.clone(), ring, kind };
             let run = |(method, control)| case.run(0.1, Leg { method, control, begin: 0.0, end }).whole();
             let [(first, control), (second, _)] = two_methods(1e-9);
@@ -81,7 +81,7 @@ pub fn tables(quick: bool) -> Result<Tables, Failure> {
 
 /// `sum(s_n) - L`, summed without rounding.
 fn drift(run: &Ended, ring: Ring) -> f64 {
-    run.gaps.iter().fold(Twofold::from(-ring.length), |sum, &gap| sum + gap).hi
+    run.gaps.iter().fold(DoubleDouble::from(-ring.length), |sum, &gap| sum + gap).hi
 }
 
 fn mean(values: &[f64]) -> f64 {

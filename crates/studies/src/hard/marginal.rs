@@ -7,7 +7,7 @@ use super::run::{Case, figure_4, two_methods};
 use super::waves::growth_rate;
 use figures::failure::Failure;
 use jam::ring::Ring;
-use jam::states::FormKind;
+use jam::states::StateVariables;
 use jam::uniform::steady_speed;
 use std::f64::consts::PI;
 
@@ -20,7 +20,7 @@ const AMPLITUDE: f64 = 1e-8;
 fn case(strength: f64, pedestrians: usize) -> Case {
     let model = figure_4(strength);
     let ring = Ring { pedestrians, length: pedestrians as f64 * HEADWAY };
-    Case { model, ring, kind: FormKind::Deviations }
+    Case { model, ring, kind: StateVariables::Deviations }
 }
 
 /// Where the longest wave of a ring neither grows nor decays: `phi (1 + cos k) = 1`, `phi = 2 mu^2 / d'^3`, `d' = 1`.

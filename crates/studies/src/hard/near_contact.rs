@@ -6,7 +6,7 @@ use super::run::{Case, Leg, difference, two_methods};
 use figures::failure::Failure;
 use jam::laws::{Algebraic, Model};
 use jam::ring::Ring;
-use jam::states::{FormKind, gaps_state};
+use jam::states::{StateVariables, gaps_state};
 use ode::{Control, Method, Problem, Step, integrate};
 use std::ops::ControlFlow;
 
@@ -22,7 +22,7 @@ fn case(q: f64) -> Case {
         epsilon: 0.1,
         desired_speed: 3.0,
     });
-    Case { model, ring: Ring { pedestrians: 2, length: 100.0 }, kind: FormKind::Gaps }
+    Case { model, ring: Ring { pedestrians: 2, length: 100.0 }, kind: StateVariables::Spacings }
 }
 
 /// Pedestrian 0 runs with this speed towards 1, which stands, with room 1 between them.

@@ -4,7 +4,7 @@ use super::Tables;
 use super::rows::{Rows, row};
 use figures::failure::Failure;
 use jam::ramp::smooth_ramp;
-use math::twofold::Twofold;
+use math::double_double::DoubleDouble;
 
 /// `x / eps` runs over these ranges, both signs, [`POINTS`] each. Between 660 and 708 the numbers of 106 bits underflow
 /// themselves.
@@ -53,7 +53,7 @@ fn worst_error(epsilon: f64, sign: f64, [from, to]: [f64; 2], points: usize) -> 
         let share = (k as f64 * 0.618_033_988_749_894_9).fract();
         let x = sign * epsilon * math::exp(math::ln(from) + share * (math::ln(to) - math::ln(from)));
         let exact = ramp(x, epsilon);
-        let off = (Twofold::from(smooth_ramp(x, epsilon)) - exact).abs().hi;
+        let off = (DoubleDouble::from(smooth_ramp(x, epsilon)) - exact).abs().hi;
         let error = off / math::larger(exact.hi, epsilon * math::exp(-708.0));
         if error > worst.0 {
             worst = (error, x / epsilon);
@@ -62,35 +62,35 @@ fn worst_error(epsilon: f64, sign: f64, [from, to]: [f64; 2], points: usize) -> 
     worst
 }
 
-/// `eps ln(1 + exp(-x / eps))` in twofold numbers.
-fn ramp(x: f64, epsilon: f64) -> Twofold {
-    let y = Twofold::from(-x) / epsilon;
-    let above = if y.hi > 0.0 { y } else { Twofold::ZERO };
+/// `eps ln(1 + exp(-x / eps))` in double-double numbers.
+fn ramp(x: f64, epsilon: f64) -> DoubleDouble {
+    let y = DoubleDouble::from(-x) / epsilon;
+    let above = if y.hi > 0.0 { y } else { DoubleDouble::ZERO };
     (above + ln_1p(exp(-y.abs()))) * epsilon
 }
 
 /// `e^y` for `y <= 0`, 0 below -700: Taylor's series of `y / 4096`, squared twelve times; relative error below 2^-88.
-fn exp(y: Twofold) -> Twofold {
+fn exp(y: DoubleDouble) -> DoubleDouble {
     if y.hi < -700.0 {
-        return Twofold::ZERO;
+        return DoubleDouble::ZERO;
     }
     let small = y.times(1.0 / 4096.0);
-    let mut sum = Twofold::ONE;
+    let mut sum = DoubleDouble::ONE;
     // the first term left out is 0.18^25 / 25!, 1e-44
     for k in (1..25).rev() {
-        sum = Twofold::ONE + sum * small / f64::from(k);
+        sum = DoubleDouble::ONE + sum * small / f64::from(k);
     }
     (0..12).fold(sum, |power, _| power * power)
 }
 
 /// `ln(1 + t)` for `0 <= t <= 1`: the series for small `t`, else one step of Newton's method from the double.
-fn ln_1p(t: Twofold) -> Twofold {
+fn ln_1p(t: DoubleDouble) -> DoubleDouble {
     if t.hi < 1e-3 {
         // t - t^2 / 2 + ...: the first term left out is below 1e-36 of the result
-        return (1..13).rev().fold(Twofold::ZERO, |sum, k| (Twofold::ONE / f64::from(k)) - t * sum) * t;
+        return (1..13).rev().fold(DoubleDouble::ZERO, |sum, k| (DoubleDouble::ONE / f64::from(k)) - t * sum) * t;
     }
     let guess = math::ln_1p(t.hi);
-    let off = (Twofold::ONE + t) * exp(Twofold::from(-guess)) - 1.0;
+    let off = (DoubleDouble::ONE + t) * exp(DoubleDouble::from(-guess)) - 1.0;
     // ln(1 + off), off of 1e-16
     off - off * off * 0.5 + guess
 }

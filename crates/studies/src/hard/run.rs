@@ -1,10 +1,10 @@
 //! Runs of a ring as the hard cases need them: any form, any method, and what ended each.
 
 use figures::failure::Failure;
-use jam::events::{Happening, Watch};
+use jam::events::{Event, Watch};
 use jam::laws::{Algebraic, Model};
 use jam::ring::{Ring, Start};
-use jam::states::{Form, FormKind};
+use jam::states::{RingSystem, StateVariables};
 use ode::{Control, Method, Observer, Problem, Statistics, Step, integrate};
 use std::ops::ControlFlow;
 
@@ -16,7 +16,7 @@ pub struct Case {
     /// The ring.
     pub ring: Ring,
     /// The form.
-    pub kind: FormKind,
+    pub kind: StateVariables,
 }
 
 /// How a case is integrated, and from when to when.
@@ -28,7 +28,7 @@ pub struct Leg {
     pub control: Control,
     /// From this time.
     pub begin: f64,
-    /// To this time, or the first stop (see [`jam::events::Event::is_stop`]).
+    /// To this time, or the first stop (see [`jam::events::EventKind::is_stop`]).
     pub end: f64,
 }
 
@@ -53,7 +53,7 @@ pub struct Ended {
     /// Why before its time; `None` where it reached its end.
     pub stop: Option<Stop>,
     /// The first event of each kind.
-    pub events: Vec<Happening>,
+    pub events: Vec<Event>,
     /// The last state.
     pub state: Vec<f64>,
     /// The gaps then.
@@ -76,7 +76,7 @@ struct Looking<'a> {
 impl Observer for Looking<'_> {
     fn after(&mut self, step: &mut Step<'_>) -> ControlFlow<()> {
         self.steps += 1;
-        let is_stop = self.watch.look(step).iter().any(|happening| happening.event.is_stop());
+        let is_stop = self.watch.look(step).iter().any(|happening| happening.kind.is_stop());
         if is_stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
@@ -93,7 +93,7 @@ pub fn figure_4(strength: f64) -> Model {
 
 impl Case {
     /// The ring in its form.
-    pub fn form(&self) -> Box<dyn Form> {
+    pub fn form(&self) -> Box<dyn RingSystem> {
         self.kind.build(&self.model, self.ring)
     }
 
@@ -122,9 +122,9 @@ impl Case {
         };
         let (mut gaps, mut speeds) = (vec![0.0; count], vec![0.0; count]);
         form.read(&state, &mut gaps, &mut speeds);
-        let event = events.iter().find(|happening| happening.event.is_stop());
+        let event = events.iter().find(|happening| happening.kind.is_stop());
         let stop = match (event, &result) {
-            (Some(Happening { event, time, pedestrian, gap, step }), _) => {
+            (Some(Event { kind: event, time, pedestrian, gap, step }), _) => {
                 Some(Stop { name: event.name(), time: *time, pedestrian: *pedestrian, gap: *gap, step: *step })
             }
             (None, Err(failure)) => Some(self.failed(failure, &gaps, &speeds)),

@@ -5,7 +5,7 @@ use super::rows::{Rows, row};
 use super::run::{Case, Ended, Leg, difference, figure_4, two_methods};
 use figures::failure::Failure;
 use jam::ring::Ring;
-use jam::states::FormKind;
+use jam::states::StateVariables;
 
 const HEADWAY: f64 = 3.0;
 const END: f64 = 1.0;
@@ -15,7 +15,7 @@ const NEAR: usize = 10;
 fn run(pedestrians: usize, how: (ode::Method, ode::Control)) -> Result<Ended, Failure> {
     let model = figure_4(0.55);
     let ring = Ring { pedestrians, length: pedestrians as f64 * HEADWAY };
-    let case = Case { model, ring, kind: FormKind::Deviations };
+    let case = Case { model, ring, kind: StateVariables::Deviations };
     case.run(0.1, Leg { method: how.0, control: how.1, begin: 0.0, end: END }).whole()
 }
 

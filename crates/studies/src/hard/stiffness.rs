@@ -6,7 +6,7 @@ use super::run::{Case, Ended, Leg, difference, two_methods};
 use figures::failure::Failure;
 use jam::laws::{Logarithmic, Model};
 use jam::ring::Ring;
-use jam::states::FormKind;
+use jam::states::StateVariables;
 use jam::uniform::steady_speed;
 use ode::{Control, Method};
 
@@ -17,7 +17,7 @@ const ALLOWED: f64 = 1e-2;
 
 fn case(v0: f64) -> Case {
     let model = Model::Logarithmic(Logarithmic { desired_speed: v0, widening: 0.0, epsilon: 0.01 });
-    Case { model, ring: Ring { pedestrians: 20, length: 30.0 }, kind: FormKind::Deviations }
+    Case { model, ring: Ring { pedestrians: 20, length: 30.0 }, kind: StateVariables::Deviations }
 }
 
 /// Overlap times by two methods; steps and evaluations of every method, and the longest step that is still right.

@@ -7,7 +7,7 @@ use super::run::{Case, Leg};
 use figures::failure::Failure;
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
 use jam::ring::Ring;
-use jam::states::FormKind;
+use jam::states::StateVariables;
 use ode::Control;
 
 const COUNT: usize = 10;
@@ -30,7 +30,7 @@ fn models() -> [(Model, f64); 3] {
 pub fn tables(quick: bool) -> Result<Tables, Failure> {
     let mut rows = Rows::new(&["law", "state", "method", "shift", "gap_range", "speed_range", "deviation_per_shift"]);
     for (model, length) in models() {
-        for kind in [FormKind::Deviations, FormKind::Gaps, FormKind::Positions] {
+        for kind in [StateVariables::Deviations, StateVariables::Spacings, StateVariables::Positions] {
             let case = Case { model: model.clone(), ring: Ring { pedestrians: COUNT, length }, kind };
             for method in case.methods() {
                 let control = if method.is_adaptive() {
@@ -43,7 +43,7 @@ pub fn tables(quick: bool) -> Result<Tables, Failure> {
                     let leg = Leg { method, control, begin: 0.0, end: END };
                     let run = case.run(shift, leg).whole()?;
                     let largest = run.state[..2 * COUNT].iter().fold(0.0, |most, u| math::larger(most, u.abs()));
-                    let scaled = (kind == FormKind::Deviations && shift > 0.0).then(|| largest / shift);
+                    let scaled = (kind == StateVariables::Deviations && shift > 0.0).then(|| largest / shift);
                     let (state, gaps, speeds) = (name(kind), range(&run.gaps), range(&run.speeds));
                     rows.push(row![model.name(), state, method.name(), shift, gaps, speeds, scaled]);
                 }

@@ -9,7 +9,7 @@ use figures::failure::Failure;
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
 use jam::observe::spread;
 use jam::ring::Ring;
-use jam::states::{FormKind, gaps_state};
+use jam::states::{StateVariables, gaps_state};
 use jam::uniform::steady_speed;
 
 fn algebraic(strength: f64, widening: f64) -> Model {
@@ -47,7 +47,7 @@ fn stability(quick: bool) -> Result<Rows, Failure> {
                 let Ok(speed) = steady_speed(&model, ring.headway()) else { continue };
                 let linear = model.linearise(ring.headway(), speed);
                 // gaps keep their digits at the walls to which an unstable run comes
-                let case = Case { model: model.clone(), ring, kind: FormKind::Gaps };
+                let case = Case { model: model.clone(), ring, kind: StateVariables::Spacings };
                 let mut gaps = [ring.headway(); 20];
                 (gaps[0], gaps[19]) = (gaps[0] - 1e-6, gaps[19] + 1e-6);
                 let start = gaps_state(&model, &gaps, &[speed; 20], 1e-6);
@@ -91,7 +91,7 @@ fn backwards() -> Result<Rows, Failure> {
     for model in [algebraic(0.55, a_v), exponential(1.0, a_v), logarithmic] {
         for speed in [-1.0, -4.0] {
             let ring = Ring { pedestrians: 5, length: 30.0 };
-            let case = Case { model: model.clone(), ring, kind: FormKind::Gaps };
+            let case = Case { model: model.clone(), ring, kind: StateVariables::Spacings };
             let start = gaps_state(&model, &[6.0, 5.5, 6.5, 6.0, 6.0], &[speed; 5], 0.0);
             let run = |(method, control)| case.run_from(&start, Leg { method, control, begin: 0.0, end: 10.0 });
             let [one, two] = two_methods(1e-12).map(run);

@@ -6,7 +6,7 @@ use jam::events::Watch;
 use jam::jams::{self, Drift};
 use jam::laws::{Logarithmic, Model};
 use jam::ring::Ring;
-use jam::states::{Form, FormKind};
+use jam::states::{RingSystem, StateVariables};
 use ode::{Control, Method, Observer, Problem, Sampler, Step, integrate};
 use std::ops::ControlFlow;
 
@@ -65,7 +65,7 @@ impl Run {
     }
 
     /// The state at the start, in deviations from the uniform flow.
-    pub fn state(&self, form: &dyn Form) -> Vec<f64> {
+    pub fn state(&self, form: &dyn RingSystem) -> Vec<f64> {
         match self.start {
             Start::One(shift) => form.start(jam::ring::Start { shift }),
             Start::Random(size) => {
@@ -134,7 +134,7 @@ impl Jammed {
 /// The integration failed.
 pub fn run(run: &Run, (method, control): (Method, Control)) -> Result<Jammed, Failure> {
     let model = run.model();
-    let form = FormKind::Deviations.build(&model, run.ring());
+    let form = StateVariables::Deviations.build(&model, run.ring());
     let start = run.state(&*form);
     let mut looking = Looking::new(run, model, &*form);
     looking.take(0.0, &start);
@@ -161,7 +161,7 @@ pub struct Snapshot {
 /// # Errors
 /// The integration failed.
 pub fn snapshots(run: &Run, (method, control): (Method, Control)) -> Result<Vec<Snapshot>, Failure> {
-    let form = FormKind::Deviations.build(&run.model(), run.ring());
+    let form = StateVariables::Deviations.build(&run.model(), run.ring());
     let start = run.state(&*form);
     let mut keeping = Keeping { run, form: &*form, sampler: Sampler::new(run.sample, form.dimension()), kept: vec![] };
     let problem = Problem { system: &*form, start: &start, begin: 0.0, end: run.end, method, control };
@@ -171,7 +171,7 @@ pub fn snapshots(run: &Run, (method, control): (Method, Control)) -> Result<Vec<
 
 struct Keeping<'a> {
     run: &'a Run,
-    form: &'a dyn Form,
+    form: &'a dyn RingSystem,
     sampler: Sampler,
     kept: Vec<Snapshot>,
 }
@@ -195,7 +195,7 @@ impl Observer for Keeping<'_> {
 
 struct Looking<'a> {
     run: &'a Run,
-    form: &'a dyn Form,
+    form: &'a dyn RingSystem,
     watch: Watch<'a>,
     sampler: Sampler,
     seen: Seen,
@@ -226,7 +226,7 @@ struct Late {
 }
 
 impl<'a> Looking<'a> {
-    fn new(run: &'a Run, model: Model, form: &'a dyn Form) -> Looking<'a> {
+    fn new(run: &'a Run, model: Model, form: &'a dyn RingSystem) -> Looking<'a> {
         let zeros = || vec![0.0; run.pedestrians];
         Looking {
             run,
@@ -296,13 +296,13 @@ impl Late {
 impl Observer for Looking<'_> {
     fn after(&mut self, step: &mut Step<'_>) -> ControlFlow<()> {
         let new = self.watch.look(step);
-        let stop = new.iter().find(|happening| happening.event.is_stop());
+        let stop = new.iter().find(|happening| happening.kind.is_stop());
         let until = stop.map_or(self.run.end, |happening| happening.time);
         // the sampler lends its buffer while this one takes what it gives
         let mut sampler = std::mem::replace(&mut self.sampler, Sampler::new(self.run.sample, 0));
         sampler.within(step, until, &mut |t, state| self.take(t, state));
         self.sampler = sampler;
-        self.stop = stop.map(|happening| (happening.event.name(), happening.time));
+        self.stop = stop.map(|happening| (happening.kind.name(), happening.time));
         if self.stop.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 

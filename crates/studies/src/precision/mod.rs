@@ -11,7 +11,7 @@ use crate::hard::rows::{Rows, row};
 use figures::failure::{Failure, print};
 use figures::job::finite_csv;
 use files::write::{atomic, with_path};
-use math::twofold::Twofold;
+use math::double_double::DoubleDouble;
 use ode::{Control, Method};
 use run::{Measured, measure};
 use scene::run::Scene;
@@ -93,7 +93,7 @@ struct Tables {
 impl Problem {
     fn read(known: &Known, scenes: &Path, solutions: &Path) -> Result<Problem, Failure> {
         let ring = known.scene(scenes, &[])?.ring;
-        let headway = Twofold::from(ring.length) / Twofold::from(ring.pedestrians as f64);
+        let headway = DoubleDouble::from(ring.length) / DoubleDouble::from(ring.pedestrians as f64);
         let solution = known.solution(solutions, headway)?;
         Ok(Problem { scene: known.scene(scenes, &solution)?, solution })
     }

@@ -2,10 +2,10 @@
 
 use super::scenes::Instant;
 use cpu_time::ProcessTime;
-use jam::events::{Event, Watch};
+use jam::events::{EventKind, Watch};
 use jam::observe::spread;
-use jam::states::FormKind;
-use math::twofold::Twofold;
+use jam::states::StateVariables;
+use math::double_double::DoubleDouble;
 use ode::{Control, Method, Observer, Problem, Sampler, Step, integrate};
 use scene::run::Scene;
 use std::ops::ControlFlow;
@@ -39,7 +39,7 @@ struct Judge<'a> {
     passed: usize,
     worst: (f64, f64),
     steps: u64,
-    stop: Option<Event>,
+    stop: Option<EventKind>,
     /// The standard deviations, as `simulate` would keep them.
     std: Vec<f64>,
 }
@@ -47,7 +47,7 @@ struct Judge<'a> {
 /// Integrates the deviations from the uniform flow, sampled as the scene says, as `simulate` does, up to the end of the
 /// solution or the first stop.
 pub fn measure(scene: &Scene, method: Method, control: Control, solution: &[Instant]) -> Measured {
-    let form = FormKind::Deviations.build(&scene.model, scene.ring);
+    let form = StateVariables::Deviations.build(&scene.model, scene.ring);
     let pedestrians = scene.ring.pedestrians;
     let start = form.start(scene.start);
     let mut judge = Judge {
@@ -81,7 +81,7 @@ pub fn measure(scene: &Scene, method: Method, control: Control, solution: &[Inst
         steps: judge.steps,
         rejected: statistics.as_ref().map(|statistics| statistics.rejected),
         errors: is_whole.then_some(judge.worst),
-        stop: judge.stop.map(Event::name).or(failed),
+        stop: judge.stop.map(EventKind::name).or(failed),
         seconds,
     }
 }
@@ -90,7 +90,7 @@ impl Observer for Judge<'_> {
     fn after(&mut self, step: &mut Step<'_>) -> ControlFlow<()> {
         self.steps += 1;
         let new = self.watch.look(step);
-        let stop = new.iter().find(|happening| happening.event.is_stop());
+        let stop = new.iter().find(|happening| happening.kind.is_stop());
         let until = stop.map_or(f64::INFINITY, |happening| happening.time);
         let Judge { solution, pedestrians, sampler, passed, worst, std, .. } = self;
         let end = if until < step.end { until } else { step.end };
@@ -102,7 +102,7 @@ impl Observer for Judge<'_> {
                 *passed += 1;
             }
         });
-        self.stop = stop.map(|happening| happening.event);
+        self.stop = stop.map(|happening| happening.kind);
         if self.stop.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
@@ -118,7 +118,7 @@ fn distance(instant: &Instant, state: &[f64]) -> (f64, f64) {
     let uniform = state[2 * count + 2];
     let gaps = instant.gaps.iter().zip(state).map(|(exact, gap)| (gap - exact).abs());
     let speeds = instant.speeds.iter().zip(&state[count..2 * count]);
-    let speeds = speeds.map(|(exact, speed)| (Twofold::sum(uniform, *speed) - *exact).hi.abs());
+    let speeds = speeds.map(|(exact, speed)| (DoubleDouble::sum(uniform, *speed) - *exact).hi.abs());
     (gaps.fold(0.0, larger), speeds.fold(0.0, larger))
 }
 

@@ -1,8 +1,8 @@
 //! The six scenes with a solution to 20 digits, and that solution.
 
 use figures::failure::Failure;
-use files::recipe;
-use math::twofold::{Twofold, decimal};
+use files::scene_file;
+use math::double_double::{DoubleDouble, decimal};
 use scene::run::Scene;
 use std::path::Path;
 
@@ -35,7 +35,7 @@ pub struct Instant {
     /// `s_n - L / N`, rounded from 106 bits.
     pub gaps: Vec<f64>,
     /// `v_n`.
-    pub speeds: Vec<Twofold>,
+    pub speeds: Vec<DoubleDouble>,
 }
 
 impl Known {
@@ -44,7 +44,7 @@ impl Known {
     /// # Errors
     /// The scene file cannot be read or is invalid.
     pub fn scene(&self, figures: &Path, solution: &[Instant]) -> Result<Scene, Failure> {
-        let recipe = recipe::read(&figures.join(self.figure).join("scene.toml"))?;
+        let recipe = scene_file::read(&figures.join(self.figure).join("scene.toml"))?;
         let scene = scene::run::read(&recipe.file, &recipe.panel(self.panel)?.tables)?;
         let t_end = solution.last().map_or(0.0, |instant| instant.time);
         Ok(Scene { t_end, keeps_trajectories: false, ..scene })
@@ -54,7 +54,7 @@ impl Known {
     ///
     /// # Errors
     /// The table is missing or damaged.
-    pub fn solution(&self, folder: &Path, headway: Twofold) -> Result<Vec<Instant>, Failure> {
+    pub fn solution(&self, folder: &Path, headway: DoubleDouble) -> Result<Vec<Instant>, Failure> {
         let file = folder.join(format!("{}.csv", self.name));
         let text = std::fs::read_to_string(&file).map_err(|error| files::write::with_path(error, &file))?;
         let mut instants: Vec<Instant> = Vec::new();
@@ -76,7 +76,7 @@ impl Known {
 }
 
 /// The four numbers of a line.
-fn row(line: &str) -> Option<[Twofold; 4]> {
-    let cells: Option<Vec<Twofold>> = line.split(',').map(decimal::parse).collect();
+fn row(line: &str) -> Option<[DoubleDouble; 4]> {
+    let cells: Option<Vec<DoubleDouble>> = line.split(',').map(decimal::parse).collect();
     cells?.try_into().ok()
 }

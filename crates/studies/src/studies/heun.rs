@@ -2,9 +2,9 @@
 //! and in numbers of 106 bits.
 
 use figures::failure::Failure;
-use jam::states::Form;
+use jam::states::RingSystem;
+use math::double_double::DoubleDouble;
 use math::simd::{Kernel, dispatch};
-use math::twofold::Twofold;
 use ode::{Control, Method, Problem, Step, integrate};
 use reference::ring::Ring as ExactRing;
 use std::ops::ControlFlow;
@@ -37,7 +37,7 @@ impl Sum {
     ///
     /// # Errors
     /// The state is no longer finite.
-    pub fn advance(&mut self, form: &dyn Form, h: f64, time: f64, adding: Adding) -> Result<(), Failure> {
+    pub fn advance(&mut self, form: &dyn RingSystem, h: f64, time: f64, adding: Adding) -> Result<(), Failure> {
         match adding {
             Adding::Plain => {
                 let (start, control) = (&self.state, Control::Fixed { step: h });
@@ -50,7 +50,7 @@ impl Sum {
         Ok(())
     }
 
-    fn compensated(&mut self, form: &dyn Form, h: f64, count: u64) {
+    fn compensated(&mut self, form: &dyn RingSystem, h: f64, count: u64) {
         let size = self.state.len();
         let (mut stage, mut first, mut second) = (vec![0.0; size], vec![0.0; size], vec![0.0; size]);
         for _ in 0..count {
@@ -66,7 +66,7 @@ impl Sum {
 /// round.
 pub struct Wrapped<'a> {
     /// The equations in gaps; positions are turned into these for each evaluation.
-    pub gaps: &'a dyn Form,
+    pub gaps: &'a dyn RingSystem,
     /// The headway at contact, which a clearance lacks.
     pub contact: f64,
     /// `L`.
@@ -151,17 +151,17 @@ impl Kernel for Correct<'_> {
     fn run(self) {
         let rates = self.rates[0].iter().zip(self.rates[1]);
         for ((state, carry), (first, second)) in self.sum.state.iter_mut().zip(&mut self.sum.carry).zip(rates) {
-            let new = Twofold::sum(*state, self.half * (first + second) + *carry);
+            let new = DoubleDouble::sum(*state, self.half * (first + second) + *carry);
             (*state, *carry) = (new.hi, new.lo);
         }
     }
 }
 
 /// `count` steps of length `h` of the scheme in numbers of 106 bits: its truncation without its rounding.
-pub fn without_rounding(ring: &ExactRing, state: &mut [Twofold], h: Twofold, count: u64) {
+pub fn without_rounding(ring: &ExactRing, state: &mut [DoubleDouble], h: DoubleDouble, count: u64) {
     let size = ring.dimension();
     let (mut stage, mut first, mut second) =
-        (vec![Twofold::ZERO; size], vec![Twofold::ZERO; size], vec![Twofold::ZERO; size]);
+        (vec![DoubleDouble::ZERO; size], vec![DoubleDouble::ZERO; size], vec![DoubleDouble::ZERO; size]);
     let half = h.times(0.5);
     for _ in 0..count {
         ring.rates(state, &mut first);

@@ -17,7 +17,7 @@ use files::write::{atomic, with_path};
 use heun::{Adding, Sum};
 use jam::laws::Model;
 use jam::ring::{Ring, Start};
-use jam::states::{Form, FormKind};
+use jam::states::{RingSystem, StateVariables};
 use std::path::PathBuf;
 
 /// What the command line asks for.
@@ -94,23 +94,23 @@ const SHIFT: f64 = 1e-4;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
     /// One of the forms that every run can have.
-    Form(FormKind),
+    RingSystem(StateVariables),
     /// Positions in `[0, L)` ([`heun::Wrapped`]).
     Wrapped,
 }
 
 /// The states, with their names.
 const STATES: [(State, &str); 4] = [
-    (State::Form(FormKind::Positions), "positions"),
+    (State::RingSystem(StateVariables::Positions), "positions"),
     (State::Wrapped, "wrapped"),
-    (State::Form(FormKind::Gaps), "gaps"),
-    (State::Form(FormKind::Deviations), "deviations"),
+    (State::RingSystem(StateVariables::Spacings), "gaps"),
+    (State::RingSystem(StateVariables::Deviations), "deviations"),
 ];
 
 /// A run of figure 4's stable scene by Heun's scheme, in one of these states.
 struct Run {
     state: State,
-    form: Box<dyn Form>,
+    form: Box<dyn RingSystem>,
     /// What the form is built from.
     model: Model,
     ring: Ring,
@@ -121,10 +121,10 @@ impl Run {
     /// At the start. Wrapped positions start as unwrapped ones do.
     fn new(state: State) -> Run {
         let (model, ring) = figure_4_stable();
-        let start = |kind: FormKind| kind.build(&model, ring).start(Start { shift: SHIFT });
+        let start = |kind: StateVariables| kind.build(&model, ring).start(Start { shift: SHIFT });
         let (kind, begin) = match state {
-            State::Form(kind) => (kind, start(kind)),
-            State::Wrapped => (FormKind::Gaps, start(FormKind::Positions)),
+            State::RingSystem(kind) => (kind, start(kind)),
+            State::Wrapped => (StateVariables::Spacings, start(StateVariables::Positions)),
         };
         Run { state, form: kind.build(&model, ring), model, ring, sum: Sum::new(begin) }
     }
@@ -132,7 +132,7 @@ impl Run {
     /// Goes on for a time that is a multiple of the step `h`.
     fn advance(&mut self, h: f64, time: f64, adding: Adding) -> Result<(), Failure> {
         match self.state {
-            State::Form(_) => self.sum.advance(&*self.form, h, time, adding),
+            State::RingSystem(_) => self.sum.advance(&*self.form, h, time, adding),
             State::Wrapped => {
                 let (contact, length) = (self.model.contact(), self.ring.length);
                 heun::Wrapped { gaps: &*self.form, contact, length }.advance(&mut self.sum, h, time, adding);
@@ -144,9 +144,9 @@ impl Run {
     /// The standard deviation of the speeds.
     fn speed_deviation(&self) -> f64 {
         match self.state {
-            State::Form(_) => self.form.speed_deviation(&self.sum.state),
+            State::RingSystem(_) => self.form.speed_deviation(&self.sum.state),
             State::Wrapped => {
-                let positions = FormKind::Positions.build(&self.model, self.ring);
+                let positions = StateVariables::Positions.build(&self.model, self.ring);
                 positions.speed_deviation(&self.sum.state)
             }
         }

@@ -8,7 +8,7 @@ use crate::hard::waves::growth_rate;
 use figures::failure::Failure;
 use jam::laws::{Exponential, Logarithmic, Model};
 use jam::ring::Ring;
-use jam::states::FormKind;
+use jam::states::StateVariables;
 use jam::uniform::steady_speed;
 use ode::{Control, Method};
 use std::f64::consts::PI;
@@ -56,7 +56,7 @@ fn table(extent: Extent, models: [Model; 2], ring: Ring) -> Result<Rows, Failure
     for (flow, model) in ["stable", "unstable"].into_iter().zip(models) {
         let speed = steady_speed(&model, ring.headway()).map_err(Failure::work)?;
         let linear = model.linearise(ring.headway(), speed);
-        let case = Case { model, ring, kind: FormKind::Deviations };
+        let case = Case { model, ring, kind: StateVariables::Deviations };
         for l in (1..=count / 2).filter(|l| extent != Extent::Quick || l % 8 == 1) {
             let k = 2.0 * PI * l as f64 / count as f64;
             let exact = linear.refined_growth_rate(k);

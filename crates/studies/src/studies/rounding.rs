@@ -7,7 +7,7 @@ use super::{Extent, Run, STATES, State, optimum};
 use crate::hard::Tables;
 use crate::hard::rows::{Rows, row};
 use figures::failure::Failure;
-use math::twofold::Twofold;
+use math::double_double::DoubleDouble;
 use reference::scenes::LENGTH;
 use std::path::Path;
 
@@ -21,9 +21,9 @@ const TIMES: [f64; 3] = [500.0, 1000.0, 2000.0];
 /// What is known without rounding.
 struct Exact {
     /// The true states at the times.
-    solution: Vec<Vec<Twofold>>,
+    solution: Vec<Vec<DoubleDouble>>,
     /// What truncation adds to them, for each step and time.
-    truncation: Vec<Vec<Vec<Twofold>>>,
+    truncation: Vec<Vec<Vec<DoubleDouble>>>,
 }
 
 /// How far each form is from the solution at each time and step; of that what truncation does (the same for all forms,
@@ -95,7 +95,7 @@ fn errors(state: State, adding: Adding, steps: &[f64], times: &[f64], exact: &Ex
             run.advance(1.0 / per_unit, time - before, adding)?;
             before = time;
             let state = written(&exact_ring, &run);
-            let truncated: Vec<Twofold> = solution.iter().zip(truncation).map(|(a, b)| *a + *b).collect();
+            let truncated: Vec<DoubleDouble> = solution.iter().zip(truncation).map(|(a, b)| *a + *b).collect();
             lines.push(Line {
                 per_unit,
                 time,
@@ -118,10 +118,10 @@ impl Exact {
             let (mut before, mut errors) = (0.0, Vec::new());
             for (&time, solution) in times.iter().zip(&solution) {
                 // the step is the double that the runs have
-                let h = Twofold::from(1.0 / per_unit);
+                let h = DoubleDouble::from(1.0 / per_unit);
                 without_rounding(&scene.ring, &mut state, h, ((time - before) * per_unit) as u64);
                 before = time;
-                errors.push(state.iter().zip(solution).map(|(a, b)| *a - *b).collect::<Vec<Twofold>>());
+                errors.push(state.iter().zip(solution).map(|(a, b)| *a - *b).collect::<Vec<DoubleDouble>>());
             }
             truncation.push(errors);
         }
@@ -137,7 +137,7 @@ impl Exact {
 
 /// The error of steps that are `ratio` times as long as the shortest of three, from `E = a h^2 + b h^3 + c h^4`. The
 /// three are in the ratios 4, 2 and 1.
-fn extrapolated(errors: [&[Twofold]; 3], ratio: f64) -> Vec<Twofold> {
+fn extrapolated(errors: [&[DoubleDouble]; 3], ratio: f64) -> Vec<DoubleDouble> {
     // Lagrange's polynomial through E / h^2
     let weights = [
         (ratio - 1.0) * (ratio - 2.0) / 6.0 / 16.0,

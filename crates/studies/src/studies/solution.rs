@@ -3,8 +3,8 @@
 use super::{Run, State};
 use figures::failure::Failure;
 use files::write::with_path;
-use jam::states::FormKind;
-use math::twofold::{Twofold, decimal};
+use jam::states::StateVariables;
+use math::double_double::{DoubleDouble, decimal};
 use reference::ring::Ring as ExactRing;
 use reference::scenes::{Parameters, Scene, scene};
 use reference::table::spread;
@@ -28,9 +28,9 @@ pub fn exact_scene() -> Result<Scene, Failure> {
 ///
 /// # Errors
 /// The table cannot be read, or has no such time.
-pub fn state_at(folder: &Path, ring: &ExactRing, time: f64) -> Result<Vec<Twofold>, Failure> {
+pub fn state_at(folder: &Path, ring: &ExactRing, time: f64) -> Result<Vec<DoubleDouble>, Failure> {
     let (n, contact) = (ring.pedestrians, ring.law.contact());
-    let mut state = vec![Twofold::ZERO; ring.dimension()];
+    let mut state = vec![DoubleDouble::ZERO; ring.dimension()];
     let mut found = 0;
     for cells in rows(&folder.join(format!("{NAME}.csv")))? {
         let [t, pedestrian, gap, speed] = cells[..] else { continue };
@@ -52,38 +52,38 @@ pub fn spreads(folder: &Path) -> Result<Vec<f64>, Failure> {
 }
 
 /// The rows of a table of numbers, with all their digits.
-fn rows(file: &Path) -> Result<Vec<Vec<Twofold>>, Failure> {
+fn rows(file: &Path) -> Result<Vec<Vec<DoubleDouble>>, Failure> {
     let text = std::fs::read_to_string(file).map_err(|error| with_path(error, file))?;
-    let numbers = |line: &str| line.split(',').map(decimal::parse).collect::<Option<Vec<Twofold>>>();
+    let numbers = |line: &str| line.split(',').map(decimal::parse).collect::<Option<Vec<DoubleDouble>>>();
     let damaged = || Failure::work(format!("{}: a cell is not a number", file.display()));
     text.lines().skip(1).map(|line| numbers(line).ok_or_else(damaged)).collect()
 }
 
 /// The state of a run as the reference writes it, with its carries and without rounding: clearances, speeds, 0.
-pub fn written(ring: &ExactRing, run: &Run) -> Vec<Twofold> {
+pub fn written(ring: &ExactRing, run: &Run) -> Vec<DoubleDouble> {
     let (n, sum) = (ring.pedestrians, &run.sum);
-    let at = |index: usize| Twofold::sum(sum.state[index], sum.carry[index]);
-    let length = Twofold::from(run.ring.length);
+    let at = |index: usize| DoubleDouble::sum(sum.state[index], sum.carry[index]);
+    let length = DoubleDouble::from(run.ring.length);
     let contact = ring.law.contact();
     let clearance = |index: usize| match run.state {
-        State::Form(FormKind::Positions) if index + 1 < n => at(index + 1) - at(index) - contact,
-        State::Form(FormKind::Positions) => at(0) + length - at(index) - contact,
+        State::RingSystem(StateVariables::Positions) if index + 1 < n => at(index + 1) - at(index) - contact,
+        State::RingSystem(StateVariables::Positions) => at(0) + length - at(index) - contact,
         State::Wrapped => {
             let apart = at((index + 1) % n) - at(index);
             if apart.hi < 0.0 { apart + length - contact } else { apart - contact }
         }
-        State::Form(FormKind::Gaps) => at(index),
-        State::Form(FormKind::Deviations) => length / n as f64 - contact + at(index),
+        State::RingSystem(StateVariables::Spacings) => at(index),
+        State::RingSystem(StateVariables::Deviations) => length / n as f64 - contact + at(index),
     };
     let speed = |index: usize| match run.state {
-        State::Form(FormKind::Deviations) => at(2 * n + 2) + at(n + index),
-        State::Form(_) | State::Wrapped => at(n + index),
+        State::RingSystem(StateVariables::Deviations) => at(2 * n + 2) + at(n + index),
+        State::RingSystem(_) | State::Wrapped => at(n + index),
     };
-    (0..n).map(clearance).chain((0..n).map(speed)).chain([Twofold::ZERO]).collect()
+    (0..n).map(clearance).chain((0..n).map(speed)).chain([DoubleDouble::ZERO]).collect()
 }
 
 /// How far a state is from another.
-pub fn distances(ring: &ExactRing, state: &[Twofold], other: &[Twofold]) -> Distances {
+pub fn distances(ring: &ExactRing, state: &[DoubleDouble], other: &[DoubleDouble]) -> Distances {
     let (gap, speed) = reference::table::distances(ring, state, other);
     [gap, speed, (spread(ring, state) - spread(ring, other)).hi.abs()]
 }

@@ -6,7 +6,7 @@ use super::{Extent, Run, State, solution};
 use crate::hard::Tables;
 use crate::hard::rows::{Rows, row};
 use figures::failure::Failure;
-use jam::states::FormKind;
+use jam::states::StateVariables;
 use std::path::Path;
 
 /// The step of the paper.
@@ -18,7 +18,8 @@ const SAMPLE: f64 = 5.0;
 pub fn tables(extent: Extent, solutions: &Path) -> Result<Tables, Failure> {
     let exact = solution::spreads(solutions)?;
     let count = if extent == Extent::Full { 400 } else { 4 };
-    let curves = [State::Form(FormKind::Positions), State::Wrapped].map(|state| move || curve(state, count));
+    let curves =
+        [State::RingSystem(StateVariables::Positions), State::Wrapped].map(|state| move || curve(state, count));
     let [unwrapped, wrapped] = std::thread::scope(|scope| curves.map(|curve| scope.spawn(curve)).map(|one| one.join()));
     let of =
         |curve: std::thread::Result<_>| curve.map_err(|_| Failure::work("a thread of the verbatim run panicked"))?;

@@ -5,9 +5,9 @@ use crate::hard::rows::{Rows, row};
 use crate::hard::run::{Case, Leg, two_methods};
 use crate::parameters::jammed::Run;
 use figures::failure::Failure;
-use jam::events::{Event, Watch};
+use jam::events::{EventKind, Watch};
 use jam::ring::Ring;
-use jam::states::{Form, FormKind};
+use jam::states::{RingSystem, StateVariables};
 use ode::{Control, Method, Observer, Problem, Sampler, Step, integrate};
 use std::ops::ControlFlow;
 
@@ -24,7 +24,8 @@ pub fn relaxation() -> Result<Rows, Failure> {
     for v0 in [0.6, 1.0, 2.0, 3.0, 10.0, 100.0] {
         let run = Run { desired_speed: v0, ..Run::default() };
         // so small that the force differs from the drive by rounding, and still no overlap
-        let case = Case { model: run.model(), ring: Ring { pedestrians: 2, length: 1e-20 }, kind: FormKind::Gaps };
+        let case =
+            Case { model: run.model(), ring: Ring { pedestrians: 2, length: 1e-20 }, kind: StateVariables::Spacings };
         let start = jam::states::gaps_state(&case.model, &[5e-21; 2], &[v0; 2], 0.0);
         let [one, two] = two_methods(1e-13).map(|(method, control)| {
             let at = |end: f64| case.run_from(&start, Leg { method, control, begin: 0.0, end });
@@ -196,7 +197,7 @@ pub(super) fn bracket(at: impl Fn(f64) -> Run, (low, high): (f64, f64), width: f
 
 fn look(run: &Run, method: Method, tolerance: f64) -> Result<Seen, Failure> {
     let (model, ring) = (run.model(), run.ring());
-    let form = FormKind::Deviations.build(&model, ring);
+    let form = StateVariables::Deviations.build(&model, ring);
     let start = run.state(&*form);
     let seen = Seen { touched: None, least: f64::INFINITY, negative_before: None };
     let watch = Watch::new(model, &*form, ring.pedestrians);
@@ -210,7 +211,7 @@ fn look(run: &Run, method: Method, tolerance: f64) -> Result<Seen, Failure> {
 
 struct Looking<'a> {
     watch: Watch<'a>,
-    form: &'a dyn Form,
+    form: &'a dyn RingSystem,
     sampler: Sampler,
     end: f64,
     seen: Seen,
@@ -243,8 +244,9 @@ impl Looking<'_> {
 impl Observer for Looking<'_> {
     fn after(&mut self, step: &mut Step<'_>) -> ControlFlow<()> {
         let new = self.watch.look(step);
-        let find = |event: Event| new.iter().find(|happening| happening.event == event);
-        let (overlap, negative) = (find(Event::Overlap), find(Event::NegativeSpeed).map(|happening| happening.time));
+        let find = |event: EventKind| new.iter().find(|happening| happening.kind == event);
+        let (overlap, negative) =
+            (find(EventKind::Overlap), find(EventKind::NegativeSpeed).map(|happening| happening.time));
         if self.seen.touched.is_none() {
             self.slow_down(step, overlap.map_or(self.end, |happening| happening.time));
         }

@@ -5,7 +5,7 @@ use super::contact::bracket;
 use crate::hard::rows::{Rows, row};
 use crate::parameters::jammed::Run;
 use figures::failure::Failure;
-use jam::states::{Form, FormKind};
+use jam::states::{RingSystem, StateVariables};
 use ode::{Control, Method, Observer, Problem, Sampler, Step, integrate};
 use std::ops::ControlFlow;
 
@@ -65,7 +65,7 @@ pub fn jam_headway() -> Result<Rows, Failure> {
 /// The least headway.
 fn least(run: &Run, method: Method) -> Result<f64, Failure> {
     let (model, ring) = (run.model(), run.ring());
-    let form = FormKind::Deviations.build(&model, ring);
+    let form = StateVariables::Deviations.build(&model, ring);
     let start = run.state(&*form);
     let sampler = Sampler::new(SAMPLE, form.dimension());
     let (count, least) = (ring.pedestrians, f64::INFINITY);
@@ -80,7 +80,7 @@ fn least(run: &Run, method: Method) -> Result<f64, Failure> {
 type Sampled = (f64, Vec<f64>, Vec<f64>);
 
 struct Looking<'a> {
-    form: &'a dyn Form,
+    form: &'a dyn RingSystem,
     count: usize,
     sampler: Sampler,
     end: f64,

@@ -5,11 +5,11 @@ use super::critical::{algebraic, exponential};
 use crate::hard::rows::{Rows, row};
 use crate::hard::run::two_methods;
 use figures::failure::Failure;
-use jam::events::{Event, Watch};
+use jam::events::{EventKind, Watch};
 use jam::laws::{Logarithmic, Model};
 use jam::ring::{Ring, Start};
 use jam::stability::Linear;
-use jam::states::{Form, FormKind};
+use jam::states::{RingSystem, StateVariables};
 use jam::uniform::steady_speed;
 use ode::{Control, Method, Observer, Problem, Sampler, Step, integrate};
 use std::ops::ControlFlow;
@@ -126,14 +126,14 @@ struct Followed {
 
 struct Following<'a> {
     watch: Watch<'a>,
-    form: &'a dyn Form,
+    form: &'a dyn RingSystem,
     sampler: Sampler,
     followed: Followed,
 }
 
 fn follow(model: &Model, ring: Ring, (method, control): (Method, Control)) -> Result<Followed, Failure> {
     // gaps keep their digits at the walls to which an unstable run comes
-    let form = FormKind::Gaps.build(model, ring);
+    let form = StateVariables::Spacings.build(model, ring);
     let start = form.start(Start { shift: 1e-4 });
     let followed = Followed { stop: None, negative: None, least: f64::INFINITY };
     let (watch, sampler) =
@@ -147,7 +147,7 @@ fn follow(model: &Model, ring: Ring, (method, control): (Method, Control)) -> Re
 impl Observer for Following<'_> {
     fn after(&mut self, step: &mut Step<'_>) -> ControlFlow<()> {
         let new = self.watch.look(step);
-        let stop = new.iter().find(|happening| happening.event.is_stop());
+        let stop = new.iter().find(|happening| happening.kind.is_stop());
         let until = stop.map_or(END, |happening| happening.time);
         let (form, least, count) = (self.form, &mut self.followed.least, self.watch.speeds().len());
         let (mut gaps, mut speeds) = (vec![0.0; count], vec![0.0; count]);
@@ -155,9 +155,10 @@ impl Observer for Following<'_> {
             form.read(state, &mut gaps, &mut speeds);
             *least = speeds.iter().copied().fold(*least, math::smaller);
         });
-        let negative = new.iter().find(|happening| happening.event == Event::NegativeSpeed && happening.time <= until);
+        let negative =
+            new.iter().find(|happening| happening.kind == EventKind::NegativeSpeed && happening.time <= until);
         self.followed.negative = self.followed.negative.or(negative.map(|happening| happening.time));
-        self.followed.stop = stop.map(|happening| (happening.event.name(), happening.time));
+        self.followed.stop = stop.map(|happening| (happening.kind.name(), happening.time));
         if stop.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 

@@ -12,7 +12,7 @@ use jam::laws::{Algebraic, Model};
 use jam::observe::spread;
 use jam::ring::Ring;
 use jam::stability::{Response, Waves};
-use jam::states::FormKind;
+use jam::states::StateVariables;
 use jam::uniform::{headway_of_gap, steady_speed};
 use ode::{Problem, Step, integrate};
 use std::f64::consts::TAU;
@@ -214,7 +214,7 @@ fn watched_by_nobody(_: &mut Step<'_>) -> ControlFlow<()> {
 fn lasts(family: &Family, wave: &Wave, pedestrians: usize) -> Result<Vec<Cell>, Failure> {
     let model = Model::Algebraic(law(wave.strength));
     let headway = headway_of_gap(&model, GAP).map_err(Failure::work)?;
-    let form = FormKind::Gaps.build(&model, Ring { pedestrians, length: headway * pedestrians as f64 });
+    let form = StateVariables::Spacings.build(&model, Ring { pedestrians, length: headway * pedestrians as f64 });
     let [gaps, mut speeds] = [&family.gaps(wave), &wave.speeds].map(|values| resampled(values, pedestrians));
     let began = spread(&speeds);
     speeds[0] += DISTURBED;
@@ -253,7 +253,7 @@ mod tests {
         let (family, waves) = branch(20, 31).expect("a branch");
         let wave = &waves[waves.len() / 2];
         let model = Model::Algebraic(law(wave.strength));
-        let form = FormKind::Gaps.build(&model, Ring { pedestrians: 20, length: 50.0 });
+        let form = StateVariables::Spacings.build(&model, Ring { pedestrians: 20, length: 50.0 });
         let [gaps, speeds] = [&family.gaps(wave), &wave.speeds].map(|values| resampled(values, 20));
         let start: Vec<f64> = gaps.iter().chain(&speeds).copied().chain([0.0]).collect();
         let [(method, control), _] = two_methods(1e-11);

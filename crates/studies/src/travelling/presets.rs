@@ -8,11 +8,11 @@ use jam::laws::Model;
 use jam::laws::presets::{PRESETS, Preset};
 use jam::ring::{Ring, Start};
 use jam::stability::Waves;
-use jam::states::FormKind;
+use jam::states::StateVariables;
 use jam::uniform::{headway_of_gap, steady_speed};
 use ode::{Control, Method};
 use scene::run::{AtOverlap, Scene};
-use scene::simulation::{Judging, Onlooker, run_from};
+use scene::simulation::{Judging, RunObserver, run_from};
 
 /// Pedestrians, as in the runs of the source.
 const PEDESTRIANS: usize = 67;
@@ -51,7 +51,7 @@ pub(super) fn table() -> Result<Rows, Failure> {
             method: Method::Dop853,
             control: Control::Adaptive { tolerance: 1e-8 },
             most_steps: 1_000_000_000,
-            form: FormKind::Gaps,
+            form: StateVariables::Spacings,
             keeps_trajectories: false,
             at_overlap: AtOverlap::Stop,
         };
@@ -107,7 +107,7 @@ fn threshold(preset: &Preset) -> Result<Option<f64>, Failure> {
 /// A run goes on until its outcome is certain.
 struct Judged;
 
-impl Onlooker for Judged {
+impl RunObserver for Judged {
     fn judging(&self) -> Judging {
         Judging::UntilCertain
     }

@@ -2,7 +2,7 @@
 //! counted, distances of curves.
 
 use crate::root;
-use files::recipe::{self, Kind};
+use files::scene_file::{self, Kind};
 use jam::laws::Logarithmic;
 use ode::{Control, Method};
 use std::f64::consts::{E, PI};
@@ -101,18 +101,18 @@ fn drawn_numbers_fill_their_range_evenly_and_are_always_the_same() {
 
 #[test]
 fn the_maps_that_are_counted_are_those_of_the_figures() {
-    let counted = recipe::read(&root().join("figures/s14-thresholds/scene.toml")).expect("a scene");
+    let counted = scene_file::read(&root().join("figures/s14-thresholds/scene.toml")).expect("a scene");
     let mut compared = 0;
     for folder in std::fs::read_dir(root().join("figures")).expect("the figures") {
         let slug = folder.expect("an entry").file_name().into_string().expect("a name");
         if !slug.starts_with("fig") {
             continue;
         }
-        let figure = recipe::read(&root().join("figures").join(&slug).join("scene.toml")).expect("a scene");
+        let figure = scene_file::read(&root().join("figures").join(&slug).join("scene.toml")).expect("a scene");
         for panel in figure.panels.iter().filter(|panel| panel.kind == Kind::Map) {
             let name = format!("{}_{}", &slug[..5], panel.name);
             let own = counted.panel(&name).expect("a panel of that name");
-            let read = |file: &str, panel: &recipe::Panel| scene::map::read(file, &panel.tables).expect("a map");
+            let read = |file: &str, panel: &scene_file::Panel| scene::map::read(file, &panel.tables).expect("a map");
             assert_eq!(format!("{:?}", read("a", panel)), format!("{:?}", read("a", own)), "{name}");
             compared += 1;
         }
@@ -122,7 +122,7 @@ fn the_maps_that_are_counted_are_those_of_the_figures() {
 
 #[test]
 fn along_the_strength_stability_is_lost_once_for_each_distance() {
-    let counted = recipe::read(&root().join("figures/s14-thresholds/scene.toml")).expect("a scene");
+    let counted = scene_file::read(&root().join("figures/s14-thresholds/scene.toml")).expect("a scene");
     let panel = counted.panel("fig03_left").expect("the panel");
     let map = scene::map::read("a", &panel.tables).expect("a map");
     let rows = monotone::table(&[("fig03_left", map)]).expect("a table");

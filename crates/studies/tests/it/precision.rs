@@ -1,7 +1,7 @@
 //! Error against work: a quick run against the committed tables, and laws that these must follow.
 
 use crate::{root, succeed};
-use math::twofold::Twofold;
+use math::double_double::DoubleDouble;
 use std::path::PathBuf;
 use studies::hard::rows::Rows;
 use studies::precision::scenes::SCENES;
@@ -33,7 +33,7 @@ fn an_error_stays_the_share_of_the_perturbation_that_it_was_made_as() {
     for known in SCENES {
         let figures = root().join("figures");
         let ring = known.scene(&figures, &[]).expect("a scene").ring;
-        let headway = Twofold::from(ring.length) / Twofold::from(ring.pedestrians as f64);
+        let headway = DoubleDouble::from(ring.length) / DoubleDouble::from(ring.pedestrians as f64);
         let solution = known.solution(&root().join("data/reference/solutions"), headway).expect("a solution");
         let largest = |numbers: &[f64]| numbers.iter().fold(0.0, |most, number| math::larger(most, number.abs()));
         let gaps = solution.iter().map(|instant| largest(&instant.gaps)).fold(0.0, math::larger);

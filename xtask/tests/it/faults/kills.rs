@@ -21,7 +21,7 @@ enum Start {
     /// Everything was made, and is made again.
     Forced,
     /// Wherever the last kill has left it.
-    Underway,
+    PartialRun,
 }
 
 struct Plan {
@@ -43,7 +43,7 @@ pub fn kills(checkout: &Checkout, count: usize, random: &mut Random, tally: &mut
         match plan.start {
             Start::Nothing => checkout.forget(true),
             Start::Undrawn => checkout.forget(false),
-            Start::Forced | Start::Underway => {}
+            Start::Forced | Start::PartialRun => {}
         }
         let Some(left) = kill(checkout, &plan, duration) else {
             early += 1;
@@ -76,7 +76,7 @@ fn durations(checkout: &Checkout) -> Vec<[Duration; 4]> {
         match start {
             Start::Nothing => checkout.forget(true),
             Start::Undrawn => checkout.forget(false),
-            Start::Forced | Start::Underway => {}
+            Start::Forced | Start::PartialRun => {}
         }
         let clock = Instant::now();
         let ended = Ended::of(&mut checkout.command(&arguments(figures, start)));
@@ -103,7 +103,7 @@ fn draw(killed: usize, count: usize, random: &mut Random) -> Plan {
         5 | 15 => FEW[1],
         _ => FEW[0],
     };
-    let start = [Start::Nothing, Start::Undrawn, Start::Forced, Start::Underway][random.below(4)];
+    let start = [Start::Nothing, Start::Undrawn, Start::Forced, Start::PartialRun][random.below(4)];
     // moments in order fill the duration evenly, with a random part within each stretch
     let part = (killed as f64 + random.part()) / count as f64;
     let moment = if random.below(2) == 0 { Ok(part * 1.02) } else { Err(1 + random.below(24)) };

@@ -10,7 +10,7 @@ use formula::{Bound, Id, Unary};
 use math::change::rules::Kept;
 use math::dual::Dual;
 use math::simd::dispatch;
-use ode::Burst;
+use ode::Batch;
 pub use program::Source;
 use program::{Action, Instruction, Program};
 use rows::{Machine, Neighbours, Reach, Rows};
@@ -201,8 +201,8 @@ impl Force for Interpreted {
         dispatch(series::Coefficients { program, reach, operations, contact, motion, memory });
     }
 
-    fn heun(&self, _steps: Steps, _cut: Option<Cut>, _state: &mut [f64]) -> Burst {
-        Burst::NotOffered
+    fn heun(&self, _steps: Steps, _cut: Option<Cut>, _state: &mut [f64]) -> Batch {
+        Batch::Unsupported
     }
 }
 

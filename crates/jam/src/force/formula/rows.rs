@@ -4,7 +4,7 @@ use super::program::{Action, Program, Source};
 use formula::Unary;
 use math::change::rules::{self, Kept};
 use math::number::Number;
-use math::row::{self, LANES, LENGTH, Room};
+use math::row::{self, LANES, LENGTH, Scratch};
 use math::simd::Kernel;
 
 /// Spacings and speeds of a ring, with those of the neighbours that a formula looks at before the first and behind the
@@ -95,7 +95,7 @@ fn extend(reach: Reach, ring: &[f64], row: &mut Vec<f64>) {
 #[derive(Clone, Debug, Default)]
 pub struct Machine {
     registers: Vec<Vec<f64>>,
-    room: Room,
+    room: Scratch,
 }
 
 impl Machine {
@@ -169,7 +169,7 @@ macro_rules! each {
 
 /// One instruction on values.
 #[inline(always)]
-fn values(action: Action, x: &[f64], y: &[f64], row: &mut [f64], room: &mut Room) {
+fn values(action: Action, x: &[f64], y: &[f64], row: &mut [f64], room: &mut Scratch) {
     match action {
         Action::Constant(c) => row.fill(c),
         Action::AddConstant(c) => each!(row, x => x + c),
@@ -207,7 +207,7 @@ fn values(action: Action, x: &[f64], y: &[f64], row: &mut [f64], room: &mut Room
 
 /// One instruction on changes from what it kept.
 #[inline(always)]
-fn changes(action: Action, kept: &Kept, x: &[f64], y: &[f64], row: &mut [f64], room: &mut Room) {
+fn changes(action: Action, kept: &Kept, x: &[f64], y: &[f64], row: &mut [f64], room: &mut Scratch) {
     let kept = *kept;
     match action {
         Action::Constant(_) => row.fill(0.0),

@@ -5,7 +5,7 @@
 //! become wrong with every step, the block itself never. Blocks are done in order, the foremost last, so that those
 //! ahead are still as they were. Every pedestrian is computed by the same operations as in one piece: the same bits, for any cut.
 
-use super::road::{Road, Scheme};
+use super::segment::{Scheme, Segment};
 use crate::force::Steps;
 use crate::laws::Law;
 use math::simd::{Kernel, dispatch_up_to};
@@ -23,7 +23,7 @@ pub struct Cut {
     pub threads: usize,
 }
 
-/// Larger rings go in blocks: a road takes 40 bytes for each, so these fill 160 KiB.
+/// Larger rings go in blocks: a segment takes 40 bytes for each, so these fill 160 KiB.
 const LARGE: usize = 4096;
 /// Rings of this size are worth a second thread: it takes as long to start as some thousand steps of a hundred.
 const VERY_LARGE: usize = 131_072;
@@ -38,7 +38,7 @@ impl Cut {
     }
 }
 
-/// The steps of a burst; false if something happened in one of them.
+/// The steps of a batch; false if something happened in one of them.
 pub(super) fn in_blocks<L: Law>(law: L, steps: Steps, cut: Cut, state: &mut [f64]) -> bool {
     let mut left = steps.count;
     while left > 0 {
@@ -121,12 +121,12 @@ impl<L: Law> Blocks<'_, L> {
         let Blocks { steps, size, mut part, .. } = self;
         let scheme = Scheme { law, in_rows, h: steps.h };
         // one place more for the image of pedestrian 0
-        let mut road = Road::new(size + 2 * steps.count as usize + 1);
+        let mut segment = Segment::new(size + 2 * steps.count as usize + 1);
         let count = part.positions.len();
         let mut begin = 0;
         while begin < count {
             let end = count.min(begin + size);
-            if !block(scheme, &steps, &mut part, begin..end, &mut road) {
+            if !block(scheme, &steps, &mut part, begin..end, &mut segment) {
                 return false;
             }
             begin = end;
@@ -142,34 +142,34 @@ fn block<L: Law>(
     steps: &Steps,
     part: &mut Part<'_>,
     range: Range<usize>,
-    road: &mut Road,
+    segment: &mut Segment,
 ) -> bool {
     let Steps { length, count, .. } = *steps;
     let own = range.len();
     let all = own + 2 * count as usize;
     let image = part.positions.len() - range.start;
     let has_image = part.is_last && image < all;
-    fill(&mut road.now.positions, &part.positions[range.start..], &part.ahead.0, all, has_image);
-    fill(&mut road.now.speeds, &part.speeds[range.start..], &part.ahead.1, all, has_image);
+    fill(&mut segment.now.positions, &part.positions[range.start..], &part.ahead.0, all, has_image);
+    fill(&mut segment.now.speeds, &part.speeds[range.start..], &part.ahead.1, all, has_image);
     // the place of the image is nobody's: what is computed for it is overwritten
     let end = all + usize::from(has_image);
     for _ in 0..count {
         if has_image {
-            road.now.put_image(image, image + 1, length);
+            segment.now.fill_ghost(image, image + 1, length);
         }
         // those taken along become wrong, and so does what happens to them
         for (range, is_own) in [(0..own, true), (own..end, false)] {
-            if !road.predict(scheme, range) && is_own {
+            if !segment.predict(scheme, range) && is_own {
                 return false;
             }
         }
         if has_image {
-            road.guess.put_image(image, image + 1, length);
+            segment.guess.fill_ghost(image, image + 1, length);
         }
-        road.correct(scheme, 0..end);
+        segment.correct(scheme, 0..end);
     }
-    part.positions[range.clone()].copy_from_slice(&road.now.positions[..own]);
-    part.speeds[range].copy_from_slice(&road.now.speeds[..own]);
+    part.positions[range.clone()].copy_from_slice(&segment.now.positions[..own]);
+    part.speeds[range].copy_from_slice(&segment.now.speeds[..own]);
     true
 }
 

@@ -1,11 +1,11 @@
 //! Many steps of Heun's scheme in positions and speeds at once: the scheme of the paper, 3e8 steps of it a run.
 //!
 //! The same sums in the same order as the general method makes them, so the same bits. What makes it fast: all steps of a
-//! burst run in one function, on arrays that stay in the first-level cache ([`road`]). Rings too large for a cache go
+//! batch run in one function, on arrays that stay in the first-level cache ([`segment`]). Rings too large for a cache go
 //! through it block by block, each many steps at a time ([`blocks`]).
 
 mod blocks;
-mod road;
+mod segment;
 
 pub use blocks::Cut;
 
@@ -15,11 +15,11 @@ use crate::ring::Ring;
 use blocks::in_blocks;
 use math::row::LANES;
 use math::simd::{Kernel, Width, dispatch_up_to};
-use ode::Burst;
-use road::{Road, Scheme};
+use ode::Batch;
+use segment::{Scheme, Segment};
 
-/// Makes steps of the state `[x_0 .. x_{N-1}, v_0 .. v_{N-1}]`. An eventful burst leaves the state untouched.
-pub(super) fn burst<L: Law>(law: &L, steps: Steps, cut: Option<Cut>, state: &mut [f64]) -> Burst {
+/// Makes steps of the state `[x_0 .. x_{N-1}, v_0 .. v_{N-1}]`. An eventful batch leaves the state untouched.
+pub(super) fn batch<L: Law>(law: &L, steps: Steps, cut: Option<Cut>, state: &mut [f64]) -> Batch {
     let mut new = state.to_vec();
     let is_quiet_within = match cut {
         Some(cut) => in_blocks(*law, steps, cut, &mut new),
@@ -27,9 +27,9 @@ pub(super) fn burst<L: Law>(law: &L, steps: Steps, cut: Option<Cut>, state: &mut
     };
     if is_quiet_within && is_quiet(law, steps.length, &new) {
         state.copy_from_slice(&new);
-        Burst::Quiet
+        Batch::Done
     } else {
-        Burst::Eventful
+        Batch::NeedsInspection
     }
 }
 
@@ -43,7 +43,7 @@ pub fn heun_steps(
     state: &mut [f64],
     cut: Option<Cut>,
     limit: Width,
-) -> Burst {
+) -> Batch {
     model.force().heun(Steps { length: ring.length, h, count, limit }, cut, state)
 }
 
@@ -77,27 +77,27 @@ impl<L: Law> InOne<'_, L> {
         let scheme = Scheme { law, in_rows, h };
         let n = self.state.len() / 2;
         let size = n.next_multiple_of(LANES);
-        let mut road = Road::new(size);
+        let mut segment = Segment::new(size);
         let (positions, speeds) = self.state.split_at_mut(n);
-        road.now.positions[..n].copy_from_slice(positions);
-        road.now.speeds[..n].copy_from_slice(speeds);
+        segment.now.positions[..n].copy_from_slice(positions);
+        segment.now.speeds[..n].copy_from_slice(speeds);
         let place = |image: usize| (image % n, (image / n) as f64 * length);
         for image in n..size {
-            road.now.put_image(image, place(image).0, place(image).1);
+            segment.now.fill_ghost(image, place(image).0, place(image).1);
         }
         let (last, turns) = place(size);
         for _ in 0..count {
-            road.now.put_image(n, 0, length);
-            road.now.put_image(size, last, turns);
-            if !road.predict(scheme, 0..size) {
+            segment.now.fill_ghost(n, 0, length);
+            segment.now.fill_ghost(size, last, turns);
+            if !segment.predict(scheme, 0..size) {
                 return false;
             }
-            road.guess.put_image(n, 0, length);
-            road.guess.put_image(size, last, turns);
-            road.correct(scheme, 0..size);
+            segment.guess.fill_ghost(n, 0, length);
+            segment.guess.fill_ghost(size, last, turns);
+            segment.correct(scheme, 0..size);
         }
-        positions.copy_from_slice(&road.now.positions[..n]);
-        speeds.copy_from_slice(&road.now.speeds[..n]);
+        positions.copy_from_slice(&segment.now.positions[..n]);
+        speeds.copy_from_slice(&segment.now.speeds[..n]);
         true
     }
 }

@@ -1,7 +1,7 @@
 //! A scene file: title, source, and one panel for each set of numbers it asks for. Tables of the file (`[law]`,
 //! `[ring]`, ...) hold for every panel; `[panel.NAME.law]` and the like lie on top of them.
 
-use crate::reader::{Entry, RecipeError, Section, Value};
+use crate::reader::{Entry, SceneError, Section, Value};
 use crate::text;
 use std::path::Path;
 
@@ -47,7 +47,7 @@ impl Panel {
 
 /// A scene file.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Recipe {
+pub struct SceneFile {
     /// The file, as it was named.
     pub file: String,
     /// What it shows, in words.
@@ -60,20 +60,20 @@ pub struct Recipe {
     pub origin: Vec<(String, String)>,
 }
 
-impl Recipe {
+impl SceneFile {
     /// The panel of this name.
     ///
     /// # Errors
     /// There is none; the names that exist.
-    pub fn panel(&self, name: &str) -> Result<&Panel, RecipeError> {
+    pub fn panel(&self, name: &str) -> Result<&Panel, SceneError> {
         self.panels.iter().find(|panel| panel.name == name).ok_or_else(|| {
             let names: Vec<&str> = self.panels.iter().map(|panel| panel.name.as_str()).collect();
             self.error(0, format!("no panel {name}; the scene has {}", names.join(", ")))
         })
     }
 
-    fn error(&self, line: usize, problem: String) -> RecipeError {
-        RecipeError::new(&self.file, line, problem)
+    fn error(&self, line: usize, problem: String) -> SceneError {
+        SceneError::new(&self.file, line, problem)
     }
 }
 
@@ -81,9 +81,9 @@ impl Recipe {
 ///
 /// # Errors
 /// The file cannot be read, is not TOML, or has an unknown table.
-pub fn read(path: &Path) -> Result<Recipe, RecipeError> {
+pub fn read(path: &Path) -> Result<SceneFile, SceneError> {
     let file = path.display().to_string();
-    let text = text::read(path).map_err(|(line, problem)| RecipeError::new(&file, line, problem))?;
+    let text = text::read(path).map_err(|(line, problem)| SceneError::new(&file, line, problem))?;
     parse(&file, &text)
 }
 
@@ -91,7 +91,7 @@ pub fn read(path: &Path) -> Result<Recipe, RecipeError> {
 ///
 /// # Errors
 /// The text is not TOML, or has an unknown table.
-pub fn parse(file: &str, text: &str) -> Result<Recipe, RecipeError> {
+pub fn parse(file: &str, text: &str) -> Result<SceneFile, SceneError> {
     read_section(file, &Section::parse(file, text)?)
 }
 
@@ -99,8 +99,8 @@ pub fn parse(file: &str, text: &str) -> Result<Recipe, RecipeError> {
 ///
 /// # Errors
 /// There is an unknown table.
-pub fn read_section(file: &str, document: &Section) -> Result<Recipe, RecipeError> {
-    let complain = |line, problem| RecipeError::new(file, line, problem);
+pub fn read_section(file: &str, document: &Section) -> Result<SceneFile, SceneError> {
+    let complain = |line, problem| SceneError::new(file, line, problem);
     for (key, entry) in &document.entries {
         if !DETERMINING.contains(&key.as_str()) && !DESCRIBING.contains(&key.as_str()) {
             let known = [&DESCRIBING[..], &DETERMINING[..]].concat().join(", ");
@@ -112,7 +112,7 @@ pub fn read_section(file: &str, document: &Section) -> Result<Recipe, RecipeErro
         None => vec![Panel { name: "main".to_owned(), kind: kind(&base), tables: base }],
         Some(named) => panels(&base, named).map_err(|(line, problem)| complain(line, problem))?,
     };
-    Ok(Recipe {
+    Ok(SceneFile {
         file: file.to_owned(),
         title: words(document, "title").map_err(|(line, problem)| complain(line, problem))?,
         source: words(document, "source").map_err(|(line, problem)| complain(line, problem))?,

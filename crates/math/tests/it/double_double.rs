@@ -1,17 +1,17 @@
 //! Numbers of 106 bits: exact sums and products, and values known to more digits.
 
 use crate::sample::Random;
-use math::twofold::Twofold;
+use math::double_double::DoubleDouble;
 
 /// Asserts a relative distance of at most 2^-`bits`.
 #[track_caller]
-fn assert_near(value: Twofold, truth: Twofold, bits: i32) {
+fn assert_near(value: DoubleDouble, truth: DoubleDouble, bits: i32) {
     let distance = (value - truth).hi.abs() / truth.hi.abs();
     assert!(distance <= f64::from_bits(((1023 - bits) as u64) << 52), "{value:?} for {truth:?}: {distance:e}");
 }
 
-fn pair(hi: f64, lo: f64) -> Twofold {
-    Twofold { hi, lo }
+fn pair(hi: f64, lo: f64) -> DoubleDouble {
+    DoubleDouble { hi, lo }
 }
 
 #[test]
@@ -20,9 +20,9 @@ fn sums_and_products_of_doubles_are_exact() {
     for _ in 0..100_000 {
         // whole numbers, whose sums and products a machine integer holds
         let (a, b) = (random.bits() as i64 >> 11, random.bits() as i64 >> 30);
-        let sum = Twofold::sum(a as f64, b as f64);
+        let sum = DoubleDouble::sum(a as f64, b as f64);
         assert_eq!(sum.hi as i128 + sum.lo as i128, a as i128 + b as i128);
-        let product = Twofold::product(a as f64, b as f64);
+        let product = DoubleDouble::product(a as f64, b as f64);
         assert_eq!(product.hi as i128 + product.lo as i128, a as i128 * b as i128);
     }
 }
@@ -30,7 +30,7 @@ fn sums_and_products_of_doubles_are_exact() {
 #[test]
 fn operations_undo_each_other() {
     let mut random = Random(61);
-    let mut number = || Twofold::sum(random.uniform(0.5, 2.0), random.uniform(-1e-17, 1e-17));
+    let mut number = || DoubleDouble::sum(random.uniform(0.5, 2.0), random.uniform(-1e-17, 1e-17));
     for _ in 0..100_000 {
         let (a, b) = (number(), number());
         assert_near((a + b) - b, a, 102);
@@ -40,14 +40,14 @@ fn operations_undo_each_other() {
         assert_near(a * b.hi / b.hi, a, 101);
         assert_near(-(-a - 3.0) - 3.0, a, 102);
     }
-    assert_eq!(Twofold::ZERO.sqrt(), Twofold::ZERO);
-    assert_eq!(f64::from(Twofold::ONE + 1e-17), 1.0);
+    assert_eq!(DoubleDouble::ZERO.sqrt(), DoubleDouble::ZERO);
+    assert_eq!(f64::from(DoubleDouble::ONE + 1e-17), 1.0);
 }
 
 /// Values computed with mpmath to 400 bits.
 #[test]
 fn functions_have_eighty_bits() {
-    let of = |x: f64| Twofold::from(x);
+    let of = |x: f64| DoubleDouble::from(x);
     assert_near(of(1.0) / 3.0, pair(0.3333333333333333, 1.850371707708594e-17), 102);
     assert_near(of(2.0).sqrt(), pair(std::f64::consts::SQRT_2, -9.667293313452913e-17), 102);
     assert_near(of(1.0).exp(), pair(std::f64::consts::E, 1.4456468917292502e-16), 80);
@@ -61,18 +61,18 @@ fn functions_have_eighty_bits() {
 #[test]
 fn outside_their_domains_twofold_functions_say_so() {
     for x in [0.0, -0.0, -1.0, -1e300, f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
-        assert!(Twofold::from(x).ln().hi.is_nan(), "{x}");
+        assert!(DoubleDouble::from(x).ln().hi.is_nan(), "{x}");
     }
     for x in [-1.0, -2.0, f64::INFINITY, f64::NAN] {
-        assert!(Twofold::from(x).ln_1p().hi.is_nan(), "{x}");
+        assert!(DoubleDouble::from(x).ln_1p().hi.is_nan(), "{x}");
     }
     let overflow = 709.782_712_893_384;
     for x in [710.0, 800.0, 1e300, f64::INFINITY, overflow + 1e-3] {
-        assert_eq!(Twofold::from(x).exp().hi, f64::INFINITY, "{x}");
+        assert_eq!(DoubleDouble::from(x).exp().hi, f64::INFINITY, "{x}");
     }
     for x in [-708.1, -800.0, -1e300, f64::NEG_INFINITY] {
-        assert_eq!(Twofold::from(x).exp(), Twofold::ZERO, "{x}");
+        assert_eq!(DoubleDouble::from(x).exp(), DoubleDouble::ZERO, "{x}");
     }
-    assert!(Twofold::from(overflow).exp().hi.is_finite());
-    assert!(Twofold::from(-708.0).exp().hi > 3e-308 && Twofold::from(709.5).exp().hi > 1e308);
+    assert!(DoubleDouble::from(overflow).exp().hi.is_finite());
+    assert!(DoubleDouble::from(-708.0).exp().hi > 3e-308 && DoubleDouble::from(709.5).exp().hi > 1e308);
 }

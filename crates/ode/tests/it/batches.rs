@@ -1,26 +1,26 @@
 //! Steps of Heun's scheme that a system makes many at a time: which of them, and with the bits of single ones.
 
 use crate::problems::{Equations, oscillator, solve};
-use ode::{Burst, Control, Group, Mark, Method, Observer, Problem, Statistics, Step, System, integrate};
+use ode::{Batch, Control, Group, Method, Observer, Problem, ResumePoint, Statistics, Step, System, integrate};
 use std::cell::{Cell, RefCell};
 use std::ops::{ControlFlow, Range};
 
-/// The oscillator, which makes bursts; its first few are eventful.
-struct Bursting {
+/// The oscillator, which makes batches; its first few are eventful.
+struct Batched {
     oscillator: Equations,
     offers: bool,
     eventful: Cell<u32>,
-    /// Counts of the bursts it was asked for.
+    /// Counts of the batches it was asked for.
     asked: RefCell<Vec<u64>>,
 }
 
-impl Bursting {
-    fn new(offers: bool, eventful: u32) -> Bursting {
-        Bursting { oscillator: oscillator(), offers, eventful: Cell::new(eventful), asked: RefCell::default() }
+impl Batched {
+    fn new(offers: bool, eventful: u32) -> Batched {
+        Batched { oscillator: oscillator(), offers, eventful: Cell::new(eventful), asked: RefCell::default() }
     }
 }
 
-impl System for Bursting {
+impl System for Batched {
     fn dimension(&self) -> usize {
         2
     }
@@ -36,14 +36,14 @@ impl System for Bursting {
     fn groups(&self) -> Vec<Group> {
         self.oscillator.groups()
     }
-    fn heun(&self, state: &mut [f64], h: f64, count: u64) -> Burst {
+    fn heun(&self, state: &mut [f64], h: f64, count: u64) -> Batch {
         self.asked.borrow_mut().push(count);
         if !self.offers {
-            return Burst::NotOffered;
+            return Batch::Unsupported;
         }
         if self.eventful.get() > 0 {
             self.eventful.set(self.eventful.get() - 1);
-            return Burst::Eventful;
+            return Batch::NeedsInspection;
         }
         let (mut first, mut second, mut guess) = ([0.0; 2], [0.0; 2], [0.0; 2]);
         for _ in 0..count {
@@ -52,7 +52,7 @@ impl System for Bursting {
             self.rates(&guess, &mut second);
             (0..2).for_each(|i| state[i] += h * (0.5 * first[i] + 0.5 * second[i]));
         }
-        Burst::Quiet
+        Batch::Done
     }
 }
 
@@ -72,13 +72,13 @@ impl Observer for Looking {
     fn next_sample(&self) -> f64 {
         self.samples.first().copied().unwrap_or(f64::INFINITY)
     }
-    fn between(&mut self, mark: &Mark<'_>) {
+    fn between(&mut self, mark: &ResumePoint<'_>) {
         self.marks.push(mark.place.step);
     }
 }
 
 /// Steps of 1/1024 from the time 2, until so many are made, with samples after so many.
-fn run(system: &Bursting, method: Method, steps: u32, samples: &[u32]) -> (Statistics, Looking) {
+fn run(system: &Batched, method: Method, steps: u32, samples: &[u32]) -> (Statistics, Looking) {
     let after = |steps: u32| 2.0 + f64::from(steps) / 1024.0;
     let control = Control::Fixed { step: 1.0 / 1024.0 };
     let problem = Problem { system, start: &[1.0, 0.0], begin: 2.0, end: after(steps), method, control };
@@ -88,7 +88,7 @@ fn run(system: &Bursting, method: Method, steps: u32, samples: &[u32]) -> (Stati
     (statistics, looking)
 }
 
-/// The same run without bursts.
+/// The same run without batches.
 fn plain(method: Method, steps: u32) -> Statistics {
     let run =
         solve(&oscillator(), &[1.0, 0.0], f64::from(steps) / 1024.0, method, Control::Fixed { step: 1.0 / 1024.0 });
@@ -97,7 +97,7 @@ fn plain(method: Method, steps: u32) -> Statistics {
 
 #[test]
 fn bursts_reach_to_the_last_step_and_have_its_bits_and_counts() {
-    let system = Bursting::new(true, 0);
+    let system = Batched::new(true, 0);
     let (statistics, looking) = run(&system, Method::Heun, 10_000, &[]);
     assert_eq!(statistics, plain(Method::Heun, 10_000));
     // as many as there may be, then all but the last
@@ -108,7 +108,7 @@ fn bursts_reach_to_the_last_step_and_have_its_bits_and_counts() {
 
 #[test]
 fn the_step_to_a_sample_is_shown() {
-    let system = Bursting::new(true, 0);
+    let system = Batched::new(true, 0);
     let (statistics, looking) = run(&system, Method::Heun, 3000, &[700, 701, 2000]);
     assert_eq!(statistics, plain(Method::Heun, 3000));
     assert_eq!(looking.shown, [700.0, 701.0, 2000.0, 3000.0].map(|steps| 2.0 + steps / 1024.0));
@@ -117,10 +117,10 @@ fn the_step_to_a_sample_is_shown() {
 
 #[test]
 fn an_eventful_burst_is_made_again_one_by_one() {
-    let system = Bursting::new(true, 1);
+    let system = Batched::new(true, 1);
     let (statistics, looking) = run(&system, Method::Heun, 6000, &[1000]);
     assert_eq!(statistics, plain(Method::Heun, 6000));
-    // the first 999, which are made one by one, and the one after them; then in bursts
+    // the first 999, which are made one by one, and the one after them; then in batches
     let expected = (1..=1000).chain([6000]).map(|steps| 2.0 + f64::from(steps) / 1024.0);
     assert_eq!(looking.shown, expected.collect::<Vec<_>>());
     assert_eq!(*system.asked.borrow(), [999, 4096, 903]);
@@ -128,7 +128,7 @@ fn an_eventful_burst_is_made_again_one_by_one() {
 
 #[test]
 fn who_offers_none_is_asked_once() {
-    let system = Bursting::new(false, 0);
+    let system = Batched::new(false, 0);
     let (statistics, looking) = run(&system, Method::Heun, 9000, &[]);
     assert_eq!(statistics, plain(Method::Heun, 9000));
     assert_eq!((looking.shown.len(), system.asked.borrow().len()), (9000, 1));
@@ -137,7 +137,7 @@ fn who_offers_none_is_asked_once() {
 #[test]
 fn other_methods_are_never_made_in_bursts() {
     for method in [Method::Euler, Method::Ballistic, Method::Rk4] {
-        let system = Bursting::new(true, 0);
+        let system = Batched::new(true, 0);
         let (statistics, looking) = run(&system, method, 5000, &[]);
         assert_eq!(statistics, plain(method, 5000), "{}", method.name());
         assert_eq!((looking.shown.len(), system.asked.borrow().len()), (5000, 0), "{}", method.name());
@@ -146,7 +146,7 @@ fn other_methods_are_never_made_in_bursts() {
 
 #[test]
 fn who_wants_to_see_every_step_sees_it_before_time_0_too() {
-    let system = Bursting::new(true, 0);
+    let system = Batched::new(true, 0);
     let control = Control::Fixed { step: 1.0 / 1024.0 };
     let problem = Problem { system: &system, start: &[1.0, 0.0], begin: -2.0, end: 3.0, method: Method::Heun, control };
     let mut shown = 0;

@@ -1,4 +1,4 @@
-//! A stretch of road: pedestrians of whom each follows the next element, and the two halves of a step of Heun's scheme.
+//! A segment of the ring: pedestrians of whom each follows the next element, and the two halves of a step of Heun's scheme.
 
 use crate::force::blocks::along;
 use crate::force::compiled::Values;
@@ -6,7 +6,7 @@ use crate::laws::Law;
 use math::row::LENGTH;
 use std::ops::Range;
 
-/// Positions and speeds in order along the road.
+/// Positions and speeds in order along the segment.
 pub(super) struct Places {
     pub(super) positions: Vec<f64>,
     pub(super) speeds: Vec<f64>,
@@ -19,14 +19,14 @@ impl Places {
 
     /// Fills a place with the image of somebody in another place, that much further ahead.
     #[inline(always)]
-    pub(super) fn put_image(&mut self, image: usize, of: usize, ahead: f64) {
+    pub(super) fn fill_ghost(&mut self, image: usize, of: usize, ahead: f64) {
         self.positions[image] = self.positions[of] + ahead;
         self.speeds[image] = self.speeds[of];
     }
 }
 
-/// A stretch of road with room for a step.
-pub(super) struct Road {
+/// A segment with room for a step.
+pub(super) struct Segment {
     /// The pedestrians, and one place more for whom the last one follows.
     pub(super) now: Places,
     /// Where an Euler step leads.
@@ -47,18 +47,18 @@ pub(super) struct Scheme<'a, L> {
     pub(super) h: f64,
 }
 
-impl Road {
-    /// A road for so many pedestrians.
-    pub(super) fn new(size: usize) -> Road {
+impl Segment {
+    /// A segment for so many pedestrians.
+    pub(super) fn new(size: usize) -> Segment {
         let (now, guess) = (Places::new(size + 1), Places::new(size + 1));
-        Road { now, guess, accelerations: vec![0.0; size], row: [0.0; LENGTH] }
+        Segment { now, guess, accelerations: vec![0.0; size], row: [0.0; LENGTH] }
     }
 
     /// The accelerations now, and the state that an Euler step would reach. False if one of these pedestrians has no room
     /// or a negative speed; what is not a number may pass for quiet.
     #[inline(always)]
     pub(super) fn predict<L: Law>(&mut self, scheme: Scheme<'_, L>, range: Range<usize>) -> bool {
-        let Road { now, guess, accelerations, row } = self;
+        let Segment { now, guess, accelerations, row } = self;
         let mut signs = 0;
         for begin in range.clone().step_by(LENGTH) {
             let (here, next) = (begin..range.end.min(begin + LENGTH), begin + 1..range.end.min(begin + LENGTH) + 1);
@@ -74,7 +74,7 @@ impl Road {
     /// The step with the mean of the rates at both ends.
     #[inline(always)]
     pub(super) fn correct<L: Law>(&mut self, scheme: Scheme<'_, L>, range: Range<usize>) {
-        let Road { now, guess, accelerations, row } = self;
+        let Segment { now, guess, accelerations, row } = self;
         for begin in range.clone().step_by(LENGTH) {
             let (here, next) = (begin..range.end.min(begin + LENGTH), begin + 1..range.end.min(begin + LENGTH) + 1);
             let (x_guess, ahead) = (&guess.positions[here.clone()], &guess.positions[next.clone()]);

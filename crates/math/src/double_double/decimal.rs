@@ -1,11 +1,11 @@
-//! Twofold numbers as decimal text and back.
+//! DoubleDouble numbers as decimal text and back.
 
-use super::Twofold;
+use super::DoubleDouble;
 use std::cmp::Ordering;
 
 /// The number with `digits` >= 1 significant decimal digits, rounded from its exact value (half to even), `d.ddde-x`;
 /// zero is `0`. For finite numbers.
-pub fn format(value: Twofold, digits: usize) -> String {
+pub fn format(value: DoubleDouble, digits: usize) -> String {
     // the double of larger size decides the sign
     let (hi, lo) = (value.hi, value.lo);
     if hi == 0.0 && lo == 0.0 {
@@ -32,7 +32,7 @@ pub fn format(value: Twofold, digits: usize) -> String {
 
 /// The number that a decimal text means, with a relative error below 2^-98 (digits from the 39th on are not read); none
 /// if it is NaN. For sizes between about 1e-250 and 1e250.
-pub fn parse(text: &str) -> Option<Twofold> {
+pub fn parse(text: &str) -> Option<DoubleDouble> {
     let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
     let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
     let (sign, whole) = match whole.strip_prefix('-') {
@@ -51,15 +51,15 @@ pub fn parse(text: &str) -> Option<Twofold> {
     // the cast rounds to nearest; what it leaves out is below 2^74 and rounded once more
     let hi = number as f64;
     let rest = number - hi as i128;
-    let value = Twofold::ordered_sum(hi, rest as f64);
+    let value = DoubleDouble::ordered_sum(hi, rest as f64);
     let power = power_of_ten(exponent.unsigned_abs());
     let scaled = if exponent < 0 { value / power } else { value * power };
     Some(scaled.times(sign))
 }
 
 /// 10^n, by squaring.
-fn power_of_ten(n: u32) -> Twofold {
-    let (mut power, mut square, mut left) = (Twofold::ONE, Twofold::from(10.0), n);
+fn power_of_ten(n: u32) -> DoubleDouble {
+    let (mut power, mut square, mut left) = (DoubleDouble::ONE, DoubleDouble::from(10.0), n);
     while left > 0 {
         if left & 1 == 1 {
             power = power * square;

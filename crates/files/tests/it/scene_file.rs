@@ -1,8 +1,8 @@
 //! Scene files: panels, and what tells two scenes apart.
 
-use files::recipe::{Kind, Recipe, parse};
+use files::scene_file::{Kind, SceneFile, parse};
 
-fn recipe(text: &str) -> Recipe {
+fn recipe(text: &str) -> SceneFile {
     parse("my.toml", text).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -83,12 +83,12 @@ fn scenes_in_other_encodings_are_named() {
         [(utf16, 0, "UTF-16"), (b"title = 'x'\nsource = 'K\xf6ln'\n".to_vec(), 2, "byte 0xf6 is not UTF-8")]
     {
         std::fs::write(&file, bytes).expect("a file");
-        let error = files::recipe::read(&file).unwrap_err();
+        let error = files::scene_file::read(&file).unwrap_err();
         assert_eq!((error.line, error.problem.contains(words)), (line, true), "{error}");
         assert_eq!(error.file, file.display().to_string());
     }
     std::fs::write(&file, "\u{feff}title = 'x'\n").expect("a file");
-    assert_eq!(files::recipe::read(&file).expect("a scene").title, "x");
-    let error = files::recipe::read(folder.path()).unwrap_err();
+    assert_eq!(files::scene_file::read(&file).expect("a scene").title, "x");
+    let error = files::scene_file::read(folder.path()).unwrap_err();
     assert!(error.problem.contains("is a folder"), "{error}");
 }

@@ -1,7 +1,7 @@
-//! Gaps and speeds: `[s_0 - s_c .. s_{N-1} - s_c, v_0 .. v_{N-1}, x_0]` with the gap `s_c` at contact (2, or 0 for the
+//! Spacings and speeds: `[s_0 - s_c .. s_{N-1} - s_c, v_0 .. v_{N-1}, x_0]` with the gap `s_c` at contact (2, or 0 for the
 //! logarithmic law): a gap that closes keeps all its digits.
 
-use super::{Form, LEAST_SIZE, closing_rates};
+use super::{LEAST_SIZE, RingSystem, closing_rates};
 use crate::force::{Flow, Force, Motion};
 use crate::observe::spread;
 use crate::ring::{Ring, Start};
@@ -10,24 +10,24 @@ use std::ops::Range;
 
 /// The ring as gaps and speeds.
 #[derive(Debug)]
-pub struct Gaps {
+pub struct Spacings {
     force: Box<dyn Force>,
     pedestrians: usize,
     clearance: f64,
 }
 
-impl Gaps {
+impl Spacings {
     /// The ring under this force.
-    pub fn new(force: Box<dyn Force>, ring: Ring) -> Gaps {
+    pub fn new(force: Box<dyn Force>, ring: Ring) -> Spacings {
         let clearance = ring.headway() - force.contact();
-        Gaps { force, pedestrians: ring.pedestrians, clearance }
+        Spacings { force, pedestrians: ring.pedestrians, clearance }
     }
 }
 
 /// Nothing to be added to net gaps and speeds.
 const AT_REST: Flow = Flow { net_gap: 0.0, speed: 0.0 };
 
-impl System for Gaps {
+impl System for Spacings {
     fn dimension(&self) -> usize {
         2 * self.pedestrians + 1
     }
@@ -95,7 +95,7 @@ impl System for Gaps {
     }
 }
 
-impl Form for Gaps {
+impl RingSystem for Spacings {
     fn start(&self, start: Start) -> Vec<f64> {
         let n = self.pedestrians;
         let mut state = vec![0.0; self.dimension()];
