@@ -141,8 +141,8 @@ async function rejudged(harness, page) {
   const growth = claims.find(({ id }) => id === 'algebraic-perturbation-grows');
   harness.equal('mu = 0.4: the claim of growth held', growth?.before, 'holds');
   harness.equal('mu = 0.4: it does not hold', growth?.now, 'does not hold');
-  const table = page.locator('#own-law .rejudged table', { hasText: growth?.says });
-  harness.check('both verdicts are said', (await table.locator('caption').textContent()).includes('holds. For yours: does not hold.'));
+  const table = page.locator('#own-law .rejudged-claim', { hasText: growth?.says });
+  harness.check('both verdicts are said', (await table.textContent()).includes('holds. For yours: does not hold.'));
   harness.equal('its tests have headers', await table.locator('tbody th[scope=row]').count(), growth?.tests.length);
   await choose(page, '(two phases)');
   await ended(page);

@@ -32,7 +32,10 @@ pub struct Again {
 pub fn judge(claim: &Claim, tables: &Tables<'_>) -> Result<(Verdict, Vec<Again>), Failure> {
     let tests = claim.all_tests();
     let tests = tests.iter().map(|(place, under, measure)| {
-        let value = measure::evaluate(measure, tables, place).map_err(|failure| failure.text().to_owned());
+        let value = measure::evaluate(measure, tables, place).map_err(|failure| {
+            let (text, before) = (failure.text(), format!("{}, ", place.0));
+            text.strip_prefix(&before).unwrap_or(text).to_owned()
+        });
         let requirement = measure.is.as_deref().map(Requirement::parse).transpose();
         let requirement = requirement.map_err(|problem| place.fail("is", problem))?;
         let judged = |requirement: Requirement| match &value {

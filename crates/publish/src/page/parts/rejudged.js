@@ -24,21 +24,22 @@ class Rejudged {
     this.host.dataset.claims = JSON.stringify(claims);
     const changed = claims.filter(({ before, now }) => before !== now).length;
     this.status.textContent = claims.length
-      ? `${claims.length} ${claims.length === 1 ? 'claim rests' : 'claims rest'} on this run alone; ${changed || 'none'} of them ${changed === 1 ? 'has' : 'have'} another verdict with your numbers.`
+      ? `Claims that rest on this run alone: ${claims.length}. With another verdict than for the paper’s numbers: ${changed}.`
       : 'No claim rests on this run alone.';
     this.list.replaceChildren(...claims.map((claim) => this.claim(claim)));
   }
 
   claim({ says, before, now, tests }) {
     const head = make('tr', {}, ...['Test', 'Must be', 'With your numbers', 'Outcome'].map((text) => make('th', { scope: 'col' }, text)));
-    const caption = `${says} For the paper’s numbers: ${before}. For yours: ${now}.`;
-    return make('div', { class: 'wide', role: 'group', tabindex: 0, 'aria-label': says },
-      make('table', {}, make('caption', {}, caption), make('thead', {}, head), make('tbody', {}, ...tests.map((test) => this.test(test)))));
+    return make('div', { class: 'rejudged-claim' }, make('p', {}, says),
+      make('p', {}, 'For the paper’s numbers: ', make('b', {}, before), '. For yours: ', make('b', {}, now), '.'),
+      make('div', { class: 'wide', role: 'group', tabindex: 0, 'aria-label': `Tests: ${says}` },
+        make('table', { 'aria-label': `Tests: ${says}` }, make('thead', {}, head), make('tbody', {}, ...tests.map((test) => this.test(test))))));
   }
 
   test({ words: measure, under, is, value, error, problem, outcome }) {
     const size = error === null ? ' (error unknown)' : error ? ` ± ${words(error, 1)}` : '';
-    const found = problem === undefined ? `${value === null ? 'no number' : words(value)}${size}` : `no value: ${problem}`;
+    const found = problem === undefined ? `${value === null ? 'no number' : words(value)}${size}` : `no value in this run (${problem})`;
     return make('tr', {}, make('th', { scope: 'row' }, under ? `under the condition: ${measure}` : measure),
       make('td', {}, is || '–'), make('td', {}, found), make('td', {}, outcome || '–'));
   }
