@@ -1,5 +1,8 @@
 // What the paper says of the figure that a scene began from, judged on the reader's run.
 
+const NOW_ERRORS = 'Errors of positions and speeds are those estimated at the end of the run, taken for every sample; that of the standard deviation '
+  + 'is the largest over all samples. Both verdicts follow from the tests as the ledger has them.';
+
 class Rejudged {
   constructor(host) {
     this.status = make('output', { 'aria-live': 'polite' });
@@ -27,6 +30,7 @@ class Rejudged {
       ? `Claims that rest on this run alone: ${claims.length}. With another verdict than for the paper’s numbers: ${changed}.`
       : 'No claim rests on this run alone.';
     this.list.replaceChildren(...claims.map((claim) => this.claim(claim)));
+    if (claims.length) this.list.append(make('p', { class: 'hint' }, NOW_ERRORS));
   }
 
   claim({ says, before, now, tests }) {
