@@ -45,14 +45,15 @@ pub fn name(figure: &Figure) -> String {
     format!("{} {digits}", if figure.is_supplement() { "Supplement" } else { "Figure" })
 }
 
-/// The picture inline: lines of figures stay sharp as SVG; supplements have thousands of marks, which pixels hold in less.
+/// The picture inline: as SVG, whose lines stay sharp; a supplement with thousands of marks as pixels where these take less.
 fn picture(source: &Source<'_>, figure: &Figure) -> Result<String, Failure> {
     let [png, svg] = outputs::pictures(source.paths, figure);
     let pixels = source.bytes(&png)?;
     let (width, height) = size(&pixels).ok_or_else(|| Failure::failed(format!("{png}: not a PNG")))?;
-    let address = match figure.is_supplement() {
+    let vectors = source.bytes(&svg)?;
+    let address = match figure.is_supplement() && pixels.len() < vectors.len() {
         true => html::data_uri("image/png", &pixels),
-        false => html::data_uri("image/svg+xml", &source.bytes(&svg)?),
+        false => html::data_uri("image/svg+xml", &vectors),
     };
     let alternative = escape(source.alternative(&figure.id)?);
     Ok(format!(
