@@ -155,9 +155,11 @@ impl Propagated {
         error
     }
 
-    /// The errors of the run that it has seen; `None` where steps did not tell theirs.
+    /// The errors of the run that it has seen; `None` where steps did not tell theirs, or not that of an event.
     pub fn errors(&self, scene: &Scene, outcome: &Outcome) -> Option<Errors> {
-        let error = (!self.is_blind && self.shadow.is_some()).then(|| self.error_at(1.0))?;
+        // next to a blow-up the error leaves the doubles before the speeds do: a second run tells the time
+        let is_told = self.events.iter().all(|error| error.is_finite());
+        let error = (!self.is_blind && is_told && self.shadow.is_some()).then(|| self.error_at(1.0))?;
         let n = self.pedestrians;
         // deviations have the speed of the uniform flow, too
         let (spacings, flow) = (&error[..n], error.get(2 * n + 2).copied().unwrap_or(0.0));

@@ -171,8 +171,9 @@ fn findings(
 fn conclude(paths: &Paths, findings: &Findings, arguments: &JudgeArgs, request: &Request) -> Result<(), Failure> {
     if findings.are_same() {
         // what was made in the checkout itself stays
-        let scratch = paths.scratch().base;
-        return if request.base == scratch { disk::remove(&scratch) } else { Ok(()) };
+        let name = request.base.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
+        let is_scratch = request.base.parent() == Some(&*paths.target) && Paths::is_scratch(&name);
+        return if is_scratch { disk::remove(&request.base) } else { Ok(()) };
     }
     let mut wrong: Vec<&str> = findings.figures.iter().filter(|one| !one.is_same()).map(|one| &*one.id).collect();
     wrong.extend((!findings.claims.is_same()).then_some("claims"));
