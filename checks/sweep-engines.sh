@@ -25,10 +25,12 @@ trap finish EXIT
 
 # Kills one shard of OUT, once its journal has 200 lines; says so in OUT/killed.
 kill_one() { # OUT
-  local part pid
+  local part pid lines
   while sleep 0.02; do
     for part in "$1"/shards/*.part; do
-      [ -f "$part" ] && [ "$(grep -c . "$part" 2>/dev/null || true)" -gt 200 ] || continue
+      # the shard may be done, and gone, by now
+      lines=$(grep -c . "$part" 2>/dev/null) || continue
+      [ "$lines" -gt 200 ] || continue
       for pid in $(pgrep -x sweep || true); do
         tr '\0' '\n' <"/proc/$pid/cmdline" 2>/dev/null | grep -qxF "$1" || continue
         kill -KILL "$pid" 2>/dev/null || continue
