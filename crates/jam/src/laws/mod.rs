@@ -79,9 +79,6 @@ const RAMP_WIDTH: f64 = 0.1;
 ///     fn effective_gap<X: Number>(&self, net_gap: X, _speed: X, _ahead: X) -> X {
 ///         net_gap
 ///     }
-///     fn uses_speeds(&self) -> bool {
-///         false
-///     }
 ///     fn is_long(&self) -> bool {
 ///         true
 ///     }
@@ -117,9 +114,6 @@ pub trait Law: Copy + Default + Send + Sync + std::fmt::Debug + 'static {
 
     /// What must stay positive for the run to go on: `d_n` of eq:effDistn, or the spacing for the logarithmic law.
     fn effective_gap<X: Number>(&self, net_gap: X, speed: X, ahead: X) -> X;
-
-    /// Whether the force, the relaxation of one's own speed apart, depends on speeds.
-    fn uses_speeds(&self) -> bool;
 
     /// Whether the formula is so long, with several functions or a logarithm in it, that the operations of many pedestrians
     /// have to overlap.
