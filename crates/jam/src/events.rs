@@ -148,7 +148,7 @@ impl<'a> Watch<'a> {
         let instant = Instant::new(pedestrians);
         let force = model.force();
         let [before, after, within] = [instant.clone(), instant.clone(), instant];
-        let has_plain_rooms = !matches!(model, Model::Formula(_)) && model.room_per_speed() == 0.0;
+        let has_plain_rooms = model.has_plain_gaps();
         let (found, state) = (Vec::new(), Vec::new());
         let (seen, near, is_quiet) = (None, None, false);
         Watch { model, force, form, found, before, after, within, state, seen, has_plain_rooms, near, is_quiet }

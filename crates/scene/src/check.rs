@@ -153,7 +153,7 @@ const ACROSS_KINKS: usize = 2;
 
 /// Whether the law has bends of no width.
 pub(crate) fn has_kinks(model: &Model) -> bool {
-    matches!(model, Model::Formula(formula) if formula.has_kinks())
+    model.may_have_kinks()
 }
 
 /// Fixed steps may be too long for their error to be that of their order.

@@ -5,7 +5,6 @@ use crate::run::{AtOverlap, Scene};
 use files::table::Table;
 use jam::events::{Event, EventKind, Watch};
 use jam::jams;
-use jam::laws::Model;
 use jam::outcome::{Judge, Verdict};
 use jam::states::{RingSystem, StateVariables, gaps_state};
 use ode::{Control, Observer, Problem, ResumePoint, Sampler, Statistics, Step, integrate, resume};
@@ -398,7 +397,7 @@ impl<'a> Recorder<'a> {
 
     /// Whether a run ends since the formula of its law has no value a little further on; then that is an event.
     fn is_undefined(&mut self, reached: &Statistics) -> bool {
-        if !matches!(self.scene.model, Model::Formula(_)) {
+        if !self.scene.model.may_be_undefined() {
             return false;
         }
         let form = self.record.form;

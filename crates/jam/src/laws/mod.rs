@@ -7,12 +7,14 @@ mod algebraic;
 mod exponential;
 mod formula;
 mod logarithmic;
+mod own;
 pub mod presets;
 
 pub use algebraic::Algebraic;
 pub use exponential::Exponential;
 pub use formula::Formula;
 pub use logarithmic::{C, Logarithmic};
+pub use own::Own;
 
 use crate::force::{Compiled, Force};
 use crate::ramp::Bend;
@@ -148,16 +150,19 @@ pub enum Model {
     Logarithmic(Logarithmic),
     /// Any other, as formulas.
     Formula(Formula),
+    /// Any other, as a Rust type (see [`Model::own`]).
+    Own(Own),
 }
 
 /// Does something with whatever law it is.
 macro_rules! each {
-    ($model:expr, $law:ident => $action:expr, $formula:ident => $other:expr) => {
+    ($model:expr, $law:ident => $action:expr, $formula:ident => $other:expr, $own:ident => $own_action:expr) => {
         match $model {
             Model::Algebraic($law) => $action,
             Model::Exponential($law) => $action,
             Model::Logarithmic($law) => $action,
             Model::Formula($formula) => $other,
+            Model::Own($own) => $own_action,
         }
     };
 }
@@ -189,6 +194,16 @@ fn is_singular<L: Law>(_law: &L) -> bool {
 }
 
 impl Model {
+    /// A law that is a Rust type of your own (see [`Law`]). What takes a `Model` then takes it: runs, events, outcome,
+    /// stability, maps and jams.
+    ///
+    /// # Errors
+    /// A parameter out of its range; an effective gap that is not linear with constant slopes, or not 0 where two touch at
+    /// rest; an acceleration there that is finite though [`Law::SINGULAR`] says otherwise, or the other way round.
+    pub fn own<L: Law>(law: L) -> Result<Model, String> {
+        Own::new(law).map(Model::Own)
+    }
+
     /// The name of the law in scene files.
     pub fn name(&self) -> &'static str {
         match self {
@@ -196,22 +211,28 @@ impl Model {
             Model::Exponential(_) => "exponential",
             Model::Logarithmic(_) => "logarithmic",
             Model::Formula(_) => "formula",
+            Model::Own(_) => "own",
         }
     }
 
-    /// The desired speed `v_0'`; of a formula its parameter `v0`, else `scale`, else 1.
+    /// The desired speed `v_0'`; of a formula or a law of your own its parameter `v0`, else `scale`, else 1.
     pub fn desired_speed(&self) -> f64 {
         self.speed_scale().unwrap_or(1.0)
     }
 
     /// The size of speeds, if the law has one.
     pub fn speed_scale(&self) -> Option<f64> {
-        each!(self, law => Some(law.desired_speed), formula => formula.speed_scale())
+        each!(self, law => Some(law.desired_speed), formula => formula.speed_scale(), own => own.speed_scale())
     }
 
     /// The names of the parameters.
     pub fn parameters(&self) -> Vec<String> {
-        each!(self, law => names(law), formula => formula.parameters().map(|(name, _)| name.to_owned()).collect())
+        each!(
+            self,
+            law => names(law),
+            formula => formula.parameters().map(|(name, _)| name.to_owned()).collect(),
+            own => own.names()
+        )
     }
 
     /// The law with another value of a parameter.
@@ -223,6 +244,12 @@ impl Model {
         let is_known = each!(&mut model, law => set(law, name, value), formula => match formula.with(name, value) {
             Some(changed) => {
                 *formula = changed.map_err(|error| error.to_string())?;
+                true
+            }
+            None => false,
+        }, own => match own.with(name, value) {
+            Some(changed) => {
+                *own = changed?;
                 true
             }
             None => false,
@@ -243,39 +270,68 @@ impl Model {
 
     /// The force on all pedestrians of a ring.
     pub fn force(&self) -> Box<dyn Force> {
-        each!(self, law => Box::new(Compiled::new(*law)), formula => formula.force())
+        each!(self, law => Box::new(Compiled::new(*law)), formula => formula.force(), own => own.force())
     }
 
     /// The acceleration as the paper prints it; of a formula, that of the uniform flow with this own speed.
     pub fn acceleration(&self, gap: f64, speed: f64, ahead: f64) -> f64 {
         let net_gap = gap - self.contact();
-        each!(self, law => law.acceleration(net_gap, speed, ahead), formula => formula.uniform(gap, speed))
+        each!(
+            self,
+            law => law.acceleration(net_gap, speed, ahead),
+            formula => formula.uniform(gap, speed),
+            own => own.acceleration(net_gap, speed, ahead)
+        )
     }
 
     /// The gap at which two standing pedestrians touch (see [`Law::CONTACT`]).
     pub fn contact(&self) -> f64 {
-        each!(self, law => contact_of(law), formula => formula.contact())
+        each!(self, law => contact_of(law), formula => formula.contact(), own => own.contact())
     }
 
     /// Whether the force is infinite where the room ends (see [`Law::SINGULAR`]).
     pub fn is_singular(&self) -> bool {
-        each!(self, law => is_singular(law), formula => formula.is_singular())
+        each!(self, law => is_singular(law), formula => formula.is_singular(), own => own.is_singular())
     }
 
     /// The room of a pedestrian (see [`Law::effective_gap`]).
     pub fn room(&self, gap: f64, speed: f64, ahead: f64) -> f64 {
         let net_gap = gap - self.contact();
-        each!(self, law => law.effective_gap(net_gap, speed, ahead), formula => formula.uniform_gap(gap, speed))
+        each!(
+            self,
+            law => law.effective_gap(net_gap, speed, ahead),
+            formula => formula.uniform_gap(gap, speed),
+            own => own.effective_gap(net_gap, speed, ahead)
+        )
     }
 
     /// How much room a unit of speed, own or ahead, takes away.
     pub fn room_per_speed(&self) -> f64 {
-        -each!(self, law => law.effective_gap(0.0, 1.0, 0.0), _formula => 0.0)
+        -each!(self, law => law.effective_gap(0.0, 1.0, 0.0), _formula => 0.0, own => own.effective_gap(0.0, 1.0, 0.0))
+    }
+
+    /// Whether effective gaps are spacings less a constant.
+    pub(crate) fn has_plain_gaps(&self) -> bool {
+        each!(self, law => law.effective_gap(0.0, 1.0, 0.0) == 0.0, _formula => false, own => own.has_plain_gap())
+    }
+
+    /// Whether the acceleration has kinks, at which its derivatives jump; of a law of your own nobody knows, so it may.
+    pub fn may_have_kinks(&self) -> bool {
+        match self {
+            Model::Algebraic(_) | Model::Exponential(_) | Model::Logarithmic(_) => false,
+            Model::Formula(formula) => formula.has_kinks(),
+            Model::Own(_) => true,
+        }
+    }
+
+    /// Whether the acceleration may have no value at some places with open gaps.
+    pub fn may_be_undefined(&self) -> bool {
+        matches!(self, Model::Formula(_) | Model::Own(_))
     }
 
     /// How the acceleration answers to spacings and speeds in this uniform flow. `None` where it has no derivative.
     pub fn response(&self, headway: f64, speed: f64) -> Option<Response> {
-        each!(self, law => Some(law.response(headway, speed)), formula => formula.response(headway, speed))
+        each!(self, law => Some(law.response(headway, speed)), formula => formula.response(headway, speed), own => own.response(headway, speed))
     }
 
     /// The coefficients of the linearised law about the uniform flow with this headway and speed; of a formula too, if it
@@ -285,7 +341,9 @@ impl Model {
             Model::Algebraic(law) => law.linearise(law.gap(headway, speed)),
             Model::Exponential(law) => law.linearise(law.gap(headway, speed)),
             Model::Logarithmic(law) => law.linearise(headway, speed),
-            Model::Formula(law) => law.response(headway, speed).as_ref().map_or(Linear::NONE, Linear::of),
+            Model::Formula(_) | Model::Own(_) => {
+                self.response(headway, speed).as_ref().map_or(Linear::NONE, Linear::of)
+            }
         }
     }
 }

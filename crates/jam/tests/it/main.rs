@@ -11,6 +11,7 @@ mod growth;
 mod heun;
 mod jams;
 mod linear;
+mod own;
 mod precise;
 mod presets;
 mod public;

@@ -49,8 +49,7 @@ pub fn table() -> Result<Rows, Failure> {
             match model {
                 Model::Algebraic(law) => push("gap", gap, &law.linearise(gap)),
                 Model::Exponential(law) => push("gap", gap, &law.linearise(gap)),
-                Model::Logarithmic(_) => {}
-                Model::Formula(_) => (),
+                Model::Logarithmic(_) | Model::Formula(_) | Model::Own(_) => {}
             }
         }
     }
