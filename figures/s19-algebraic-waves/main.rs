@@ -5,12 +5,12 @@ use figures::panels::{points, trajectories};
 use figures::{Failure, Job, figure};
 use files::table::{Cell, Sheet, Table};
 use jam::ring::{Ring, Start};
+use jam::run::{Judging, RunObserver, run_from};
 use jam::states::StateVariables;
 use ode::{Control, Method};
 use plot::style::COLUMN_WIDTH;
 use plot::{Axis, ColorScale, Lines, Picture, Series, SpaceTime};
 use scene::run::Scene;
-use scene::simulation::{Judging, RunObserver, run_from};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {

@@ -172,6 +172,7 @@ pub mod outcome;
 pub mod precise;
 pub mod ramp;
 pub mod ring;
+pub mod run;
 pub mod stability;
 pub mod states;
 pub mod uniform;

@@ -9,8 +9,8 @@
 //! | `cell` | a cell of a sweep: judged until its outcome is certain, a second time for the error |
 
 use files::reader::Section;
+use jam::run::{Judging, RunObserver, run, run_from};
 use scene::run::Scene;
-use scene::simulation::{Judging, RunObserver, run, run_from};
 use scene::sweep::{self, Sweep};
 use std::time::Instant;
 

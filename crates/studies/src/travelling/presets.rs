@@ -7,12 +7,12 @@ use figures::failure::Failure;
 use jam::laws::Model;
 use jam::laws::presets::{PRESETS, Preset};
 use jam::ring::{Ring, Start};
+use jam::run::{Judging, RunObserver, run_from};
 use jam::stability::Waves;
 use jam::states::StateVariables;
 use jam::uniform::{headway_of_gap, steady_speed};
 use ode::{Control, Method};
 use scene::run::{AtOverlap, Scene};
-use scene::simulation::{Judging, RunObserver, run_from};
 
 /// Pedestrians, as in the runs of the source.
 const PEDESTRIANS: usize = 67;
