@@ -53,11 +53,6 @@ impl Law for Logarithmic {
     }
 
     #[inline(always)]
-    fn is_long(&self) -> bool {
-        true
-    }
-
-    #[inline(always)]
     fn plain(&self) -> Option<Logarithmic> {
         (self.widening == 0.0).then_some(Logarithmic { widening: 0.0, ..*self })
     }

@@ -47,15 +47,13 @@ pub struct Parameter<L> {
 /// Width of the smooth ramp of the algebraic and exponential laws, where a scene names none (text after eq:aTheta).
 const RAMP_WIDTH: f64 = 0.1;
 
-/// A law of motion as a formula.
+/// A law of motion as a formula in Rust: `dv_n/dt` from the net gap to the pedestrian ahead, the own speed and that of the
+/// pedestrian ahead. [`Model::own`] makes a [`Model`] of it. Only [`Law::CONTACT`] and [`Law::acceleration`] have to be written.
 ///
 /// ```
-/// use jam::force::Compiled;
-/// use jam::laws::{Law, Parameter, Range};
-/// use jam::ramp::Bend;
-/// use jam::ring::{Ring, Start};
+/// use jam::laws::{Law, Model, Parameter, Range};
 /// use jam::stability::Waves;
-/// use jam::states::{Deviations, RingSystem};
+/// use jam::uniform::steady_speed;
 /// use math::number::Number;
 ///
 /// /// `dv_n/dt = v_0 (1 - exp(-(s_n - 2) / l)) - v_n`.
@@ -71,62 +69,64 @@ const RAMP_WIDTH: f64 = 0.1;
 ///         Parameter { name: "l", range: Range::Positive, default: None, place: |law| &mut law.length },
 ///     ];
 ///     const CONTACT: f64 = 2.0;
-///     const SINGULAR: bool = false;
 ///
 ///     #[inline(always)]
 ///     fn acceleration<X: Number>(&self, net_gap: X, speed: X, _ahead: X) -> X {
 ///         -(net_gap * (-1.0 / self.length)).exp_m1() * self.desired_speed - speed
 ///     }
-///     #[inline(always)]
-///     fn effective_gap<X: Number>(&self, net_gap: X, _speed: X, _ahead: X) -> X {
-///         net_gap
-///     }
-///     fn is_long(&self) -> bool {
-///         true
-///     }
-///     fn plain(&self) -> Option<Relaxing> {
-///         None
-///     }
-///     fn bend(&self) -> Option<Bend> {
-///         None
-///     }
 /// }
 ///
-/// let law = Relaxing { desired_speed: 1.0, length: 3.0 };
-/// let ring = Ring { pedestrians: 50, length: 200.0 };
-/// let form = Deviations::new(Box::new(Compiled::new(law)), ring);
-/// let start = form.start(Start { shift: 0.1 });
-/// // the uniform flow is stable where the slope V'(s) of the steady speed is below 1/2
-/// let (speed, slope) = (1.0 - math::exp(-2.0 / 3.0), math::exp(-2.0 / 3.0) / 3.0);
-/// assert!(slope < 0.5 && law.response(ring.headway(), speed).margin(Waves::All).0 < 0.0);
-/// # assert_eq!(start.len(), 103);
+/// let law = Model::own(Relaxing { desired_speed: 1.0, length: 3.0 })?;
+/// // stable where the slope V'(s) of the steady speed is below 1/2: V' = exp(-(s - 2)/l) v0/l
+/// let speed = steady_speed(&law, 4.0)?;
+/// assert!((speed - (1.0 - math::exp(-2.0 / 3.0))).abs() < 1e-15);
+/// assert!(law.response(4.0, speed).expect("derivatives").margin(Waves::All).0 < 0.0);
+/// // the parameters are known by their names
+/// let short = law.with("l", 0.2)?;
+/// assert!(short.response(2.1, steady_speed(&short, 2.1)?).expect("derivatives").margin(Waves::All).0 > 0.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Law: Copy + Default + Send + Sync + std::fmt::Debug + 'static {
-    /// Its parameters.
-    const PARAMETERS: &'static [Parameter<Self>];
+    /// Its parameters. `v0`, else `scale`, is the size of speeds, which tolerances and thresholds refer to; 1 if neither is
+    /// there.
+    const PARAMETERS: &'static [Parameter<Self>] = &[];
 
     /// The spacing at which two standing pedestrians touch; the *net gap* is the spacing less this.
     const CONTACT: f64;
 
     /// Whether the force is infinite where the effective gap closes.
-    const SINGULAR: bool;
+    const SINGULAR: bool = false;
 
     /// `dv/dt` of a pedestrian with this net gap and speed, and the speed ahead. Branches may depend on parameters only.
+    /// To be marked `#[inline(always)]`, or it runs without vector registers.
     fn acceleration<X: Number>(&self, net_gap: X, speed: X, ahead: X) -> X;
 
-    /// What must stay positive for the run to go on: `d_n` of eq:effDistn, or the spacing for the logarithmic law.
-    fn effective_gap<X: Number>(&self, net_gap: X, speed: X, ahead: X) -> X;
+    /// What must stay positive for the run to go on: `d_n` of eq:effDistn, for the logarithmic law the spacing. It has
+    /// to be linear in all three with constant slopes, and 0 at contact and rest. By default the net gap.
+    #[inline(always)]
+    fn effective_gap<X: Number>(&self, net_gap: X, _speed: X, _ahead: X) -> X {
+        net_gap
+    }
 
     /// Whether the formula is so long, with several functions or a logarithm in it, that the operations of many pedestrians
-    /// have to overlap.
-    fn is_long(&self) -> bool;
+    /// have to overlap; the bits do not depend on it. By default it is.
+    #[inline(always)]
+    fn is_long(&self) -> bool {
+        true
+    }
 
     /// The law with the terms of the paper's runs and no others, if these are all that it has: the same law, with the
-    /// parameters that leave a term out as constants, so that the compiler leaves it out as well.
-    fn plain(&self) -> Option<Self>;
+    /// parameters that leave a term out as constants, so that the compiler leaves it out as well. By default there is none.
+    #[inline(always)]
+    fn plain(&self) -> Option<Self> {
+        None
+    }
 
-    /// Where the smooth ramp bends, if the law has one; where its argument is a quotient, its numerator.
-    fn bend(&self) -> Option<Bend>;
+    /// Where the smooth ramp bends, if the law has one; where its argument is a quotient, its numerator. Steps of adaptive
+    /// length are short there. By default there is none.
+    fn bend(&self) -> Option<Bend> {
+        None
+    }
 
     /// The derivatives of the acceleration in the uniform flow of this headway and speed, from the formula.
     fn response(&self, headway: f64, speed: f64) -> Response {

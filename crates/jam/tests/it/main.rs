@@ -17,6 +17,7 @@ mod presets;
 mod public;
 mod ring;
 mod rings;
+mod run;
 mod sample;
 mod series;
 mod uniform;

@@ -3,7 +3,6 @@
 use jam::events::EventKind;
 use jam::laws::{Formula, Law, Model, Parameter, Range};
 use jam::precise::Precise;
-use jam::ramp::Bend;
 use jam::ring::{Ring, Start};
 use jam::stability::Waves;
 use jam::states::StateVariables;
@@ -25,7 +24,6 @@ impl Law for OptimalVelocity {
     const PARAMETERS: &'static [Parameter<OptimalVelocity>] =
         &[Parameter { name: "kappa", range: Range::Positive, default: None, place: |law| &mut law.kappa }];
     const CONTACT: f64 = 0.0;
-    const SINGULAR: bool = false;
 
     #[inline(always)]
     fn acceleration<X: Number>(&self, s: X, v: X, _ahead: X) -> X {
@@ -39,15 +37,6 @@ impl Law for OptimalVelocity {
             2 => s - 0.25,
             _ => s,
         }
-    }
-    fn is_long(&self) -> bool {
-        true
-    }
-    fn plain(&self) -> Option<OptimalVelocity> {
-        None
-    }
-    fn bend(&self) -> Option<Bend> {
-        None
     }
 }
 
