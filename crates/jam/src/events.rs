@@ -205,6 +205,16 @@ impl<'a> Watch<'a> {
         &self.within
     }
 
+    /// The spacings and speeds at a time within a step.
+    pub fn everybody_at(&self, step: &mut Step<'_>, time: f64) -> [Vec<f64>; 2] {
+        let count = self.after.gaps.len();
+        let (mut state, mut spacings, mut speeds) =
+            (vec![0.0; step.before().len()], vec![0.0; count], vec![0.0; count]);
+        step.at(time, &mut state);
+        self.form.read(&state, &mut spacings, &mut speeds);
+        [spacings, speeds]
+    }
+
     /// The speeds at the end of the step looked at last.
     pub fn speeds(&self) -> &[f64] {
         &self.after.speeds

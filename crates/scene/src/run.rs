@@ -98,6 +98,7 @@ fn read_for(file: &str, tables: &Section, purpose: Purpose) -> Result<Scene, Sce
         model,
         ring,
         start,
+        displacements: Vec::new(),
         t_end,
         sample,
         method,

@@ -234,7 +234,13 @@ impl Reader<'_> {
         let pedestrians = if run.keeps_trajectories { run.ring.pedestrians } else { 0 };
         let mut samples = Samples::new(pedestrians);
         for _ in 0..self.count()? {
-            samples.push(Sample { time: self.number()?, std: self.number()?, positions: &[], speeds: &[] });
+            samples.push(Sample {
+                time: self.number()?,
+                std: self.number()?,
+                positions: &[],
+                speeds: &[],
+                spacings: &[],
+            });
         }
         if self.count()? != samples.len() * pedestrians {
             return None;

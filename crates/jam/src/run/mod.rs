@@ -22,7 +22,7 @@ pub use samples::{Sample, Samples};
 use crate::events::EventKind;
 use crate::laws::Model;
 use crate::ring::{Ring, Start};
-use crate::states::StateVariables;
+use crate::states::{RingSystem, StateVariables};
 use crate::uniform::{self, NoUniformFlow};
 use ode::{Control, Method};
 
@@ -36,6 +36,8 @@ pub struct Run {
     pub ring: Ring,
     /// The initial state.
     pub start: Start,
+    /// Another initial state, at rest, too: how far each pedestrian is moved from equal spacings. Empty: as `start` says.
+    pub displacements: Vec<f64>,
     /// The time at which it ends, above 0.
     pub t_end: f64,
     /// The time between samples, above 0; the first is taken at 0.
@@ -103,6 +105,7 @@ impl Run {
             model,
             ring,
             start,
+            displacements: Vec::new(),
             t_end,
             sample: 1.0,
             method,
@@ -113,6 +116,11 @@ impl Run {
             steady_speed,
             at_overlap: AtOverlap::Stop,
         })
+    }
+
+    /// The state at the start, in this form.
+    fn initial(&self, form: &dyn RingSystem) -> Vec<f64> {
+        if self.displacements.is_empty() { form.start(self.start) } else { form.start_displaced(&self.displacements) }
     }
 
     /// Whether an event ends the samples.

@@ -45,9 +45,9 @@ impl<'a> Record<'a> {
         let std = self.form.speed_deviation(state);
         let sample = if self.run.keeps_trajectories {
             self.read(state);
-            Sample { time, std, positions: &self.positions, speeds: &self.speeds }
+            Sample { time, std, positions: &self.positions, speeds: &self.speeds, spacings: &self.spacings }
         } else {
-            Sample { time, std, positions: &[], speeds: &[] }
+            Sample { time, std, positions: &[], speeds: &[], spacings: &[] }
         };
         self.samples.push(sample);
         sample

@@ -16,7 +16,7 @@ use std::ops::ControlFlow;
 /// The integration failed before anything stopped it, with the time it reached.
 ///
 /// # Panics
-/// The time between samples is not above 0.
+/// The time between samples is not above 0; displacements are there, but not one for each pedestrian.
 pub fn run(run: &Run) -> Result<Outcome, Broken> {
     run_from(run, None, &mut ())
 }
@@ -30,13 +30,15 @@ pub fn run(run: &Run) -> Result<Outcome, Broken> {
 /// As [`run`].
 pub fn run_from(run: &Run, from: Option<Checkpoint>, observer: &mut dyn RunObserver) -> Result<Outcome, Broken> {
     assert!(run.sample > 0.0, "the time between samples is {:?}; it must be above 0", run.sample);
+    let (moved, pedestrians) = (run.displacements.len(), run.ring.pedestrians);
+    assert!(moved == 0 || moved == pedestrians, "{moved} displacements for {pedestrians} pedestrians");
     let form = run.form.build(&run.model, run.ring);
     let near_walls = StateVariables::Spacings.build(&run.model, run.ring);
     let mut recorder = Recorder::new(run, &*form, observer);
     let mut made = match from {
         Some(checkpoint) => recorder.resume(&*form, &*near_walls, checkpoint),
         None => {
-            let start = form.start(run.start);
+            let start = run.initial(&*form);
             recorder.start(&start);
             recorder.leg(&*form, 0.0, &start)
         }
@@ -171,7 +173,7 @@ impl<'a> Recorder<'a> {
         let Made { statistics: ode::Statistics { time, mut state, .. }, failure } = made;
         if state.is_empty() {
             // no step was tried
-            state = self.record.form.start(self.run.start);
+            state = self.run.initial(self.record.form);
         }
         if !self.is_stopped {
             self.record.follow(time, &state);

@@ -26,6 +26,9 @@ pub struct Sample<'a> {
     pub positions: &'a [f64],
     /// Speeds. Empty where they are not kept.
     pub speeds: &'a [f64],
+    /// Spacings to the pedestrians ahead, with all their digits. Empty where trajectories are not kept, and in samples read
+    /// from [`Samples`], where they are differences of positions.
+    pub spacings: &'a [f64],
 }
 
 impl Samples {
@@ -58,10 +61,10 @@ impl Samples {
     pub fn at(&self, index: usize) -> Sample<'_> {
         let row = index * self.pedestrians..(index + 1) * self.pedestrians;
         let (positions, speeds) = (&self.positions[row.clone()], &self.speeds[row]);
-        Sample { time: self.times[index], std: self.std[index], positions, speeds }
+        Sample { time: self.times[index], std: self.std[index], positions, speeds, spacings: &[] }
     }
 
-    pub(crate) fn push(&mut self, Sample { time, std, positions, speeds }: Sample<'_>) {
+    pub(crate) fn push(&mut self, Sample { time, std, positions, speeds, .. }: Sample<'_>) {
         self.times.push(time);
         self.std.push(std);
         self.positions.extend_from_slice(positions);

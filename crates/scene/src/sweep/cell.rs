@@ -144,6 +144,7 @@ impl Sweep {
             model,
             ring,
             start,
+            displacements: Vec::new(),
             t_end: settings.t_end,
             sample: settings.t_end,
             method: settings.method,
