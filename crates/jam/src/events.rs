@@ -62,13 +62,13 @@ impl EventKind {
 pub struct Event {
     /// What.
     pub kind: EventKind,
-    /// When.
+    /// When, in units of `tau`: to the last bit of the step's interpolant.
     pub time: f64,
     /// To whom, counted from 0.
     pub pedestrian: usize,
-    /// The gap `s_n` to the pedestrian ahead then.
+    /// The spacing `s_n` to the pedestrian ahead then, in units of `a_0`.
     pub gap: f64,
-    /// The length of the step in which it lies.
+    /// The length of the step in which it lies, in units of `tau`; 0 at the start.
     pub step: f64,
 }
 
@@ -205,7 +205,7 @@ impl<'a> Watch<'a> {
         &self.within
     }
 
-    /// The spacings and speeds at a time within a step.
+    /// The `N` spacings and the `N` speeds at a time within a step, from its start to its end.
     pub fn everybody_at(&self, step: &mut Step<'_>, time: f64) -> [Vec<f64>; 2] {
         let count = self.after.gaps.len();
         let (mut state, mut spacings, mut speeds) =
@@ -215,17 +215,17 @@ impl<'a> Watch<'a> {
         [spacings, speeds]
     }
 
-    /// The speeds at the end of the step looked at last.
+    /// The `N` speeds at the end of the step looked at last, in units of `a_0 / tau`.
     pub fn speeds(&self) -> &[f64] {
         &self.after.speeds
     }
 
-    /// The rooms at the end of the step looked at last.
+    /// The `N` effective gaps at the end of the step looked at last, in units of `a_0`.
     pub fn rooms(&self) -> &[f64] {
         &self.after.rooms
     }
 
-    /// The rooms in any state of the form.
+    /// The `N` effective gaps in any state of the form, in units of `a_0`.
     pub fn rooms_of(&self, state: &[f64]) -> Vec<f64> {
         let mut instant = self.before.clone();
         instant.read(self.form, &*self.force, state, &vec![0.0; state.len()]);

@@ -5,9 +5,9 @@ use crate::laws::{Formula, Model};
 /// Why there is no uniform flow with open gaps.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NoUniformFlow {
-    /// The headway `Delta y` asked for.
+    /// The headway `Delta y` asked for, in units of `a_0`.
     pub headway: f64,
-    /// All steady speeds, where a formula has several.
+    /// All steady speeds from 0 on, where a law has several; empty where it has none.
     pub speeds: Vec<f64>,
 }
 
@@ -150,7 +150,7 @@ fn bisected(mut low: f64, mut high: f64, value: impl Fn(f64) -> f64) -> f64 {
     }
 }
 
-/// The headway at which the uniform flow has this effective gap `d'`: the gap grows with the headway, as the steady speed's
+/// The headway at which the uniform flow has this effective gap `d'` (above 0), both in units of `a_0`: the gap grows with the headway, as the steady speed's
 /// share of it does not outrun it; found by bisection to the last bit.
 ///
 /// # Errors

@@ -273,7 +273,8 @@ impl Model {
         each!(self, law => Box::new(Compiled::new(*law)), formula => formula.force(), own => own.force())
     }
 
-    /// The acceleration as the paper prints it; of a formula, that of the uniform flow with this own speed.
+    /// The acceleration as the paper prints it, in units of `a_0 / tau^2`, at this spacing (not net gap), own speed and speed
+    /// ahead; of a formula, that of the uniform flow with this own speed.
     pub fn acceleration(&self, gap: f64, speed: f64, ahead: f64) -> f64 {
         let net_gap = gap - self.contact();
         each!(
@@ -284,7 +285,7 @@ impl Model {
         )
     }
 
-    /// The gap at which two standing pedestrians touch (see [`Law::CONTACT`]).
+    /// The spacing at which two standing pedestrians touch, in units of `a_0` (see [`Law::CONTACT`]).
     pub fn contact(&self) -> f64 {
         each!(self, law => contact_of(law), formula => formula.contact(), own => own.contact())
     }
@@ -294,7 +295,8 @@ impl Model {
         each!(self, law => is_singular(law), formula => formula.is_singular(), own => own.is_singular())
     }
 
-    /// The room of a pedestrian (see [`Law::effective_gap`]).
+    /// The effective gap of a pedestrian, in units of `a_0`, at this spacing, own speed and speed ahead (see
+    /// [`Law::effective_gap`]).
     pub fn room(&self, gap: f64, speed: f64, ahead: f64) -> f64 {
         let net_gap = gap - self.contact();
         each!(
@@ -305,7 +307,8 @@ impl Model {
         )
     }
 
-    /// How much room a unit of speed, own or ahead, takes away.
+    /// How much of the effective gap a unit of speed, own or ahead, takes away: `a_v` of the paper, in units of `tau`; 0 for a
+    /// formula.
     pub fn room_per_speed(&self) -> f64 {
         -each!(self, law => law.effective_gap(0.0, 1.0, 0.0), _formula => 0.0, own => own.effective_gap(0.0, 1.0, 0.0))
     }
