@@ -42,10 +42,10 @@ pub fn steady_speed(model: &Model, headway: f64) -> Result<f64, NoUniformFlow> {
         return nearest(model, headway, None);
     }
     let pushes = |speed: f64| {
-        let has_room = !model.is_singular() || model.room(headway, speed, speed) > 0.0;
+        let has_room = !model.is_singular() || model.effective_gap(headway, speed, speed) > 0.0;
         has_room && model.acceleration(headway, speed, speed) > 0.0
     };
-    let has_room = |speed: f64| model.room(headway, speed, speed) > 0.0;
+    let has_room = |speed: f64| model.effective_gap(headway, speed, speed) > 0.0;
     let desired = model.desired_speed();
     let mut slow = -desired;
     // a strong force asks for a negative speed: go down until it is found, or the doubling runs away
@@ -87,7 +87,7 @@ pub fn nearest(model: &Model, headway: f64, wanted: Option<f64>) -> Result<f64, 
         return of_formula(formula, headway, wanted);
     }
     let value = |&speed: &f64| {
-        let is_open = !model.is_singular() || model.room(headway, speed, speed) > 0.0;
+        let is_open = !model.is_singular() || model.effective_gap(headway, speed, speed) > 0.0;
         if is_open { model.acceleration(headway, speed, speed) } else { f64::NAN }
     };
     fallen(&|speeds| speeds.iter().map(value).collect(), model.speed_scale(), headway, wanted)
@@ -156,7 +156,7 @@ fn bisected(mut low: f64, mut high: f64, value: impl Fn(f64) -> f64) -> f64 {
 /// # Errors
 /// [`NoUniformFlow`] where no headway up to a million gaps has one.
 pub fn headway_of_gap(model: &Model, gap: f64) -> Result<f64, NoUniformFlow> {
-    let room = |headway: f64| steady_speed(model, headway).map(|speed| model.room(headway, speed, speed));
+    let room = |headway: f64| steady_speed(model, headway).map(|speed| model.effective_gap(headway, speed, speed));
     let (mut low, mut high) = (model.contact(), model.contact() + gap);
     let is_enough = |headway: f64| room(headway).is_ok_and(|room| room >= gap);
     while !is_enough(high) {
