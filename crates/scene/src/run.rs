@@ -99,8 +99,9 @@ fn read_for(file: &str, tables: &Section, purpose: Purpose) -> Result<Scene, Sce
     let t_end = run.number("t_end", POSITIVE)?;
     let sample = run.number("sample", POSITIVE)?;
     let method = method(&mut run)?;
-    let control = control(&mut run, method)?;
     let wanted = if run.has("state") { Some(run.one_of("state", &FORMS)?) } else { None };
+    let method = method.unwrap_or_else(|| usual_method(wanted, &model, ring, steady_speed));
+    let control = control(&mut run, method, TOLERANCE)?;
     let form = fitting(wanted, &model, ring, steady_speed, method);
     if let Some((pedestrian, value)) = without_value(&*form.build(&model, ring), start, ring) {
         let problem = format!(
@@ -174,6 +175,17 @@ pub(crate) fn fitting(
     } else {
         form
     }
+}
+
+/// The method of a scene that names none: Taylor's, or `dop853` where only that method keeps the state in deviations, in which a
+/// small perturbation loses no digits.
+fn usual_method(wanted: Option<StateVariables>, model: &Model, ring: Ring, speed: Option<f64>) -> Method {
+    let variables = wanted.unwrap_or(if has_deviations(model, ring, speed) {
+        StateVariables::Deviations
+    } else {
+        StateVariables::Spacings
+    });
+    if Method::Taylor.suits(&*variables.build(model, ring)) { Method::Taylor } else { Method::Dop853 }
 }
 
 /// Whether a ring has a uniform flow that its state can deviate from.
@@ -287,22 +299,30 @@ fn most_steps(run: &mut Reader<'_>, control: Control, t_end: f64, purpose: Purpo
     }
 }
 
-pub(crate) fn method(run: &mut Reader<'_>) -> Result<Method, SceneError> {
-    run.one_of("method", &Method::ALL.map(|method| (method.name(), method)))
+/// The tolerance of a run that names neither `tolerance` nor `dt`.
+const TOLERANCE: f64 = 1e-10;
+
+/// The method that a scene names. One with steps of fixed length must name it.
+pub(crate) fn method(run: &mut Reader<'_>) -> Result<Option<Method>, SceneError> {
+    if run.has("method") || run.has("dt") {
+        return run.one_of("method", &Method::ALL.map(|method| (method.name(), method))).map(Some);
+    }
+    Ok(None)
 }
 
-/// `tolerance` for methods that choose their steps, `dt` for any.
-pub(crate) fn control(run: &mut Reader<'_>, method: Method) -> Result<Control, SceneError> {
+/// `tolerance` for methods that choose their steps, `usual` if nothing is named; `dt` for any.
+pub(crate) fn control(run: &mut Reader<'_>, method: Method, usual: f64) -> Result<Control, SceneError> {
     let tolerance = run.optional_number("tolerance", 1e-15..=1e-2)?;
     let step = run.optional_number("dt", POSITIVE)?;
     match (tolerance, step) {
         (None, Some(step)) => Ok(Control::Fixed { step }),
         (Some(tolerance), None) if method.is_adaptive() => Ok(Control::Adaptive { tolerance }),
+        (None, None) if method.is_adaptive() => Ok(Control::Adaptive { tolerance: usual }),
         (Some(_), None) => {
             let problem = format!("{} has no error estimate and needs dt, the length of its steps", method.name());
             Err(run.complaint("tolerance", &problem))
         }
         (Some(_), Some(_)) => Err(run.complaint("dt", "give either dt or tolerance, not both")),
-        (None, None) => Err(run.complaint("method", "needs tolerance (adaptive methods) or dt (fixed steps)")),
+        (None, None) => Err(run.complaint("method", "has no error estimate and needs dt, the length of its steps")),
     }
 }
