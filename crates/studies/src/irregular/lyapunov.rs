@@ -15,7 +15,7 @@ const INTERVAL: f64 = 10.0;
 const TURNING: usize = 40;
 /// Then as many batches of as many intervals give an exponent each.
 const BATCHES: usize = 10;
-const BATCH: usize = 40;
+const BATCH: usize = 20;
 
 /// The exponents of successive batches of a run from a state, in units of `1 / tau`.
 ///

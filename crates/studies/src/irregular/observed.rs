@@ -30,7 +30,7 @@ pub(super) struct Window {
     pub largest_speed: f64,
 }
 
-/// Successive windows, so many and so long, of a run from a state at a time.
+/// Successive windows, so many and so long, of a run from a state at a time, and its last state.
 ///
 /// # Errors
 /// The run failed, or somebody was touched.
@@ -40,9 +40,9 @@ pub(super) fn windows(
     scheme: Scheme,
     begin: f64,
     (count, length): (usize, f64),
-) -> Result<Vec<Window>, Failure> {
+) -> Result<(Vec<Window>, Vec<f64>), Failure> {
     let mut state = start.to_vec();
-    (0..count)
+    let found = (0..count)
         .map(|index| {
             let mut window = Window {
                 begin: begin + index as f64 * length,
@@ -63,7 +63,8 @@ pub(super) fn windows(
             window.std /= moments;
             if window.least_gap > 0.0 { Ok(window) } else { Err(Failure::work("somebody was touched in the waves")) }
         })
-        .collect()
+        .collect::<Result<Vec<Window>, Failure>>()?;
+    Ok((found, state))
 }
 
 /// The largest difference of speeds between two runs, at each moment up to a time.
