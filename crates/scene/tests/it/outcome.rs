@@ -148,8 +148,8 @@ fn the_least_speed_of_lasting_waves_is_not_that_of_their_growth() {
         outcome.speeds.iter().copied().fold(f64::INFINITY, math::smaller)
     });
     let snapshots = slowest.fold(f64::INFINITY, math::smaller);
-    assert!(found.least_speed <= lasting && (0.0..1e-3).contains(&(snapshots - lasting)), "{found:?} {snapshots}");
-    let decayed = verdict(&scene(&waves(3.0).replace("0.32", "0.2"), SMALL, 0.1, TAYLOR));
+    assert!(found.least_speed <= lasting && (-1e-5..2e-3).contains(&(snapshots - lasting)), "{found:?} {snapshots}");
+    let decayed = verdict(&scene(&waves(3.0).replace("0.36", "0.1"), SMALL, 0.1, TAYLOR));
     assert_eq!((decayed.class, decayed.lasting_least_speed), (Class::Decays, None));
 }
 
