@@ -5,12 +5,12 @@ use figures::panels::{points, trajectories};
 use figures::{Failure, Job, figure};
 use files::table::{Cell, Sheet, Table};
 use jam::ring::{Ring, Start};
+use jam::run::{Judging, run_from};
 use jam::states::StateVariables;
 use ode::{Control, Method};
 use plot::style::COLUMN_WIDTH;
 use plot::{Axis, ColorScale, Lines, Picture, Series, SpaceTime};
 use scene::run::Scene;
-use scene::simulation::{Judging, RunObserver, run_from};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -55,7 +55,7 @@ fn varied(scene: &Scene) -> Result<Sheet, Failure> {
     let control = Control::Adaptive { tolerance: 1e-10 };
     let base = Scene { t_end: 20_000.0, sample: 20_000.0, keeps_trajectories: false, control, ..scene.clone() };
     let mut add = |varied: &str, value: Cell, scene: Scene| {
-        let outcome = run_from(&scene, None, &mut Judged).map_err(Failure::work)?;
+        let outcome = run_from(&scene, None, &mut Judging::UntilCertain).map_err(Failure::work)?;
         let verdict = outcome.verdict.ok_or_else(|| Failure::work("a run without an outcome"))?;
         let speed = verdict.wave_speed.map_or(Cell::Empty, Cell::Number);
         // what happened while the waves grew is no part of them
@@ -94,15 +94,6 @@ fn varied(scene: &Scene) -> Result<Sheet, Failure> {
         add_with("mu_narrow", &[("mu", mu), ("epsilon", NARROW)], mu)?;
     }
     Ok(sheet)
-}
-
-/// Runs end where their outcome is certain.
-struct Judged;
-
-impl RunObserver for Judged {
-    fn judging(&self) -> Judging {
-        Judging::UntilCertain
-    }
 }
 
 fn picture(job: &Job) -> Result<Picture, Failure> {

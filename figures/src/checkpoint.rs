@@ -7,11 +7,10 @@
 use crate::failure::Failure;
 use cpu_time::{ProcessTime, ThreadTime};
 use files::write::{atomic, sha256, sha256_file};
+use jam::run::{Checkpoint, Judging, PartialRun, RunObserver, Sight, run_from};
 use ode::Step;
-use scene::checkpoint::{Checkpoint, PartialRun};
 use scene::propagated::Propagated;
 use scene::run::Scene;
-use scene::simulation::{Judging, RunObserver, Sight, run_from};
 use scene::summary::Ended;
 use std::io::{IsTerminal as _, Write as _};
 use std::path::PathBuf;

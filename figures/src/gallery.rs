@@ -5,9 +5,10 @@ use crate::panels::trajectories;
 use clap::Parser;
 use files::scene_file;
 use files::write::atomic_all;
+use jam::run::{Outcome, run};
 use plot::style::FULL_WIDTH;
 use plot::{Axis, ColorScale, Picture, SpaceTime, Trajectory};
-use scene::simulation::{Outcome, run};
+use scene::tables;
 use std::path::{Path, PathBuf};
 
 /// What the command line asks for.
@@ -57,7 +58,7 @@ fn space_time(file: &Path, panel: &str, part: f64) -> Result<SpaceTime, Failure>
     let mut scene = scene::run::read(&recipe.file, &recipe.panel(panel)?.tables)?;
     scene.keeps_trajectories = true;
     let outcome = run(&scene).map_err(Failure::work)?;
-    let end = outcome.std.rows().last().map_or(scene.t_end, |row| row[0]);
+    let end = outcome.samples.last().map_or(scene.t_end, |sample| sample.time);
     let times = Axis::linear("$t$", part * end, end).steps(3);
     let places = Axis::linear("$x$", 0.0, scene.ring.length).steps(2);
     let shaded = shaded(&outcome, part * end, end)?;
@@ -69,7 +70,7 @@ fn space_time(file: &Path, panel: &str, part: f64) -> Result<SpaceTime, Failure>
 fn shaded(outcome: &Outcome, begin: f64, end: f64) -> Result<Vec<Trajectory>, Failure> {
     const START: f64 = 0.2;
     const RARE: f64 = 0.01;
-    let mut all = trajectories(&outcome.trajectories)?;
+    let mut all = trajectories(&tables::trajectories(&outcome.samples))?;
     let from = if begin > START * end { begin } else { START * end };
     let drawn = all.iter().flatten().filter(|[t, ..]| *t >= from).map(|[.., v]| *v);
     let mut drawn: Vec<f64> = drawn.collect();

@@ -2,21 +2,22 @@
 
 use crate::checkpoint::CheckpointOptions;
 use crate::failure::{Failure, print};
-use crate::panels::{points, trajectories};
+use crate::panels::trajectories;
 use crate::uniform;
 use files::scene_file::{self, Kind};
 use files::table::Table;
 use files::write::atomic_all;
 use jam::events::Event;
 use jam::outcome::{Decision, Verdict};
+use jam::run::Outcome;
 use ode::{Control, Method};
 use plot::style::COLUMN_WIDTH;
 use plot::{Axis, ColorScale, Lines, Picture, Series, SpaceTime};
 use scene::Overrides;
 use scene::check::{self, Errors};
 use scene::run::Scene;
-use scene::simulation::Outcome;
 use scene::summary::{self, Ended};
+use scene::tables;
 use scene::uniform::{Stability, stability};
 use serde_json::Value;
 use std::fmt::Write as _;
@@ -98,7 +99,7 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     let Ended { outcome, broken, seconds, .. } = ended;
     let mut files = Vec::new();
     if let Some(folder) = &arguments.out {
-        files.extend(tables(folder, &scene, &outcome, errors));
+        files.extend(written(folder, &scene, &outcome, errors));
         files.push((folder.join("summary.json"), pretty(&summary).into_bytes()));
         if !arguments.tables_only {
             files.extend(pictures(folder, &scene, &outcome, errors)?);
@@ -155,7 +156,7 @@ fn pictures(
     outcome: &Outcome,
     errors: Option<&Errors>,
 ) -> Result<Vec<(PathBuf, Vec<u8>)>, Failure> {
-    let std = points(&outcome.std, "t", "std")?;
+    let std = outcome.samples.iter().map(|sample| (sample.time, sample.std)).collect::<Vec<(f64, f64)>>();
     // a run that a stop ends is drawn up to its last sample
     let last = std.last().map_or(0.0, |&(t, _)| t);
     let times = Axis::linear("$t$", 0.0, if last > 0.0 { last } else { scene.t_end }).steps(4);
@@ -169,9 +170,9 @@ fn pictures(
     let mut files = rendered(folder, "std", picture)?;
     if scene.keeps_trajectories {
         let length = scene.ring.length;
-        let speeds = ColorScale::sequential("speed $v_n$", outcome.trajectories.column("v")?);
+        let speeds = ColorScale::sequential("speed $v_n$", outcome.samples.speeds.iter().copied());
         let places = Axis::linear("$x'$", 0.0, length).steps(4);
-        let panel = SpaceTime::new(times, places, length, &trajectories(&outcome.trajectories)?);
+        let panel = SpaceTime::new(times, places, length, &trajectories(&tables::trajectories(&outcome.samples))?);
         files.extend(rendered(folder, "trajectories", Picture::new(COLUMN_WIDTH, 80.0).scale(speeds).panel(panel))?);
     }
     Ok(files)
@@ -182,11 +183,12 @@ fn rendered(folder: &Path, name: &str, picture: Picture) -> Result<Vec<(PathBuf,
     Ok(vec![(folder.join(format!("{name}.svg")), rendered.svg), (folder.join(format!("{name}.png")), rendered.png)])
 }
 
-fn tables(folder: &Path, scene: &Scene, outcome: &Outcome, errors: Option<&Errors>) -> Vec<(PathBuf, Vec<u8>)> {
+fn written(folder: &Path, scene: &Scene, outcome: &Outcome, errors: Option<&Errors>) -> Vec<(PathBuf, Vec<u8>)> {
     let events = events(outcome, errors).into_bytes();
-    let mut files = vec![(folder.join("std.csv"), outcome.std.to_csv()), (folder.join("events.csv"), events)];
+    let mut files =
+        vec![(folder.join("std.csv"), tables::std(&outcome.samples).to_csv()), (folder.join("events.csv"), events)];
     if scene.keeps_trajectories {
-        files.push((folder.join("trajectories.csv"), outcome.trajectories.to_csv()));
+        files.push((folder.join("trajectories.csv"), tables::trajectories(&outcome.samples).to_csv()));
     }
     files
 }

@@ -3,6 +3,7 @@
 use files::scene_file::{self, Kind};
 use ode::Control;
 use scene::run::Scene;
+use scene::simulation::Samples;
 
 /// Larger ones are left out: pedestrians, rows of a table, steps.
 const SMALL: (usize, f64, u64) = (12, 200.0, 400);
@@ -46,7 +47,8 @@ pub fn run(scene: Scene) -> Ending {
             return Ending::Broken;
         }
     };
-    let mut numbers = outcome.std.rows().chain(outcome.trajectories.rows()).flatten();
+    let Samples { std, positions, speeds, .. } = &outcome.samples;
+    let mut numbers = std.iter().chain(positions).chain(speeds);
     assert!(numbers.all(|number| number.is_finite()), "a table with a number that is none: {scene:?}");
     assert!(outcome.events.iter().all(|event| (0.0..=scene.t_end).contains(&event.time)), "{:?}", outcome.events);
     if outcome.statistics.time == scene.t_end {

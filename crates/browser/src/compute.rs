@@ -4,7 +4,8 @@ use crate::figures::{Content, Entry, Figure};
 use files::scene_file::{self, Panel};
 use files::table::Table;
 use files::write::sha256;
-use scene::simulation::Outcome;
+use jam::run::Outcome;
+use scene::tables;
 use std::collections::BTreeMap;
 
 /// Computes tables; a run that several of them read is integrated once.
@@ -37,9 +38,9 @@ impl Tables {
                 let table = scene::curve::table(&file, &panel.tables).map_err(|error| error.to_string())?;
                 Ok(table.to_csv())
             }
-            Content::Std => Ok(self.run(&file, panel)?.std.to_csv()),
-            Content::Trajectories => Ok(self.run(&file, panel)?.trajectories.to_csv()),
-            Content::At(time) => Ok(at(&self.run(&file, panel)?.trajectories, time).to_csv()),
+            Content::Std => Ok(tables::std(&self.run(&file, panel)?.samples).to_csv()),
+            Content::Trajectories => Ok(tables::trajectories(&self.run(&file, panel)?.samples).to_csv()),
+            Content::At(time) => Ok(at(&tables::trajectories(&self.run(&file, panel)?.samples), time).to_csv()),
         }
     }
 
@@ -60,7 +61,7 @@ impl Tables {
         let key = panel.determinants();
         if !self.runs.contains_key(&key) {
             let scene = scene::run::read(file, &panel.tables).map_err(|error| error.to_string())?;
-            let outcome = scene::simulation::run(&scene).map_err(|error| error.to_string())?;
+            let outcome = jam::run::run(&scene).map_err(|error| error.to_string())?;
             self.runs.insert(key.clone(), outcome);
         }
         Ok(&self.runs[&key])

@@ -8,8 +8,9 @@ use claims::source::Sources;
 use claims::tables::{EVENTS, Tables};
 use files::scene_file;
 use files::table::{self, Cell, Table};
+use jam::run::Outcome;
 use scene::check::Errors;
-use scene::simulation::Outcome;
+use scene::tables;
 use serde_json::{Value, json};
 
 /// A run that has ended, and the errors of its numbers.
@@ -87,12 +88,12 @@ fn determinants(id: &str, panel: &str) -> Result<String, String> {
 fn sheet(entry: &Entry, ran: &Ran) -> Option<Sheet> {
     let Ran { outcome, errors } = ran;
     let table = match entry.content {
-        Content::Std => outcome.std.clone(),
-        Content::Trajectories => outcome.trajectories.clone(),
-        Content::At(time) => at(&outcome.trajectories, time),
+        Content::Std => tables::std(&outcome.samples),
+        Content::Trajectories => tables::trajectories(&outcome.samples),
+        Content::At(time) => at(&tables::trajectories(&outcome.samples), time),
         Content::Map | Content::Curve => return None,
     };
-    if entry.content != Content::Std && outcome.trajectories.is_empty() {
+    if entry.content != Content::Std && outcome.samples.positions.is_empty() {
         return None;
     }
     let error = |column: &str| {

@@ -2,15 +2,15 @@
 
 use crate::given::{FILE, complaint, panel};
 use crate::rejudge::Ran;
-use files::table::Table;
 use files::write::sha256;
 use jam::events::Event;
+use jam::run::{Judging, RunObserver, Sample, Sight, run_from};
 use ode::Step;
 use scene::check;
 use scene::propagated::Propagated;
 use scene::run::Scene;
-use scene::simulation::{Judging, RunObserver, Sight, run_from};
 use scene::summary::{self, Ended};
+use scene::tables;
 use scene::uniform::stability;
 use serde_json::{Value, json};
 
@@ -40,14 +40,14 @@ pub fn run(text: &str, hearer: &mut dyn Hearer) -> Result<Value, Value> {
 pub fn run_kept(text: &str, hearer: &mut dyn Hearer) -> Result<(Value, Ran), Value> {
     let panel = panel(text)?;
     let scene = scene::run::read(FILE, &panel.tables).map_err(|error| complaint(&error))?;
-    let mut watch = Watch { pedestrians: scene.ring.pedestrians, numbers: Vec::new(), hearer };
+    let mut watch = Watch { numbers: Vec::new(), hearer };
     let ended = end(&scene, &mut watch);
     watch.hearer.checking();
     let errors = check::errors_of(&scene, &ended.outcome, ended.propagated.as_ref(), &mut ());
     let mut told = summary::of_run(&scene, &ended, stability(&scene), Some(&errors));
-    let mut sums = json!({ "std.csv": sha256(&ended.outcome.std.to_csv()) });
+    let mut sums = json!({ "std.csv": sha256(&tables::std(&ended.outcome.samples).to_csv()) });
     if scene.keeps_trajectories {
-        sums["trajectories.csv"] = json!(sha256(&ended.outcome.trajectories.to_csv()));
+        sums["trajectories.csv"] = json!(sha256(&tables::trajectories(&ended.outcome.samples).to_csv()));
     }
     if let Value::Object(told) = &mut told {
         told.remove("seconds");
@@ -72,7 +72,6 @@ fn end(scene: &Scene, watch: &mut Watch<'_>) -> Ended {
 
 /// Tells what is seen.
 struct Watch<'a> {
-    pedestrians: usize,
     numbers: Vec<f64>,
     hearer: &'a mut dyn Hearer,
 }
@@ -84,13 +83,10 @@ impl RunObserver for Watch<'_> {
         }
     }
 
-    fn sampled(&mut self, std: &Table, trajectories: &Table) {
+    fn sampled(&mut self, sample: &Sample<'_>) {
         self.numbers.clear();
-        self.numbers.extend(std.row(std.len() - 1));
-        let first = trajectories.len().saturating_sub(self.pedestrians);
-        for column in [2, 3] {
-            self.numbers.extend((first..trajectories.len()).map(|row| trajectories.row(row)[column]));
-        }
+        self.numbers.extend([sample.time, sample.std]);
+        self.numbers.extend(sample.positions.iter().chain(sample.speeds));
         self.hearer.sample(&self.numbers);
     }
 

@@ -32,7 +32,8 @@ fn case(seed: u64, text: &str, panel: &scene_file::Panel) -> Option<Value> {
     let end = outcome.statistics.time;
     let (right, _) = answer.at(end)?;
     let bound = Bound::new(&stated::of(&scene, &outcome, &propagated));
-    let rows: Vec<&[f64]> = outcome.std.rows().filter(|row| row[0] > 0.0).collect();
+    let std = scene::tables::std(&outcome.samples);
+    let rows: Vec<&[f64]> = std.rows().filter(|row| row[0] > 0.0).collect();
     let right_std: Vec<f64> = rows.iter().filter_map(|row| Some(answer.at(row[0])?.0.std)).collect();
     let events: Vec<Value> = outcome
         .events

@@ -6,12 +6,12 @@ use crate::question;
 use crate::stated::{self, Stated};
 use files::scene_file;
 use jam::events::{Event, EventKind};
+use jam::run::{Broken, Outcome, run_from};
 use jam::states::StateVariables;
 use math::larger;
 use reference::solution::{End, Kind, Question};
 use scene::propagated::Propagated;
 use scene::run::Scene;
-use scene::simulation::{Broken, Outcome, run_from};
 use std::panic::catch_unwind;
 
 /// What became of a run.
@@ -260,7 +260,7 @@ pub fn is_blown_up(outcome: &Outcome) -> bool {
 
 /// The times of the rows, and the end, unless a step was too long for a wall: what is right after it is no question.
 pub fn times(scene: &Scene, outcome: &Outcome) -> Vec<f64> {
-    let mut times: Vec<f64> = outcome.std.rows().map(|row| row[0]).filter(|t| *t > 0.0).collect();
+    let mut times: Vec<f64> = outcome.samples.times.iter().copied().filter(|t| *t > 0.0).collect();
     let end = outcome.statistics.time;
     // a last row may lie a rounding after the end
     if !is_beyond(scene, outcome) && !times.contains(&end) && end > 0.0 {
@@ -319,8 +319,9 @@ fn compare(verdict: &mut Verdict, scene: &Scene, outcome: &Outcome, answer: &Ans
         return;
     }
     let pedestrians = scene.ring.pedestrians;
-    let stds: Vec<&[f64]> = outcome.std.rows().collect();
-    let trajectories: Vec<&[f64]> = outcome.trajectories.rows().collect();
+    let (std, trajectories) = (scene::tables::std(&outcome.samples), scene::tables::trajectories(&outcome.samples));
+    let stds: Vec<&[f64]> = std.rows().collect();
+    let trajectories: Vec<&[f64]> = trajectories.rows().collect();
     let range = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0_f64, |most, value| larger(most, value.abs()));
     let std_range = range(&mut stds.iter().map(|row| row[1]));
     let solution = &answer.solution;

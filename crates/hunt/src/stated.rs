@@ -2,7 +2,6 @@
 
 use crate::answer::Answer;
 use crate::judge::{Ratio, is_beyond, is_blown_up, kind};
-use files::table::Table;
 use jam::states::StateVariables;
 use ode::{Control, Method};
 use scene::check;
@@ -32,7 +31,8 @@ pub fn ratios(scene: &Scene, outcome: &Outcome, answer: &Answer, stated: &Stated
         return Vec::new();
     }
     let mut ratios = Vec::new();
-    let rows: Vec<_> = outcome.std.rows().filter_map(|row| Some((row[1], answer.at(row[0])?))).collect();
+    let rows: Vec<_> =
+        outcome.samples.iter().filter_map(|sample| Some((sample.std, answer.at(sample.time)?))).collect();
     if !rows.is_empty() {
         ratios.push(Ratio {
             what: "std",
@@ -128,7 +128,7 @@ fn difference(scene: &Scene, outcome: &Outcome) -> Stated {
     let apart = |a: &[f64], b: &[f64]| {
         if a.len() > b.len() { f64::INFINITY } else { factor * largest(a.iter().zip(b).map(|(a, b)| a - b)) }
     };
-    let (stds, other_stds) = (column(&outcome.std, 1), column(&other.std, 1));
+    let (stds, other_stds) = (&outcome.samples.std, &other.samples.std);
     let (x, v) = (largest(outcome.positions.iter().copied()), largest(outcome.speeds.iter().copied()));
     // of what std is the difference of, and of positions in every fixed step
     let shared = if scene.form == StateVariables::Deviations { largest(stds.iter().copied()) } else { v };
@@ -143,10 +143,11 @@ fn difference(scene: &Scene, outcome: &Outcome) -> Stated {
         twin.map_or(f64::INFINITY, |twin| factor * (twin.time - happening.time).abs() + ROUNDING * happening.time)
     });
     let rounded = [(ROUNDING + gathered) * x, ROUNDING * v];
-    let table = [2, 3].map(|i| apart(&column(&outcome.trajectories, i), &column(&other.trajectories, i)));
+    let (samples, others) = (&outcome.samples, &other.samples);
+    let table = [apart(&samples.positions, &others.positions), apart(&samples.speeds, &others.speeds)];
     let ends = [apart(&outcome.positions, &other.positions), apart(&outcome.speeds, &other.speeds)];
     Stated {
-        std: apart(&stds, &other_stds) + ROUNDING * shared + f64::MIN_POSITIVE,
+        std: apart(stds, other_stds) + ROUNDING * shared + f64::MIN_POSITIVE,
         table: [table[0] + rounded[0], table[1] + rounded[1]],
         end: if is_whole { [ends[0] + rounded[0], ends[1] + rounded[1]] } else { [f64::INFINITY; 2] },
         events: events.collect(),
@@ -156,10 +157,6 @@ fn difference(scene: &Scene, outcome: &Outcome) -> Stated {
 
 /// A few roundings.
 const ROUNDING: f64 = 1e-15;
-
-fn column(table: &Table, i: usize) -> Vec<f64> {
-    table.rows().map(|row| row[i]).collect()
-}
 
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, |largest, value| if value.abs() <= largest { largest } else { value.abs() })

@@ -148,7 +148,7 @@ impl<'a> Watch<'a> {
         let instant = Instant::new(pedestrians);
         let force = model.force();
         let [before, after, within] = [instant.clone(), instant.clone(), instant];
-        let has_plain_rooms = !matches!(model, Model::Formula(_)) && model.room_per_speed() == 0.0;
+        let has_plain_rooms = model.has_plain_gaps();
         let (found, state) = (Vec::new(), Vec::new());
         let (seen, near, is_quiet) = (None, None, false);
         Watch { model, force, form, found, before, after, within, state, seen, has_plain_rooms, near, is_quiet }
@@ -203,6 +203,16 @@ impl<'a> Watch<'a> {
         step.at_fraction(theta, &mut self.state);
         self.within.read_values(self.form, &*self.force, &self.state);
         &self.within
+    }
+
+    /// The spacings and speeds at a time within a step.
+    pub fn everybody_at(&self, step: &mut Step<'_>, time: f64) -> [Vec<f64>; 2] {
+        let count = self.after.gaps.len();
+        let (mut state, mut spacings, mut speeds) =
+            (vec![0.0; step.before().len()], vec![0.0; count], vec![0.0; count]);
+        step.at(time, &mut state);
+        self.form.read(&state, &mut spacings, &mut speeds);
+        [spacings, speeds]
     }
 
     /// The speeds at the end of the step looked at last.

@@ -4,18 +4,20 @@
 //! A run of a law of your own, here the optimal-velocity model of Bando et al. (1995):
 //!
 //! ```
-//! # use jam::{laws::{Formula, Model}, ring::{Ring, Start}, states::StateVariables};
-//! # use ode::{Control, Method, Problem, Step, integrate};
-//! # use std::ops::ControlFlow;
-//! let lines = [("acceleration", "kappa*(tanh(s - 2) + tanh(2) - v)".into()), ("kappa", 1.0.into()), ("body", 0.0.into())];
-//! let law = Model::Formula(Formula::written(&lines)?);
-//! let form = StateVariables::Deviations.build(&law, Ring { pedestrians: 50, length: 100.0 });
-//! let start = form.start(Start { shift: 0.1 });
-//! let (method, control) = (Method::Dop853, Control::Adaptive { tolerance: 1e-9 });
-//! let problem = Problem { system: &*form, start: &start, begin: 0.0, end: 300.0, method, control };
-//! let end = integrate(&problem, &mut |_: &mut Step<'_>| ControlFlow::Continue(()))?;
-//! println!("standard deviation of the speeds at t = 300: {}", form.speed_deviation(&end.state));
-//! # assert!((form.speed_deviation(&end.state) - 0.8).abs() < 0.2, "jams: {}", form.speed_deviation(&end.state));
+//! use jam::{laws::{Law, Model}, ring::{Ring, Start}, run::{Run, run}};
+//!
+//! #[derive(Clone, Copy, Debug, Default)]
+//! struct OptimalVelocity;
+//! impl Law for OptimalVelocity {
+//!     const CONTACT: f64 = 0.0;
+//!     fn acceleration<X: math::number::Number>(&self, spacing: X, speed: X, _ahead: X) -> X {
+//!         (spacing - 2.0).tanh() + 0.9640275800758169 - speed
+//!     }
+//! }
+//! let ring = Ring { pedestrians: 50, length: 100.0 };
+//! let outcome = run(&Run::new(Model::own(OptimalVelocity)?, ring, Start { shift: 0.1 }, 300.0)?)?;
+//! println!("standard deviation of the speeds at t = 300: {}", outcome.samples.std[300]);
+//! # assert!((outcome.samples.std[300] - 0.8).abs() < 0.2, "jams: {}", outcome.samples.std[300]);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -30,7 +32,8 @@
 //!
 //! ## Laws
 //!
-//! [`laws::Model`] is a law with its parameters: one of the three of the paper, or a [`laws::Formula`].
+//! [`laws::Model`] is a law with its parameters: one of the three of the paper, a [`laws::Formula`], or a Rust type that
+//! implements [`laws::Law`].
 //!
 //! ```
 //! use jam::laws::{Logarithmic, Model};
@@ -45,9 +48,9 @@
 //! # Ok::<(), String>(())
 //! ```
 //!
-//! A law in Rust runs at the speed of the built-in ones: [`laws::Law`] has one as an example. Its formula is written once for
-//! any [`math::number::Number`], and [`force::Compiled`] makes the force of a ring of it. [`events::Watch`] and
-//! [`outcome::Judge`] take a [`laws::Model`], so for these it has to be one of the built-in laws or a formula.
+//! A formula as a text needs no compiler and may look at several neighbours. A law in Rust runs at the speed of the built-in
+//! ones; its formula is written once for any [`math::number::Number`], and accelerations, linear stability, Taylor's method and
+//! differences from the uniform flow without cancellation follow from it.
 //!
 //! ## Stability
 //!
@@ -100,61 +103,42 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! ## Events, samples, jams, and what became of a run
+//! ## Samples, events, jams, and what became of a run
 //!
-//! An [`ode::Observer`] sees every step. [`events::Watch`] finds the first overlap, negative speed and exchange of places in
-//! them, to the last bit of the time; [`ode::Sampler`] takes states at regular times from inside the steps;
-//! [`outcome::Judge`] says what became of the run; [`jams::find`] finds the jams of a snapshot.
+//! [`run::Run`] says what is integrated and what is kept; its fields can be replaced. The [`run::Outcome`] holds samples at
+//! regular times, taken from inside the steps; the first overlap, negative speed and exchange of places, to the last bit of
+//! the time ([`events`]); the jams at the end and how fast they travel ([`jams`]); and, if an observer asks for it, what became
+//! of the run ([`outcome`]).
 //!
 //! ```
 //! # use jam::laws::{Formula, Model};
 //! # use jam::ring::{Ring, Start};
-//! # use jam::states::StateVariables;
-//! # use ode::{Control, Method, Problem, Sampler, Step, integrate};
-//! use jam::events::{EventKind, Watch};
-//! use jam::outcome::{Class, Judge};
-//! use jam::uniform::steady_speed;
-//! use std::ops::ControlFlow;
+//! use jam::events::EventKind;
+//! use jam::outcome::Class;
+//! use jam::run::{Judging, Run, run_from};
+//! use ode::{Control, Method};
 //!
 //! # let lines = [("acceleration", "kappa*(tanh(s - 2) + tanh(2) - v)".into()), ("kappa", 1.0.into()), ("body", 0.0.into())];
 //! # let law = Model::Formula(Formula::written(&lines)?);
 //! let ring = Ring { pedestrians: 50, length: 100.0 };
-//! let form = StateVariables::Deviations.build(&law, ring);
-//! let start = form.start(Start { shift: 0.1 });
-//! let mut rates = vec![0.0; start.len()];
-//! form.rates(&start, &mut rates);
+//! let run = Run::new(law, ring, Start { shift: 0.1 }, 300.0)?;
+//! let run = Run { sample: 10.0, method: Method::Taylor, control: Control::Adaptive { tolerance: 1e-10 }, ..run };
+//! let outcome = run_from(&run, None, &mut Judging::Along)?;
 //!
-//! let mut watch = Watch::new(law.clone(), &*form, ring.pedestrians);
-//! let mut judge = Judge::new(&law, ring, steady_speed(&law, ring.headway()).ok());
-//! let mut sampler = Sampler::new(10.0, start.len());
-//! let mut samples = vec![(0.0, form.speed_deviation(&start))];
-//! let found = watch.start(0.0, &start, &rates);
-//! judge.start(&watch, &found);
-//! let mut observer = |step: &mut Step<'_>| {
-//!     let new = watch.look(step);
-//!     judge.look(&mut watch, step, &new);
-//!     sampler.within(step, step.end, &mut |t, state| samples.push((t, form.speed_deviation(state))));
-//!     // the law has no meaning behind a stop
-//!     if new.iter().any(|happening| happening.kind.is_stop()) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-//! };
-//! let (method, control) = (Method::Dop853, Control::Adaptive { tolerance: 1e-9 });
-//! let problem = Problem { system: &*form, start: &start, begin: 0.0, end: 300.0, method, control };
-//! let end = integrate(&problem, &mut observer)?;
-//!
-//! assert_eq!(samples.len(), 31);
-//! assert!(watch.found().iter().all(|happening| happening.kind != EventKind::Overlap));
-//! let verdict = judge.end(end.time, watch.found());
+//! assert_eq!(outcome.samples.len(), 31);
+//! assert!(outcome.events.iter().all(|event| event.kind != EventKind::Overlap));
+//! let verdict = outcome.verdict.expect("it was asked for");
 //! println!("{}: least gap {:.3}", verdict.class.in_words(), verdict.least_gap);
 //! # assert!(matches!(verdict.class, Class::Undecided | Class::Waves | Class::WavesBackwards), "{verdict:?}");
-//!
-//! let (mut positions, mut gaps, mut speeds) = (vec![0.0; 50], vec![0.0; 50], vec![0.0; 50]);
-//! form.write_positions(&end.state, &mut positions);
-//! form.read(&end.state, &mut gaps, &mut speeds);
-//! let threshold = jam::jams::threshold(&speeds, law.desired_speed()).expect("speeds differ");
-//! let jams = jam::jams::find(&positions, &speeds, ring.length, threshold);
-//! assert!(!jams.is_empty() && jams.iter().all(|jam| jam.extent > 0.0));
+//! let last = outcome.samples.last().expect("a sample");
+//! assert_eq!((last.time, last.speeds.len()), (300.0, 50));
+//! let (jam_speed, duration) = outcome.drift.speed().expect("jams that travel");
+//! assert!(jam_speed < 0.5 && duration > 0.0 && outcome.drift.jams().iter().all(|jam| jam.extent > 0.0));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! A [`run::RunObserver`] sees samples, events and steps as they come, and can end a run. Runs of many hours go on from a
+//! [`run::Checkpoint`].
 //!
 //! # Accuracy
 //!
@@ -172,6 +156,7 @@ pub mod outcome;
 pub mod precise;
 pub mod ramp;
 pub mod ring;
+pub mod run;
 pub mod stability;
 pub mod states;
 pub mod uniform;

@@ -133,6 +133,7 @@ fn accelerate(
         Model::Exponential(law) => of_law(law, net_gap, speed),
         Model::Logarithmic(law) => of_law(law, net_gap, speed),
         Model::Formula(law) => of_formula(law, net_gap, speed),
+        Model::Own(law) => law.precise(net_gap(0), speed(0), speed(1)),
     }
 }
 

@@ -38,8 +38,8 @@ impl std::error::Error for NoUniformFlow {}
 /// # Errors
 /// [`NoUniformFlow`] when at no speed from -1e12 times the desired one up to it the drive balances the force with room left.
 pub fn steady_speed(model: &Model, headway: f64) -> Result<f64, NoUniformFlow> {
-    if let Model::Formula(formula) = model {
-        return of_formula(formula, headway, None);
+    if matches!(model, Model::Formula(_) | Model::Own(_)) {
+        return nearest(model, headway, None);
     }
     let pushes = |speed: f64| {
         let has_room = !model.is_singular() || model.room(headway, speed, speed) > 0.0;
@@ -69,17 +69,42 @@ fn none(headway: f64) -> NoUniformFlow {
     NoUniformFlow { headway, speeds: Vec::new() }
 }
 
-/// The steady speed of a formula: where the acceleration of the uniform flow falls through 0, from 0 to the largest speed
-/// at which the formula has a value; if there is none, the one next below 0; the one next to `wanted`, if that is given.
+/// The steady speed of a formula (see [`nearest`]).
+///
+/// # Errors
+/// As [`nearest`].
+pub fn of_formula(formula: &Formula, headway: f64, wanted: Option<f64>) -> Result<f64, NoUniformFlow> {
+    fallen(&|speeds| formula.uniform_at(headway, speeds), formula.speed_scale(), headway, wanted)
+}
+
+/// The steady speed of any law: where the acceleration of the uniform flow falls through 0, from 0 to the largest speed
+/// at which it has a value; if there is none, the one next below 0; the one next to `wanted`, if that is given.
 ///
 /// # Errors
 /// [`NoUniformFlow`]: none, or several from 0 on and none is `wanted`.
-pub fn of_formula(formula: &Formula, headway: f64, wanted: Option<f64>) -> Result<f64, NoUniformFlow> {
-    let scale = formula.speed_scale().map_or(1.0, f64::abs);
+pub fn nearest(model: &Model, headway: f64, wanted: Option<f64>) -> Result<f64, NoUniformFlow> {
+    if let Model::Formula(formula) = model {
+        return of_formula(formula, headway, wanted);
+    }
+    let value = |&speed: &f64| {
+        let is_open = !model.is_singular() || model.room(headway, speed, speed) > 0.0;
+        if is_open { model.acceleration(headway, speed, speed) } else { f64::NAN }
+    };
+    fallen(&|speeds| speeds.iter().map(value).collect(), model.speed_scale(), headway, wanted)
+}
+
+/// Where the accelerations fall through 0, found on a grid of speeds.
+fn fallen(
+    accelerations: &dyn Fn(&[f64]) -> Vec<f64>,
+    scale: Option<f64>,
+    headway: f64,
+    wanted: Option<f64>,
+) -> Result<f64, NoUniformFlow> {
+    let scale = scale.map_or(1.0, f64::abs);
     let scale = if scale > 0.0 { scale } else { 1.0 };
     let falls = |speeds: &[f64]| -> Vec<f64> {
-        let acceleration = |speed: f64| formula.uniform(headway, speed);
-        let values = formula.uniform_at(headway, speeds);
+        let acceleration = |speed: f64| accelerations(&[speed])[0];
+        let values = accelerations(speeds);
         let pairs = speeds.windows(2).zip(values.windows(2));
         pairs
             .filter(|(_, value)| value[0] > 0.0 && value[1] <= 0.0)

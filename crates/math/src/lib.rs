@@ -16,6 +16,7 @@
 //! | [`simd`] | runs a loop with the widest registers the processor has | none: the same bits |
 //! | [`double_double`] | numbers of 106 bits as pairs of doubles; functions in [`double_double::full`] | about 2^-104; 2^-100 |
 
+pub mod affine;
 pub mod change;
 pub mod complex;
 pub mod double_double;

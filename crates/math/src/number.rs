@@ -10,6 +10,7 @@
 //! | [`Jet`](crate::series::Jet) | the next coefficient of a power series |
 //! | [`Dual`](crate::dual::Dual) | the value with a derivative |
 //! | [`DoubleDouble`] | the value to twice the precision |
+//! | [`Affine`](crate::affine::Affine) | whether the formula is linear in some variables, and with which slopes |
 //!
 //! Every operation of a double is one IEEE operation or a function of [`lane`], in the order in which it is written, so
 //! all numbers that hold doubles give the same bits.

@@ -6,15 +6,15 @@ use cpu_time::ThreadTime;
 use files::reader::{Reader, SceneError, Section, Value};
 use files::scene_file::{self, Kind};
 use jam::precise::Precise;
+use jam::run::{Judging, run_from};
 use jam::stability::Waves;
 use jam::uniform;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use scene::propagated::Propagated;
-use scene::simulation::{Judging, run_from};
 use scene::summary::{self, Ended};
-use scene::{check, uniform::stability};
+use scene::{check, tables, uniform::stability};
 
 /// Runs a scene: `std` (t, std), `trajectories` (t, n, x, v) or None, `x` and `v` of the final state, all flat, and the
 /// rest. `wanted`: whether a second run estimates the errors, and whether it
@@ -63,8 +63,8 @@ pub fn simulate<'py>(
     made.set_item("broken", broken.map(|broken| broken.to_string()))?;
     made.set_item("sample", scene.sample)?;
     made.set_item("desired_speed", scene.model.speed_scale())?;
-    made.set_item("std", PyArray1::from_vec(py, outcome.std.into_cells()))?;
-    let kept = scene.keeps_trajectories.then(|| PyArray1::from_vec(py, outcome.trajectories.into_cells()));
+    made.set_item("std", PyArray1::from_vec(py, tables::std(&outcome.samples).into_cells()))?;
+    let kept = scene.keeps_trajectories.then(|| PyArray1::from_vec(py, tables::trajectories(&outcome.samples).into_cells()));
     made.set_item("trajectories", kept)?;
     made.set_item("x", PyArray1::from_vec(py, outcome.positions))?;
     made.set_item("v", PyArray1::from_vec(py, outcome.speeds))?;

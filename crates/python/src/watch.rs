@@ -1,8 +1,7 @@
 //! Looking on while something is computed without the interpreter's lock: Ctrl-C ends it, a callback hears how far it is.
 
 use pyo3::prelude::*;
-use scene::checkpoint::PartialRun;
-use scene::simulation::{Judging, RunObserver};
+use jam::run::{Judging, PartialRun, RunObserver};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::time::{Duration, Instant};
 

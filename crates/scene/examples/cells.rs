@@ -9,19 +9,10 @@
 //! | `cell` | a cell of a sweep: judged until its outcome is certain, a second time for the error |
 
 use files::reader::Section;
+use jam::run::{Judging, run, run_from};
 use scene::run::Scene;
-use scene::simulation::{Judging, RunObserver, run, run_from};
 use scene::sweep::{self, Sweep};
 use std::time::Instant;
-
-/// A run to its end, judged.
-struct Judged;
-
-impl RunObserver for Judged {
-    fn judging(&self) -> Judging {
-        Judging::Along
-    }
-}
 
 fn main() -> Result<(), String> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -84,7 +75,7 @@ fn one(scene: &Scene, how: &str, shift: f64) -> Result<u64, String> {
         run(&scene)
     } else {
         scene.sample = scene.t_end;
-        run_from(&scene, None, &mut Judged)
+        run_from(&scene, None, &mut Judging::Along)
     };
     outcome.map(|outcome| outcome.statistics.evaluations).map_err(|broken| broken.to_string())
 }

@@ -6,10 +6,10 @@
 //! it can be, the second run is one in deviations from the uniform flow, in which the start has no rounding.
 
 use crate::propagated::Propagated;
-use crate::run::{Scene, has_deviations};
-use crate::simulation::{Outcome, RunObserver, run_from};
+use crate::run::Scene;
 use jam::events::{Event, EventKind};
 use jam::laws::Model;
+use jam::run::{Outcome, RunObserver, has_deviations, run_from};
 use jam::states::StateVariables;
 use ode::{Control, Method};
 
@@ -70,9 +70,8 @@ fn errors_seen(scene: &Scene, outcome: &Outcome, onlooker: &mut dyn RunObserver)
     let ends_alike = outcome.stop().map(|stop| stop.kind) == other.stop().map(|stop| stop.kind);
     let times = [outcome, &other].map(|outcome| outcome.statistics.time);
     let is_same_time = (times[0] - times[1]).abs() <= SAME_TIME * times[0];
-    let std = |outcome: &Outcome| outcome.std.rows().map(|row| row[1]).collect::<Vec<f64>>();
     // a stop may lie on either side of a sample
-    let has_samples = other.std.len() + usize::from(outcome.stop().is_some()) >= outcome.std.len();
+    let has_samples = other.samples.len() + usize::from(outcome.stop().is_some()) >= outcome.samples.len();
     let std_error = |numbers: &[f64], others: &[f64]| difference(numbers, others) + gathered * largest(numbers);
     let state = |numbers: fn(&Outcome) -> &[f64]| {
         (ends_alike && is_same_time)
@@ -82,8 +81,9 @@ fn errors_seen(scene: &Scene, outcome: &Outcome, onlooker: &mut dyn RunObserver)
     let desired = ROUNDINGS * scene.model.desired_speed().abs();
     Errors {
         cost: other.statistics.evaluations as f64 / outcome.statistics.evaluations as f64,
-        std: (ends_alike && has_samples)
-            .then(|| std_error(&std(outcome), &std(&other)) + rounding(scene, outcome, &second) + f64::MIN_POSITIVE),
+        std: (ends_alike && has_samples).then(|| {
+            std_error(&outcome.samples.std, &other.samples.std) + rounding(scene, outcome, &second) + f64::MIN_POSITIVE
+        }),
         positions: state(|outcome| &outcome.positions).map(|error| error + ROUNDINGS * largest(&outcome.positions)),
         speeds: state(|outcome| &outcome.speeds).map(|error| error + desired),
         events: outcome
@@ -153,7 +153,7 @@ const ACROSS_KINKS: usize = 2;
 
 /// Whether the law has bends of no width.
 pub(crate) fn has_kinks(model: &Model) -> bool {
-    matches!(model, Model::Formula(formula) if formula.has_kinks())
+    model.may_have_kinks()
 }
 
 /// Fixed steps may be too long for their error to be that of their order.
@@ -192,7 +192,7 @@ pub(crate) fn loses_shift(scene: &Scene) -> bool {
 
 /// The largest standard deviation in the table.
 pub(crate) fn largest_std(outcome: &Outcome) -> f64 {
-    outcome.std.rows().fold(0.0, |most, row| math::larger(most, row[1]))
+    outcome.samples.std.iter().copied().fold(0.0, math::larger)
 }
 
 /// What fixed steps, whose sums are not compensated, may gather of roundings: once motion is steady all have one sign.

@@ -374,7 +374,7 @@ fn stability(model: &Model, point: &Point) -> Result<(f64, Linear), String> {
             let (headway, speed) = steady()?;
             (criteria::logarithmic(law, headway, speed), law.linearise(headway, speed))
         }
-        Model::Formula(_) => return Err("the paper's criterion is one of its three laws".to_owned()),
+        Model::Formula(_) | Model::Own(_) => return Err("the paper's criterion is one of its three laws".to_owned()),
     })
 }
 

@@ -2,49 +2,12 @@
 
 use crate::law;
 use files::reader::{FINITE, POSITIVE, Reader, SceneError, Section};
-use jam::laws::{Formula, Model};
+use jam::laws::Model;
 use jam::ring::{Ring, Start};
-use jam::states::{RingSystem, StateVariables};
-use jam::uniform::{self, NoUniformFlow, steady_speed};
+pub use jam::run::{AtOverlap, Run as Scene};
+use jam::run::{TOLERANCE, fitting, flow, too_wide, usual_method, without_value};
+use jam::states::StateVariables;
 use ode::{Control, Method};
-
-/// A simulation that can be run.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Scene {
-    /// The law of motion.
-    pub model: Model,
-    /// The ring.
-    pub ring: Ring,
-    /// The initial state.
-    pub start: Start,
-    /// The time at which it ends.
-    pub t_end: f64,
-    /// The time between samples; the first is taken at 0.
-    pub sample: f64,
-    /// The method of integration.
-    pub method: Method,
-    /// The rule for the steps.
-    pub control: Control,
-    /// As many steps as it may take.
-    pub most_steps: u64,
-    /// The form of the state.
-    pub form: StateVariables,
-    /// Whether positions and speeds of all pedestrians are kept at every sample.
-    pub keeps_trajectories: bool,
-    /// The speed `v'` of the uniform flow; `None` if a formula has none.
-    pub steady_speed: Option<f64>,
-    /// Whether an overlap ends the tables.
-    pub at_overlap: AtOverlap,
-}
-
-/// What becomes of a run in which two overlap.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AtOverlap {
-    /// Its tables end there.
-    Stop,
-    /// It goes on, under a law that does: one whose force acts in contact, for instance.
-    Continue,
-}
 
 /// As many rows as the table of a run may have, so that a slip in `sample` does not fill the memory (32 bytes a row).
 const MOST_ROWS: f64 = 2e7;
@@ -85,8 +48,10 @@ fn read_for(file: &str, tables: &Section, purpose: Purpose) -> Result<Scene, Sce
     let mut ring_reader = Reader::new(file, "ring", top.section("ring")?);
     ring_reader.number("length", POSITIVE)?;
     let wanted = match &model {
-        Model::Formula(law) => {
-            stencil_fits(&ring_reader, law, ring)?;
+        Model::Formula(_) => {
+            if let Some(problem) = too_wide(&model, ring) {
+                return Err(ring_reader.complaint("pedestrians", &problem));
+            }
             if top.has("uniform") { uniform_speed(file, top.section("uniform")?)? } else { None }
         }
         _ => None,
@@ -134,6 +99,7 @@ fn read_for(file: &str, tables: &Section, purpose: Purpose) -> Result<Scene, Sce
         model,
         ring,
         start,
+        displacements: Vec::new(),
         t_end,
         sample,
         method,
@@ -146,68 +112,12 @@ fn read_for(file: &str, tables: &Section, purpose: Purpose) -> Result<Scene, Sce
     })
 }
 
-/// The speed of the uniform flow; of a formula the one next to `wanted`, `None` if it has none.
-///
-/// # Errors
-/// A built-in law has none, or a formula several and none is wanted.
-pub(crate) fn flow(model: &Model, ring: Ring, wanted: Option<f64>) -> Result<Option<f64>, NoUniformFlow> {
-    match model {
-        Model::Formula(law) => match uniform::of_formula(law, ring.headway(), wanted) {
-            Err(error) if error.speeds.is_empty() => Ok(None),
-            found => found.map(Some),
-        },
-        _ => steady_speed(model, ring.headway()).map(Some),
-    }
-}
-
-/// The form of the state: deviations from the uniform flow if the scene names none and they can hold the run, else gaps.
-pub(crate) fn fitting(
-    wanted: Option<StateVariables>,
-    model: &Model,
-    ring: Ring,
-    speed: Option<f64>,
-    method: Method,
-) -> StateVariables {
-    let form = wanted.unwrap_or(StateVariables::Deviations);
-    let has_no_series = wanted.is_none() && !method.suits(&*form.build(model, ring));
-    if form == StateVariables::Deviations && (!has_deviations(model, ring, speed) || has_no_series) {
-        StateVariables::Spacings
-    } else {
-        form
-    }
-}
-
-/// The method of a scene that names none: Taylor's, or `dop853` where only that method keeps the state in deviations, in which a
-/// small perturbation loses no digits.
-fn usual_method(wanted: Option<StateVariables>, model: &Model, ring: Ring, speed: Option<f64>) -> Method {
-    let variables = wanted.unwrap_or(if has_deviations(model, ring, speed) {
-        StateVariables::Deviations
-    } else {
-        StateVariables::Spacings
-    });
-    if Method::Taylor.suits(&*variables.build(model, ring)) { Method::Taylor } else { Method::Dop853 }
-}
-
-/// Whether a ring has a uniform flow that its state can deviate from.
-pub(crate) fn has_deviations(model: &Model, ring: Ring, steady_speed: Option<f64>) -> bool {
-    match (model, steady_speed) {
-        (_, None) => false,
-        // on a kink there is no uniform flow to be near to
-        (Model::Formula(law), Some(speed)) => law.response(ring.headway(), speed).is_some(),
-        // what the uniform flow itself cannot hold in a number is lost in deviations from it
-        (model, Some(speed)) => model.linearise(ring.headway(), speed).phi >= LEAST_RESPONSE,
-    }
-}
-
 /// Names of the forms of the state.
 pub(crate) const FORMS: [(&str, StateVariables); 3] = [
     ("deviations", StateVariables::Deviations),
     ("gaps", StateVariables::Spacings),
     ("positions", StateVariables::Positions),
 ];
-
-/// Below this response of the uniform flow to a gap, its force has lost digits to underflow.
-const LEAST_RESPONSE: f64 = 1e-280;
 
 /// A run by adaptive steps is at least as long: far longer than the shortest of them.
 const SHORTEST_RUN: f64 = 1e-250;
@@ -227,35 +137,12 @@ pub(crate) fn at_overlap(run: &mut Reader<'_>, model: &Model) -> Result<AtOverla
     Ok(choice)
 }
 
-/// The first pedestrian whose acceleration is not finite at the start, and that.
-pub(crate) fn without_value(form: &dyn RingSystem, start: Start, ring: Ring) -> Option<(usize, f64)> {
-    let state = form.start(start);
-    let mut rates = vec![0.0; state.len()];
-    form.rates(&state, &mut rates);
-    let (mut gaps, mut accelerations) = (vec![0.0; ring.pedestrians], vec![0.0; ring.pedestrians]);
-    form.read_rates(&rates, &mut gaps, &mut accelerations);
-    accelerations.iter().position(|a| !a.is_finite()).map(|n| (n, accelerations[n]))
-}
-
 /// The steady speed that is meant, where a formula has several.
 pub(crate) fn uniform_speed(file: &str, section: &Section) -> Result<Option<f64>, SceneError> {
     let mut reader = Reader::new(file, "uniform", section);
     let speed = reader.optional_number("speed", FINITE)?;
     reader.finish()?;
     Ok(speed)
-}
-
-/// A formula looks no further than once around the ring.
-fn stencil_fits(ring_reader: &Reader<'_>, law: &Formula, ring: Ring) -> Result<(), SceneError> {
-    too_wide(law, ring).map_or(Ok(()), |problem| Err(ring_reader.complaint("pedestrians", &problem)))
-}
-
-/// The complaint that a formula looks further than once around the ring.
-pub(crate) fn too_wide(law: &Formula, ring: Ring) -> Option<String> {
-    let (behind, ahead) = law.reach();
-    let reach = behind.max(ahead);
-    let problem = || format!("the formulas look {reach} pedestrians away; there must be at least {}", reach + 1);
-    (reach >= ring.pedestrians).then(problem)
 }
 
 fn ring(file: &str, ring: &Section, start: &Section, model: &Model) -> Result<(Ring, Start), SceneError> {
@@ -298,9 +185,6 @@ fn most_steps(run: &mut Reader<'_>, control: Control, t_end: f64, purpose: Purpo
         }
     }
 }
-
-/// The tolerance of a run that names neither `tolerance` nor `dt`.
-const TOLERANCE: f64 = 1e-10;
 
 /// The method that a scene names. One with steps of fixed length must name it.
 pub(crate) fn method(run: &mut Reader<'_>) -> Result<Option<Method>, SceneError> {

@@ -6,6 +6,7 @@ use super::series::{Memory, Motion};
 use super::{Flow, Force, Rows, Steps};
 use crate::laws::Law;
 use crate::ramp::Bend;
+use math::affine::Affine;
 use math::change::{Player, Recorder, Tape};
 use math::lanes::Lanes;
 use math::simd::{Kernel, dispatch};
@@ -16,6 +17,8 @@ use std::cell::RefCell;
 #[derive(Clone, Debug)]
 pub struct Compiled<L: Law> {
     law: L,
+    /// How the acceleration of a uniform flow answers to its speed, where the formula is linear in the speeds.
+    relaxation: Option<f64>,
     /// The uniform flow asked for last: once it is steady it is asked for again and again.
     reference: RefCell<Reference>,
     memory: RefCell<Memory>,
@@ -43,8 +46,14 @@ impl<L: Law> Compiled<L> {
     /// The force of this law.
     pub fn new(law: L) -> Compiled<L> {
         let reference = RefCell::new(Reference::new(&law, Flow { net_gap: 1.0, speed: 0.0 }));
-        Compiled { law, reference, memory: RefCell::default() }
+        Compiled { law, relaxation: relaxation(&law), reference, memory: RefCell::default() }
     }
+}
+
+/// The slope of the acceleration in a speed that all share, if the formula has the same one everywhere.
+fn relaxation<L: Law>(law: &L) -> Option<f64> {
+    let [own, ahead] = law.acceleration(Affine::FREE, Affine::variable(0), Affine::variable(1)).slopes?;
+    Some(own + ahead)
 }
 
 impl<L: Law> Force for Compiled<L> {
@@ -83,7 +92,11 @@ impl<L: Law> Force for Compiled<L> {
     }
 
     fn uses_speeds(&self) -> bool {
-        self.law.uses_speeds()
+        self.relaxation.is_none()
+    }
+
+    fn relaxation(&self, _flow: Flow) -> f64 {
+        self.relaxation.unwrap_or(f64::NAN)
     }
 
     fn bend(&self) -> Option<Bend> {

@@ -40,13 +40,12 @@ pub trait Force: std::fmt::Debug + Send {
     /// Whether every effective gap is open, for such deviations. At once true where the force is not singular.
     fn is_open(&self, flow: Flow, spacings: &[f64], speeds: &[f64]) -> bool;
 
-    /// Whether the force, the relaxation of one's own speed apart, depends on speeds.
+    /// Whether the acceleration depends on speeds in another way than linearly, with the same slopes everywhere.
     fn uses_speeds(&self) -> bool;
 
-    /// How the acceleration of a uniform flow answers to its speed, where the force does not depend on speeds otherwise.
-    fn relaxation(&self, _flow: Flow) -> f64 {
-        -1.0
-    }
+    /// How the acceleration of a uniform flow answers to its speed, in units of one over time: -1 for the laws of the paper.
+    /// Has a meaning only where [`Force::uses_speeds`] is false.
+    fn relaxation(&self, flow: Flow) -> f64;
 
     /// Where the force bends sharply, if it does.
     fn bend(&self) -> Option<Bend> {

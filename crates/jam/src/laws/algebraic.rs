@@ -55,10 +55,6 @@ impl Law for Algebraic {
         if self.widening == 0.0 { net_gap } else { net_gap - (v + ahead) * self.widening }
     }
 
-    fn uses_speeds(&self) -> bool {
-        self.widening != 0.0 || self.relative != 0.0
-    }
-
     fn bend(&self) -> Option<Bend> {
         let slope = 1.0 / self.epsilon;
         (self.relative != 0.0).then_some(Bend { clearance: 0.0, speed: -slope, ahead: slope, offset: 0.0 })

@@ -52,10 +52,6 @@ impl Law for Exponential {
         if self.widening == 0.0 { net_gap } else { net_gap - (v + ahead) * self.widening }
     }
 
-    fn uses_speeds(&self) -> bool {
-        self.widening != 0.0
-    }
-
     fn bend(&self) -> Option<Bend> {
         let (slope, speed) = (1.0 / self.epsilon, -self.widening / self.epsilon);
         (self.contact != 0.0).then_some(Bend { clearance: slope, speed, ahead: speed, offset: 0.0 })

@@ -47,18 +47,9 @@ impl Law for Logarithmic {
         spacing
     }
 
-    fn uses_speeds(&self) -> bool {
-        self.widening != 0.0
-    }
-
     fn bend(&self) -> Option<Bend> {
         let (clearance, speed) = (0.5 / self.epsilon, -0.5 * self.widening / self.epsilon);
         Some(Bend { clearance, speed, ahead: speed, offset: -1.0 / self.epsilon })
-    }
-
-    #[inline(always)]
-    fn is_long(&self) -> bool {
-        true
     }
 
     #[inline(always)]

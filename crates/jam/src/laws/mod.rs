@@ -7,12 +7,14 @@ mod algebraic;
 mod exponential;
 mod formula;
 mod logarithmic;
+mod own;
 pub mod presets;
 
 pub use algebraic::Algebraic;
 pub use exponential::Exponential;
 pub use formula::Formula;
 pub use logarithmic::{C, Logarithmic};
+pub use own::Own;
 
 use crate::force::{Compiled, Force};
 use crate::ramp::Bend;
@@ -45,15 +47,13 @@ pub struct Parameter<L> {
 /// Width of the smooth ramp of the algebraic and exponential laws, where a scene names none (text after eq:aTheta).
 const RAMP_WIDTH: f64 = 0.1;
 
-/// A law of motion as a formula.
+/// A law of motion as a formula in Rust: `dv_n/dt` from the net gap to the pedestrian ahead, the own speed and that of the
+/// pedestrian ahead. [`Model::own`] makes a [`Model`] of it. Only [`Law::CONTACT`] and [`Law::acceleration`] have to be written.
 ///
 /// ```
-/// use jam::force::Compiled;
-/// use jam::laws::{Law, Parameter, Range};
-/// use jam::ramp::Bend;
-/// use jam::ring::{Ring, Start};
+/// use jam::laws::{Law, Model, Parameter, Range};
 /// use jam::stability::Waves;
-/// use jam::states::{Deviations, RingSystem};
+/// use jam::uniform::steady_speed;
 /// use math::number::Number;
 ///
 /// /// `dv_n/dt = v_0 (1 - exp(-(s_n - 2) / l)) - v_n`.
@@ -69,68 +69,64 @@ const RAMP_WIDTH: f64 = 0.1;
 ///         Parameter { name: "l", range: Range::Positive, default: None, place: |law| &mut law.length },
 ///     ];
 ///     const CONTACT: f64 = 2.0;
-///     const SINGULAR: bool = false;
 ///
 ///     #[inline(always)]
 ///     fn acceleration<X: Number>(&self, net_gap: X, speed: X, _ahead: X) -> X {
 ///         -(net_gap * (-1.0 / self.length)).exp_m1() * self.desired_speed - speed
 ///     }
-///     #[inline(always)]
-///     fn effective_gap<X: Number>(&self, net_gap: X, _speed: X, _ahead: X) -> X {
-///         net_gap
-///     }
-///     fn uses_speeds(&self) -> bool {
-///         false
-///     }
-///     fn is_long(&self) -> bool {
-///         true
-///     }
-///     fn plain(&self) -> Option<Relaxing> {
-///         None
-///     }
-///     fn bend(&self) -> Option<Bend> {
-///         None
-///     }
 /// }
 ///
-/// let law = Relaxing { desired_speed: 1.0, length: 3.0 };
-/// let ring = Ring { pedestrians: 50, length: 200.0 };
-/// let form = Deviations::new(Box::new(Compiled::new(law)), ring);
-/// let start = form.start(Start { shift: 0.1 });
-/// // the uniform flow is stable where the slope V'(s) of the steady speed is below 1/2
-/// let (speed, slope) = (1.0 - math::exp(-2.0 / 3.0), math::exp(-2.0 / 3.0) / 3.0);
-/// assert!(slope < 0.5 && law.response(ring.headway(), speed).margin(Waves::All).0 < 0.0);
-/// # assert_eq!(start.len(), 103);
+/// let law = Model::own(Relaxing { desired_speed: 1.0, length: 3.0 })?;
+/// // stable where the slope V'(s) of the steady speed is below 1/2: V' = exp(-(s - 2)/l) v0/l
+/// let speed = steady_speed(&law, 4.0)?;
+/// assert!((speed - (1.0 - math::exp(-2.0 / 3.0))).abs() < 1e-15);
+/// assert!(law.response(4.0, speed).expect("derivatives").margin(Waves::All).0 < 0.0);
+/// // the parameters are known by their names
+/// let short = law.with("l", 0.2)?;
+/// assert!(short.response(2.1, steady_speed(&short, 2.1)?).expect("derivatives").margin(Waves::All).0 > 0.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Law: Copy + Default + Send + Sync + std::fmt::Debug + 'static {
-    /// Its parameters.
-    const PARAMETERS: &'static [Parameter<Self>];
+    /// Its parameters. `v0`, else `scale`, is the size of speeds, which tolerances and thresholds refer to; 1 if neither is
+    /// there.
+    const PARAMETERS: &'static [Parameter<Self>] = &[];
 
     /// The spacing at which two standing pedestrians touch; the *net gap* is the spacing less this.
     const CONTACT: f64;
 
     /// Whether the force is infinite where the effective gap closes.
-    const SINGULAR: bool;
+    const SINGULAR: bool = false;
 
     /// `dv/dt` of a pedestrian with this net gap and speed, and the speed ahead. Branches may depend on parameters only.
+    /// To be marked `#[inline(always)]`, or it runs without vector registers.
     fn acceleration<X: Number>(&self, net_gap: X, speed: X, ahead: X) -> X;
 
-    /// What must stay positive for the run to go on: `d_n` of eq:effDistn, or the spacing for the logarithmic law.
-    fn effective_gap<X: Number>(&self, net_gap: X, speed: X, ahead: X) -> X;
-
-    /// Whether the force, the relaxation of one's own speed apart, depends on speeds.
-    fn uses_speeds(&self) -> bool;
+    /// What must stay positive for the run to go on: `d_n` of eq:effDistn, for the logarithmic law the spacing. It has
+    /// to be linear in all three with constant slopes, and 0 at contact and rest. By default the net gap.
+    #[inline(always)]
+    fn effective_gap<X: Number>(&self, net_gap: X, _speed: X, _ahead: X) -> X {
+        net_gap
+    }
 
     /// Whether the formula is so long, with several functions or a logarithm in it, that the operations of many pedestrians
-    /// have to overlap.
-    fn is_long(&self) -> bool;
+    /// have to overlap; the bits do not depend on it. By default it is.
+    #[inline(always)]
+    fn is_long(&self) -> bool {
+        true
+    }
 
     /// The law with the terms of the paper's runs and no others, if these are all that it has: the same law, with the
-    /// parameters that leave a term out as constants, so that the compiler leaves it out as well.
-    fn plain(&self) -> Option<Self>;
+    /// parameters that leave a term out as constants, so that the compiler leaves it out as well. By default there is none.
+    #[inline(always)]
+    fn plain(&self) -> Option<Self> {
+        None
+    }
 
-    /// Where the smooth ramp bends, if the law has one; where its argument is a quotient, its numerator.
-    fn bend(&self) -> Option<Bend>;
+    /// Where the smooth ramp bends, if the law has one; where its argument is a quotient, its numerator. Steps of adaptive
+    /// length are short there. By default there is none.
+    fn bend(&self) -> Option<Bend> {
+        None
+    }
 
     /// The derivatives of the acceleration in the uniform flow of this headway and speed, from the formula.
     fn response(&self, headway: f64, speed: f64) -> Response {
@@ -154,16 +150,19 @@ pub enum Model {
     Logarithmic(Logarithmic),
     /// Any other, as formulas.
     Formula(Formula),
+    /// Any other, as a Rust type (see [`Model::own`]).
+    Own(Own),
 }
 
 /// Does something with whatever law it is.
 macro_rules! each {
-    ($model:expr, $law:ident => $action:expr, $formula:ident => $other:expr) => {
+    ($model:expr, $law:ident => $action:expr, $formula:ident => $other:expr, $own:ident => $own_action:expr) => {
         match $model {
             Model::Algebraic($law) => $action,
             Model::Exponential($law) => $action,
             Model::Logarithmic($law) => $action,
             Model::Formula($formula) => $other,
+            Model::Own($own) => $own_action,
         }
     };
 }
@@ -195,6 +194,16 @@ fn is_singular<L: Law>(_law: &L) -> bool {
 }
 
 impl Model {
+    /// A law that is a Rust type of your own (see [`Law`]). What takes a `Model` then takes it: runs, events, outcome,
+    /// stability, maps and jams.
+    ///
+    /// # Errors
+    /// A parameter out of its range; an effective gap that is not linear with constant slopes, or not 0 where two touch at
+    /// rest; an acceleration there that is finite though [`Law::SINGULAR`] says otherwise, or the other way round.
+    pub fn own<L: Law>(law: L) -> Result<Model, String> {
+        Own::new(law).map(Model::Own)
+    }
+
     /// The name of the law in scene files.
     pub fn name(&self) -> &'static str {
         match self {
@@ -202,22 +211,28 @@ impl Model {
             Model::Exponential(_) => "exponential",
             Model::Logarithmic(_) => "logarithmic",
             Model::Formula(_) => "formula",
+            Model::Own(_) => "own",
         }
     }
 
-    /// The desired speed `v_0'`; of a formula its parameter `v0`, else `scale`, else 1.
+    /// The desired speed `v_0'`; of a formula or a law of your own its parameter `v0`, else `scale`, else 1.
     pub fn desired_speed(&self) -> f64 {
         self.speed_scale().unwrap_or(1.0)
     }
 
     /// The size of speeds, if the law has one.
     pub fn speed_scale(&self) -> Option<f64> {
-        each!(self, law => Some(law.desired_speed), formula => formula.speed_scale())
+        each!(self, law => Some(law.desired_speed), formula => formula.speed_scale(), own => own.speed_scale())
     }
 
     /// The names of the parameters.
     pub fn parameters(&self) -> Vec<String> {
-        each!(self, law => names(law), formula => formula.parameters().map(|(name, _)| name.to_owned()).collect())
+        each!(
+            self,
+            law => names(law),
+            formula => formula.parameters().map(|(name, _)| name.to_owned()).collect(),
+            own => own.names()
+        )
     }
 
     /// The law with another value of a parameter.
@@ -229,6 +244,12 @@ impl Model {
         let is_known = each!(&mut model, law => set(law, name, value), formula => match formula.with(name, value) {
             Some(changed) => {
                 *formula = changed.map_err(|error| error.to_string())?;
+                true
+            }
+            None => false,
+        }, own => match own.with(name, value) {
+            Some(changed) => {
+                *own = changed?;
                 true
             }
             None => false,
@@ -249,39 +270,68 @@ impl Model {
 
     /// The force on all pedestrians of a ring.
     pub fn force(&self) -> Box<dyn Force> {
-        each!(self, law => Box::new(Compiled::new(*law)), formula => formula.force())
+        each!(self, law => Box::new(Compiled::new(*law)), formula => formula.force(), own => own.force())
     }
 
     /// The acceleration as the paper prints it; of a formula, that of the uniform flow with this own speed.
     pub fn acceleration(&self, gap: f64, speed: f64, ahead: f64) -> f64 {
         let net_gap = gap - self.contact();
-        each!(self, law => law.acceleration(net_gap, speed, ahead), formula => formula.uniform(gap, speed))
+        each!(
+            self,
+            law => law.acceleration(net_gap, speed, ahead),
+            formula => formula.uniform(gap, speed),
+            own => own.acceleration(net_gap, speed, ahead)
+        )
     }
 
     /// The gap at which two standing pedestrians touch (see [`Law::CONTACT`]).
     pub fn contact(&self) -> f64 {
-        each!(self, law => contact_of(law), formula => formula.contact())
+        each!(self, law => contact_of(law), formula => formula.contact(), own => own.contact())
     }
 
     /// Whether the force is infinite where the room ends (see [`Law::SINGULAR`]).
     pub fn is_singular(&self) -> bool {
-        each!(self, law => is_singular(law), formula => formula.is_singular())
+        each!(self, law => is_singular(law), formula => formula.is_singular(), own => own.is_singular())
     }
 
     /// The room of a pedestrian (see [`Law::effective_gap`]).
     pub fn room(&self, gap: f64, speed: f64, ahead: f64) -> f64 {
         let net_gap = gap - self.contact();
-        each!(self, law => law.effective_gap(net_gap, speed, ahead), formula => formula.uniform_gap(gap, speed))
+        each!(
+            self,
+            law => law.effective_gap(net_gap, speed, ahead),
+            formula => formula.uniform_gap(gap, speed),
+            own => own.effective_gap(net_gap, speed, ahead)
+        )
     }
 
     /// How much room a unit of speed, own or ahead, takes away.
     pub fn room_per_speed(&self) -> f64 {
-        -each!(self, law => law.effective_gap(0.0, 1.0, 0.0), _formula => 0.0)
+        -each!(self, law => law.effective_gap(0.0, 1.0, 0.0), _formula => 0.0, own => own.effective_gap(0.0, 1.0, 0.0))
+    }
+
+    /// Whether effective gaps are spacings less a constant.
+    pub(crate) fn has_plain_gaps(&self) -> bool {
+        each!(self, law => law.effective_gap(0.0, 1.0, 0.0) == 0.0, _formula => false, own => own.has_plain_gap())
+    }
+
+    /// Whether the acceleration has kinks, at which its derivatives jump; of a law of your own nobody knows, so it may.
+    pub fn may_have_kinks(&self) -> bool {
+        match self {
+            Model::Algebraic(_) | Model::Exponential(_) | Model::Logarithmic(_) => false,
+            Model::Formula(formula) => formula.has_kinks(),
+            Model::Own(_) => true,
+        }
+    }
+
+    /// Whether the acceleration may have no value at some places with open gaps.
+    pub fn may_be_undefined(&self) -> bool {
+        matches!(self, Model::Formula(_) | Model::Own(_))
     }
 
     /// How the acceleration answers to spacings and speeds in this uniform flow. `None` where it has no derivative.
     pub fn response(&self, headway: f64, speed: f64) -> Option<Response> {
-        each!(self, law => Some(law.response(headway, speed)), formula => formula.response(headway, speed))
+        each!(self, law => Some(law.response(headway, speed)), formula => formula.response(headway, speed), own => own.response(headway, speed))
     }
 
     /// The coefficients of the linearised law about the uniform flow with this headway and speed; of a formula too, if it
@@ -291,7 +341,9 @@ impl Model {
             Model::Algebraic(law) => law.linearise(law.gap(headway, speed)),
             Model::Exponential(law) => law.linearise(law.gap(headway, speed)),
             Model::Logarithmic(law) => law.linearise(headway, speed),
-            Model::Formula(law) => law.response(headway, speed).as_ref().map_or(Linear::NONE, Linear::of),
+            Model::Formula(_) | Model::Own(_) => {
+                self.response(headway, speed).as_ref().map_or(Linear::NONE, Linear::of)
+            }
         }
     }
 }

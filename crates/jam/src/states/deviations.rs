@@ -128,6 +128,16 @@ impl RingSystem for Deviations {
         state
     }
 
+    fn start_displaced(&self, displacements: &[f64]) -> Vec<f64> {
+        let n = self.pedestrians;
+        let mut state = self.start(Start { shift: 0.0 });
+        for own in 0..n {
+            state[own] += displacements[(own + 1) % n] - displacements[own];
+        }
+        state[2 * n] += displacements[0];
+        state
+    }
+
     fn read(&self, state: &[f64], gaps: &mut [f64], speeds: &mut [f64]) {
         let n = self.pedestrians;
         let (_, _, speed) = self.extras();

@@ -25,6 +25,9 @@ pub trait RingSystem: ode::System {
     /// The state at the start.
     fn start(&self, start: Start) -> Vec<f64>;
 
+    /// The state at rest with each of the `N` pedestrians moved by so much from equal spacings.
+    fn start_displaced(&self, displacements: &[f64]) -> Vec<f64>;
+
     /// Writes the `N` gaps and the `N` speeds.
     fn read(&self, state: &[f64], gaps: &mut [f64], speeds: &mut [f64]);
 

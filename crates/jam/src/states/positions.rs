@@ -106,6 +106,12 @@ impl RingSystem for Positions {
         state
     }
 
+    fn start_displaced(&self, displacements: &[f64]) -> Vec<f64> {
+        let mut state = self.start(Start { shift: 0.0 });
+        state.iter_mut().zip(displacements).for_each(|(position, by)| *position += by);
+        state
+    }
+
     fn read(&self, state: &[f64], gaps: &mut [f64], speeds: &mut [f64]) {
         let n = self.ring.pedestrians;
         self.write_gaps(&state[..n], gaps);

@@ -106,6 +106,16 @@ impl RingSystem for Spacings {
         state
     }
 
+    fn start_displaced(&self, displacements: &[f64]) -> Vec<f64> {
+        let n = self.pedestrians;
+        let mut state = self.start(Start { shift: 0.0 });
+        for own in 0..n {
+            state[own] += displacements[(own + 1) % n] - displacements[own];
+        }
+        state[2 * n] += displacements[0];
+        state
+    }
+
     fn read(&self, state: &[f64], gaps: &mut [f64], speeds: &mut [f64]) {
         let n = self.pedestrians;
         for (gap, clearance) in gaps.iter_mut().zip(&state[..n]) {

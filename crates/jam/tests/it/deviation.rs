@@ -103,7 +103,7 @@ fn small_deviations_keep_their_digits() {
                     Model::Algebraic(law) => (law.power + 1.0) / room + 1.0 / law.epsilon,
                     Model::Exponential(law) => 1.0 / law.range + 1.0 / law.epsilon,
                     Model::Logarithmic(law) => 2.0 + 1.0 / law.epsilon,
-                    Model::Formula(_) => f64::NAN,
+                    Model::Formula(_) | Model::Own(_) => f64::NAN,
                 };
                 let error = (deviation(&model, gap, speed, from) - terms.iter().sum::<f64>()).abs() / scale;
                 // the same force through other formulas: 40 units, and exp(-d / eps) knows d / eps to its own rounding

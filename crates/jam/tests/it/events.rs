@@ -45,6 +45,9 @@ impl RingSystem for Swing {
     fn start(&self, _start: Start) -> Vec<f64> {
         vec![1.0, 0.0]
     }
+    fn start_displaced(&self, _displacements: &[f64]) -> Vec<f64> {
+        vec![1.0, 0.0]
+    }
     fn read(&self, state: &[f64], gaps: &mut [f64], speeds: &mut [f64]) {
         self.reads.set(self.reads.get() + 1);
         for n in 0..3 {

@@ -53,7 +53,7 @@ fn as_formula(model: &Model) -> Model {
             ("v0", number(p.desired_speed)),
             ("body", number(0.0)),
         ]),
-        Model::Formula(_) => model.clone(),
+        Model::Formula(_) | Model::Own(_) => model.clone(),
     }
 }
 

@@ -188,7 +188,7 @@ fn all_terms_are_reached() {
                 }
                 Model::Exponential(e) => (1, e.contact > 0.0, e.widening > 0.0, 0),
                 Model::Logarithmic(l) => (2, l.widening > 0.0, false, 0),
-                Model::Formula(_) => continue,
+                Model::Formula(_) | Model::Own(_) => continue,
             });
         }
     }

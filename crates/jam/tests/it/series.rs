@@ -101,7 +101,7 @@ fn deviations_have_a_series_where_the_force_depends_on_the_gap_alone() {
             Model::Algebraic(law) => law.relative == 0.0 && law.widening == 0.0,
             Model::Exponential(law) => law.widening == 0.0,
             Model::Logarithmic(law) => law.widening == 0.0,
-            Model::Formula(_) => false,
+            Model::Formula(_) | Model::Own(_) => false,
         };
         for kind in [StateVariables::Deviations, StateVariables::Spacings, StateVariables::Positions] {
             let form = kind.build(&model, Ring { pedestrians: 5, length: 22.5 });

@@ -1,11 +1,10 @@
 //! A cell of a sweep: its scene, and what becomes of it.
 
 use super::Sweep;
-use crate::run::{Scene, fitting, flow, too_wide, without_value};
-use crate::simulation::{Judging, RunObserver, run_from};
-use jam::laws::Model;
+use crate::run::Scene;
 use jam::outcome::{Class, Verdict};
 use jam::ring::{Ring, Start};
+use jam::run::{Judging, fitting, flow, run_from, too_wide, without_value};
 use jam::stability::Waves;
 use jam::uniform;
 use ode::Control;
@@ -128,9 +127,7 @@ impl Sweep {
         if room <= 0.0 || start.shift.abs() >= room {
             return Ok(Err(Class::Closed));
         }
-        if let Model::Formula(law) = &model
-            && let Some(problem) = too_wide(law, ring)
-        {
+        if let Some(problem) = too_wide(&model, ring) {
             return Err(problem);
         }
         let steady_speed = match flow(&model, ring, self.speed) {
@@ -147,6 +144,7 @@ impl Sweep {
             model,
             ring,
             start,
+            displacements: Vec::new(),
             t_end: settings.t_end,
             sample: settings.t_end,
             method: settings.method,
@@ -224,7 +222,7 @@ impl Sweep {
 
 /// The outcome of a scene. A run that broke has none.
 fn judged(scene: &Scene) -> Verdict {
-    let outcome = run_from(scene, None, &mut Judged).unwrap_or_else(|broken| {
+    let outcome = run_from(scene, None, &mut Judging::UntilCertain).unwrap_or_else(|broken| {
         let mut outcome = *broken.outcome;
         if let Some(verdict) = &mut outcome.verdict {
             verdict.class = Class::Undecided;
@@ -232,15 +230,6 @@ fn judged(scene: &Scene) -> Verdict {
         outcome
     });
     outcome.verdict.unwrap_or_else(Verdict::none)
-}
-
-/// A run goes on until its outcome is certain.
-struct Judged;
-
-impl RunObserver for Judged {
-    fn judging(&self) -> Judging {
-        Judging::UntilCertain
-    }
 }
 
 fn looser(control: Control) -> Control {

@@ -2,10 +2,11 @@
 
 use crate::project::scene;
 use jam::events::{Event, EventKind};
+use jam::run::{Outcome, run};
 use ode::{Control, Method};
 use scene::map::{Computed, Map, Value};
 use scene::run::{AtOverlap, Scene};
-use scene::simulation::{Outcome, run};
+use scene::tables;
 use scene::{Overrides, SceneError};
 use std::path::{Path, PathBuf};
 
@@ -31,8 +32,7 @@ fn map(name: &str) -> (Map, Computed) {
 
 /// The std at this sample of a run.
 fn std_at(run: &Outcome, t: f64) -> f64 {
-    let row = run.std.rows().find(|row| (row[0] - t).abs() < 1e-9).expect("a sample");
-    row[1]
+    run.samples.iter().find(|sample| (sample.time - t).abs() < 1e-9).expect("a sample").std
 }
 
 /// Width of the ramp, and the std at t = 5 and 20 by an integrator that ends a step on every crossing.
@@ -140,7 +140,7 @@ fn two_that_are_far_apart_walk_alone() {
     for name in ["far-apart", "far-apart-gaps"] {
         let run = plain(name);
         assert_eq!(run.statistics.time, 20.0);
-        for row in run.trajectories.rows() {
+        for row in tables::trajectories(&run.samples).rows() {
             let exact = -2.0 * math::exp_m1(-row[0]);
             assert!((row[3] - exact).abs() < 1e-11, "{name}: {row:?} and {exact}");
         }
@@ -157,7 +157,7 @@ fn an_unstable_run_ends_by_name_where_no_double_follows() {
         let stop = run.stop().expect("it stops");
         assert_eq!((stop.kind, stop.pedestrian), (EventKind::BlowUp, 1), "{method}");
         assert!((stop.time - 52.373_982_875).abs() < 2e-8, "{method}: {}", stop.time);
-        assert_eq!(run.std.len(), 53, "samples up to there");
+        assert_eq!(run.samples.len(), 53, "samples up to there");
     }
 }
 
@@ -209,7 +209,7 @@ fn a_force_in_contact_is_seen_where_the_run_goes_on() {
     let overlap = |run: &Outcome| at_once(&run.events, EventKind::Overlap);
     assert_eq!(overlap(&on), overlap(&stopped));
     assert_ne!(on.stop().map(|stop| stop.kind), Some(EventKind::Overlap));
-    assert!(on.std.len() > stopped.std.len(), "{} and {}", on.std.len(), stopped.std.len());
+    assert!(on.samples.len() > stopped.samples.len(), "{} and {}", on.samples.len(), stopped.samples.len());
     // where the force is infinite nothing goes on
     let text = std::fs::read_to_string(file("blow-up-guo")).expect("a file");
     let error = refusal(&text.replace("[run]\n", "[run]\nat_overlap = \"continue\"\n"));
@@ -221,7 +221,7 @@ fn a_perturbation_of_any_size_keeps_its_digits() {
     let with_shift = |shift: f64| {
         let mut scene = case("jam-speed-ring133", &Overrides { t_end: Some(20.0), ..Overrides::default() });
         scene.start.shift = shift;
-        run(&scene).expect("it runs").std.column("std").expect("std")
+        run(&scene).expect("it runs").samples.std
     };
     let usual = with_shift(1e-9);
     for shift in [1e-30, 1e-160, 1e-200, 1e-280] {

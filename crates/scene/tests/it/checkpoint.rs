@@ -2,10 +2,10 @@
 
 use crate::project::figure;
 use files::scene_file;
+use jam::run::{Checkpoint, PartialRun};
+use jam::run::{Outcome, RunObserver, run, run_from};
 use scene::Overrides;
-use scene::checkpoint::{Checkpoint, PartialRun};
 use scene::run::{Scene, read};
-use scene::simulation::{Outcome, RunObserver, run, run_from};
 
 /// Thirty pedestrians that overlap, turn back and change places; by the time between samples and lines of `[run]`.
 fn scene(sample: f64, lines: &str) -> Scene {

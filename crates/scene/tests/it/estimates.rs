@@ -1,10 +1,10 @@
 //! Errors as estimated against errors as they are, in random scenes.
 
+use jam::run::{Outcome, run, run_from};
 use ode::{Control, Method};
 use scene::check::{errors, errors_of};
 use scene::propagated::Propagated;
 use scene::run::{Scene, read};
-use scene::simulation::{Outcome, run, run_from};
 
 /// Numbers drawn at random, always the same (Knuth's generator of 64 bits).
 struct Draw(u64);
@@ -64,8 +64,8 @@ fn true_error(scene: &Scene, outcome: &Outcome) -> Option<f64> {
     let method = if scene.method == Method::Verner98 { Method::Dop853 } else { Method::Verner98 };
     let control = Control::Adaptive { tolerance: 1e-14 };
     let exact = run(&Scene { method, control, most_steps: 2_000_000, ..scene.clone() }).ok()?;
-    let rows = outcome.std.rows().zip(exact.std.rows());
-    Some(rows.fold(0.0, |most: f64, (one, other)| math::larger(most, (one[1] - other[1]).abs())))
+    let rows = outcome.samples.std.iter().zip(&exact.samples.std);
+    Some(rows.fold(0.0, |most: f64, (one, other)| math::larger(most, (one - other).abs())))
 }
 
 #[test]
@@ -80,7 +80,7 @@ fn estimates_are_honest_and_not_too_shy() {
             continue;
         };
         let Some(true_error) = true_error(&scene, &outcome) else { continue };
-        let size = outcome.std.rows().fold(0.0, |most: f64, row| math::larger(most, row[1]));
+        let size = outcome.samples.std.iter().copied().fold(0.0, math::larger);
         // what is as small as the reference's own error says nothing
         if true_error > 1e-13 * size {
             if true_error > 3.0 * stated {
@@ -115,7 +115,7 @@ fn told(scene: &Scene) -> Option<[(f64, f64); 3]> {
     let exact =
         run(&Scene { method: Method::Verner98, control, t_end, most_steps: 2_000_000, ..scene.clone() }).ok()?;
     let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0, |most: f64, (a, b)| math::larger(most, (a - b).abs()));
-    let std = |outcome: &Outcome| outcome.std.rows().map(|row| row[1]).collect::<Vec<f64>>();
+    let std = |outcome: &Outcome| outcome.samples.std.clone();
     let whole = exact.statistics.time == t_end;
     let is_blow_up = told.positions.is_none();
     (whole && !is_blow_up).then(|| {

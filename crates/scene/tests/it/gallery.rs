@@ -4,10 +4,10 @@
 use files::reader::{Entry, Section, Value};
 use files::scene_file::{self, Kind, SceneFile};
 use jam::events::EventKind;
+use jam::run::{Outcome, run as simulate};
 use jam::states::{StateVariables, gaps_state};
 use scene::map;
 use scene::run::{self, AtOverlap, Scene};
-use scene::simulation::{Outcome, run as simulate};
 use scene::uniform::{Stability, stability};
 use std::path::{Path, PathBuf};
 

@@ -1,8 +1,9 @@
 //! Runs that fail, and runs at the edge: what they say, and that no table holds a number that is none.
 
 use files::table::Table;
+use jam::run::{Broken, Narrowest, Outcome, run};
 use ode::Method;
-use scene::simulation::{Broken, Outcome, Place, run};
+use scene::tables;
 
 /// An algebraic run like that of figure 4, of ten pedestrians, with other lines in `[law]` and `[run]`.
 fn attempt(law: &str, shift: &str, steps: &str) -> Result<Outcome, Broken> {
@@ -36,7 +37,11 @@ fn runs_through_a_wall_fill_tables_with_finite_numbers_or_say_where_they_broke()
                     let label = format!("{law} {method} {step} {state}");
                     match run {
                         Ok(run) => {
-                            assert!(is_finite(&run.std) && is_finite(&run.trajectories), "{label}: {:?}", run.events);
+                            assert!(
+                                is_finite(&tables::std(&run.samples)) && is_finite(&tables::trajectories(&run.samples)),
+                                "{label}: {:?}",
+                                run.events
+                            );
                             assert!(run.events.iter().all(|event| event.time.is_finite()), "{label}: {:?}", run.events);
                             stopped += u32::from(run.stop().is_some());
                         }
@@ -56,7 +61,7 @@ fn runs_through_a_wall_fill_tables_with_finite_numbers_or_say_where_they_broke()
 /// The message of a broken run: time, step, pedestrian and gap of the least room, all in the order of the words.
 fn assert_named(broken: &Broken, label: &str) {
     let ode::Failure::NotFinite { time, step } = broken.failure else { panic!("{label}: {broken:?}") };
-    let Some(Place { pedestrian, gap, room, speed }) = broken.narrowest else { panic!("{label}: {broken:?}") };
+    let Some(Narrowest { pedestrian, gap, room, speed }) = broken.narrowest else { panic!("{label}: {broken:?}") };
     assert!(pedestrian < 10 && [time, gap, room, speed].iter().all(|x| x.is_finite()), "{label}: {broken:?}");
     let words = "the state is no longer finite; a smaller step may help";
     let place = format!("least room then: pedestrian {pedestrian}, gap {gap:?}, room {room:?}, speed {speed:?}");
@@ -89,7 +94,7 @@ fn positions_lose_the_digits_that_deviations_keep() {
         );
         let recipe = files::scene_file::parse("my.toml", &text).expect("a scene");
         let outcome = run(&scene::run::read("my.toml", &recipe.panels[0].tables).expect("a run")).expect("it runs");
-        outcome.std.column("std").expect("std").pop().expect("a last sample")
+        outcome.samples.std.last().copied().expect("a last sample")
     };
     let exact = end("method = \"extrapolation\"\ntolerance = 1e-14");
     let heun = |state: &str| end(&format!("method = \"heun\"\ndt = 1e-5\nstate = \"{state}\"")) / exact - 1.0;

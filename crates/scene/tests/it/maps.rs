@@ -65,7 +65,7 @@ fn criterion(model: &Model, headway: f64) -> f64 {
         Model::Algebraic(law) => criteria::algebraic(law, law.gap(headway, speed)),
         Model::Exponential(law) => criteria::exponential(law, law.gap(headway, speed)),
         Model::Logarithmic(law) => criteria::logarithmic(law, headway, speed),
-        Model::Formula(_) => f64::NAN,
+        Model::Formula(_) | Model::Own(_) => f64::NAN,
     }
 }
 

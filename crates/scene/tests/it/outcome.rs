@@ -2,9 +2,9 @@
 
 use files::scene_file;
 use jam::outcome::{Class, Decision, Verdict};
-use scene::checkpoint::{Checkpoint, PartialRun};
+use jam::run::{Checkpoint, PartialRun};
+use jam::run::{Judging, Outcome, RunObserver, run_from};
 use scene::run::Scene;
-use scene::simulation::{Judging, Outcome, RunObserver, run_from};
 
 struct Along(Judging);
 

@@ -1,9 +1,9 @@
 //! The project's own scene files, and scenes made of them.
 
 use files::scene_file::{self, Kind, SceneFile};
+use jam::run::Outcome;
 use scene::Overrides;
 use scene::run::Scene;
-use scene::simulation::Outcome;
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
@@ -42,7 +42,7 @@ pub fn with_check(recipe: &SceneFile, panel: &str) -> [Outcome; 2] {
     let plain = scene(recipe, panel, &Overrides::default());
     let ode::Control::Adaptive { tolerance } = plain.control else { panic!("{} is adaptive", recipe.file) };
     let check = scene(recipe, panel, &Overrides::check(tolerance));
-    [plain, check].map(|scene| scene::simulation::run(&scene).unwrap_or_else(|error| panic!("{error}")))
+    [plain, check].map(|scene| jam::run::run(&scene).unwrap_or_else(|error| panic!("{error}")))
 }
 
 /// The run of figures 11 to 13, and its check: made once for all tests.

@@ -2,6 +2,7 @@
 
 use crate::project::{jams, root};
 use files::table::Table;
+use scene::tables;
 
 fn reference(name: &str) -> Table {
     Table::read(&root("data/reference").join(name)).unwrap_or_else(|error| panic!("{error}"))
@@ -10,7 +11,8 @@ fn reference(name: &str) -> Table {
 #[test]
 fn speeds_at_t_300_are_the_published_ones() {
     let [run, _] = jams();
-    let speeds: Vec<f64> = run.trajectories.rows().filter(|row| row[0] == 300.0).map(|row| row[3]).collect();
+    let speeds: Vec<f64> =
+        tables::trajectories(&run.samples).rows().filter(|row| row[0] == 300.0).map(|row| row[3]).collect();
     assert_eq!(speeds.len(), 133);
     let mut worst: f64 = 0.0;
     for row in reference("published_speed_t300.csv").rows() {
@@ -26,7 +28,7 @@ fn speeds_at_t_300_are_the_published_ones() {
 #[test]
 fn the_standard_deviation_is_the_published_one() {
     let [run, _] = jams();
-    let std = run.std.column("std").expect("the column");
+    let std = run.samples.std.clone();
     let mut differences: Vec<f64> =
         reference("published_std_log.csv").rows().map(|row| (std[row[0] as usize] - row[1]).abs()).collect();
     differences.sort_by(f64::total_cmp);

@@ -3,8 +3,9 @@
 
 use crate::project::{figure, root, scene};
 use files::table::Table;
+use jam::run::{Outcome, run};
 use scene::Overrides;
-use scene::simulation::{Outcome, run};
+use scene::tables;
 
 /// A run of a figure and the name of its reference, with bounds for the error of its curve (in units of the curve's
 /// range) and of all gaps and speeds: the errors found, rounded up to the next power of ten. The manifest promises 1e-8.
@@ -24,7 +25,8 @@ fn solution(name: &str) -> Table {
 
 /// The largest difference of the standard deviations at the samples that both have, in units of the range.
 fn error_of_curve(outcome: &Outcome, reference: &Table) -> f64 {
-    let rows: Vec<(&[f64], &[f64])> = outcome.std.rows().zip(reference.rows()).collect();
+    let std = tables::std(&outcome.samples);
+    let rows: Vec<(&[f64], &[f64])> = std.rows().zip(reference.rows()).collect();
     assert!(rows.len() > 400 && rows.iter().all(|(a, b)| a[0] == b[0]), "the same times");
     let range = rows.iter().map(|(a, _)| a[1]).fold(0.0, math::larger);
     rows.iter().map(|(a, b)| (a[1] - b[1]).abs()).fold(0.0, math::larger) / range
@@ -34,7 +36,8 @@ fn error_of_curve(outcome: &Outcome, reference: &Table) -> f64 {
 /// adds their rounding, at most 1e-12.
 fn error_of_states(outcome: &Outcome, reference: &Table, length: f64) -> f64 {
     let count = reference.column("n").expect("n").iter().copied().fold(0.0, math::larger) as usize + 1;
-    let table: Vec<&[f64]> = outcome.trajectories.rows().collect();
+    let table = tables::trajectories(&outcome.samples);
+    let table: Vec<&[f64]> = table.rows().collect();
     let mut worst = 0.0;
     for row in reference.rows() {
         let (sample, n) = (row[0] as usize, row[1] as usize);

@@ -3,13 +3,14 @@
 use crate::project::{figure, jams, scene, with_check};
 use files::table::Table;
 use jam::events::EventKind;
+use jam::run::{Narrowest, Outcome, RunObserver, Statistics, run, run_from};
 use jam::states::StateVariables;
-use ode::{Statistics, Step};
+use ode::Step;
 use scene::Overrides;
-use scene::simulation::{Outcome, Place, RunObserver, run, run_from};
+use scene::tables;
 
 /// The largest difference of a column over the rows that both have, relative to its range.
-fn difference(runs: &[Outcome; 2], table: fn(&Outcome) -> &Table, column: &str) -> f64 {
+fn difference(runs: &[Outcome; 2], table: fn(&Outcome) -> Table, column: &str) -> f64 {
     let [one, other] = runs.each_ref().map(|run| table(run).column(column).expect("the column"));
     assert_eq!(one.len(), other.len());
     let high = one.iter().copied().fold(f64::NEG_INFINITY, math::larger);
@@ -26,7 +27,7 @@ fn events(run: &Outcome) -> Vec<EventKind> {
 fn figures_4_and_7_agree_with_their_check() {
     for (id, panel) in [("fig04", "stable"), ("fig07", "stable"), ("fig07", "unstable")] {
         let runs = with_check(&figure(id), panel);
-        let error = difference(&runs, |run| &run.std, "std");
+        let error = difference(&runs, |run| tables::std(&run.samples), "std");
         println!("{id} {panel}: {error:e} of the range, {} steps", runs[0].statistics.steps);
         assert!(error < 1e-8, "{id} {panel}: {error:e}");
         assert_eq!(events(&runs[0]), events(&runs[1]));
@@ -49,13 +50,13 @@ fn the_unstable_algebraic_run_blows_up_at_one_time() {
         let gaps = run.positions.windows(2).map(|pair| pair[1] - pair[0]);
         assert!(gaps.fold(f64::INFINITY, math::smaller) > 0.0);
         // samples up to the stop
-        let last = run.std.column("t").expect("t").pop().expect("a last sample");
+        let last = run.samples.times.last().copied().expect("a last sample");
         assert!(last <= run.events[1].time && last > run.events[1].time - 1.0);
     }
     let [one, other] = runs.each_ref().map(|run| run.events[1]);
     println!("blow-up at {:?} and {:?}: {:e} apart", one.time, other.time, one.time - other.time);
     assert!((one.time - other.time).abs() < 1e-8 && one.pedestrian == other.pedestrian);
-    let error = difference(&runs, |run| &run.std, "std");
+    let error = difference(&runs, |run| tables::std(&run.samples), "std");
     println!("std before the blow-up: {error:e} of the range");
     assert!(error < 1e-8, "{error:e}");
 }
@@ -115,7 +116,7 @@ fn a_run_that_breaks_off_names_who_had_the_least_room() {
         let scene = scene::run::read("my.toml", &recipe.panels[0].tables).expect("a run");
         let mut seen = Ends::default();
         let Err(broken) = run_from(&scene, None, &mut seen) else { panic!("{most} steps are enough") };
-        let Place { pedestrian, gap, room, speed } = broken.narrowest.expect("a state was reached");
+        let Narrowest { pedestrian, gap, room, speed } = broken.narrowest.expect("a state was reached");
         let (mut gaps, mut speeds) = ([0.0; 9], [0.0; 9]);
         let form = StateVariables::Deviations.build(&scene.model, scene.ring);
         form.read(seen.0.last().expect("a step was made"), &mut gaps, &mut speeds);
@@ -133,7 +134,7 @@ fn the_unstable_exponential_run_overlaps_turns_back_and_exchanges() {
     let run = run(&scene(&figure("fig07"), "unstable", &Overrides::default())).expect("it runs");
     assert_eq!(events(&run), [EventKind::Overlap, EventKind::NegativeSpeed, EventKind::Exchange]);
     let stop = run.stop().expect("it stops");
-    let last = run.std.column("t").expect("t").pop().expect("a last sample");
+    let last = run.samples.times.last().copied().expect("a last sample");
     assert!(last <= stop.time && last > stop.time - 1.0, "the table ends at the first stop");
     assert!(run.statistics.time > run.events[2].time, "the run goes on for the later events");
 }
@@ -143,11 +144,11 @@ fn figure_11_agrees_with_its_check() {
     let runs = jams();
     assert!(runs.iter().all(|run| run.events.is_empty() && run.statistics.time == 3000.0));
     for (table, column) in [("x", "x"), ("v", "v")] {
-        let error = difference(runs, |run| &run.trajectories, column);
+        let error = difference(runs, |run| tables::trajectories(&run.samples), column);
         println!("fig11 {table}: {error:e} of the range, {} steps", runs[0].statistics.steps);
         assert!(error < 1e-8, "{table}: {error:e}");
     }
-    let error = difference(runs, |run| &run.std, "std");
+    let error = difference(runs, |run| tables::std(&run.samples), "std");
     println!("fig13: {error:e} of the range");
     assert!(error < 1e-8, "{error:e}");
 }
@@ -156,7 +157,7 @@ fn figure_11_agrees_with_its_check() {
 fn figure_13_with_the_small_shift_agrees_with_its_check() {
     let runs = with_check(&figure("fig13"), "std_small_shift");
     assert!(runs.iter().all(|run| run.events.is_empty() && run.statistics.time == 3000.0));
-    let error = difference(&runs, |run| &run.std, "std");
+    let error = difference(&runs, |run| tables::std(&run.samples), "std");
     println!("fig13 std_small_shift: {error:e} of the range, {} steps", runs[0].statistics.steps);
     assert!(error < 1e-8, "{error:e}");
 }
@@ -190,37 +191,39 @@ fn short(changes: &[(&str, &str)]) -> Outcome {
 fn tables_have_a_row_for_every_sample() {
     let run = short(&[]);
     let times: Vec<f64> = (0..=13).map(|k| f64::from(k) * 0.75).collect();
-    assert_eq!(run.std.column("t").expect("t"), times);
-    assert_eq!(run.trajectories.columns, ["t", "n", "x", "v"]);
-    assert_eq!(run.trajectories.len(), 14 * 5);
-    let rows: Vec<&[f64]> = run.trajectories.rows().take(5).collect();
+    assert_eq!(run.samples.times.clone(), times);
+    assert_eq!(tables::trajectories(&run.samples).columns, ["t", "n", "x", "v"]);
+    assert_eq!(tables::trajectories(&run.samples).len(), 14 * 5);
+    let table = tables::trajectories(&run.samples);
+    let rows: Vec<&[f64]> = table.rows().take(5).collect();
     assert_eq!(rows[0], [0.0, 0.0, 0.1, 0.0]);
     assert_eq!(rows[4], [0.0, 4.0, 12.0, 0.0]);
     assert_eq!(run.statistics.time, 10.0);
     // the standard deviation is that of the speeds in the trajectories
-    let speeds: Vec<f64> = run.trajectories.rows().filter(|row| row[0] == 7.5).map(|row| row[3]).collect();
-    let std = run.std.rows().find(|row| row[0] == 7.5).expect("the sample")[1];
+    let speeds: Vec<f64> =
+        tables::trajectories(&run.samples).rows().filter(|row| row[0] == 7.5).map(|row| row[3]).collect();
+    let std = run.samples.iter().find(|sample| sample.time == 7.5).expect("the sample").std;
     assert!((jam::observe::spread(&speeds) - std).abs() < 1e-14);
 }
 
 #[test]
 fn trajectories_are_kept_only_where_they_are_wanted() {
     let run = short(&[("tolerance", "record = \"std\"\ntolerance")]);
-    assert!(run.trajectories.is_empty());
-    assert_eq!(run.std, short(&[]).std);
+    assert!(tables::trajectories(&run.samples).is_empty());
+    assert_eq!(run.samples.std, short(&[]).samples.std);
 }
 
 #[test]
 fn a_run_without_shift_stays_uniform_to_the_last_bit() {
     let run = short(&[("shift = 0.1", "shift = 0.0")]);
-    assert!(run.std.column("std").expect("std").iter().all(|&std| std == 0.0));
+    assert!(run.samples.std.clone().iter().all(|&std| std == 0.0));
     assert!(run.events.is_empty() && run.drift.jams().is_empty() && run.drift.speed().is_none());
 }
 
 #[test]
 fn a_tiny_shift_is_the_linear_run() {
     // a perturbation of 1e-300 keeps its digits: the same curve as with 1e-9, up to terms of 1e-9
-    let std = |shift: &str| short(&[("shift = 0.1", shift)]).std.column("std").expect("std");
+    let std = |shift: &str| short(&[("shift = 0.1", shift)]).samples.std;
     for (shift, factor) in [("shift = 1e-100", 1e91), ("shift = 1e-300", 1e291)] {
         for (tiny, small) in std(shift).iter().zip(std("shift = 1e-9")).skip(1) {
             assert!((tiny * factor / small - 1.0).abs() < 1e-7, "{tiny:e} {small:e}");
@@ -269,8 +272,8 @@ fn a_stop_ends_the_tables_within_the_step() {
         ("sample = 0.75", "sample = 0.0078125"),
     ]);
     let stop = *run.stop().expect("it overlaps");
-    let last = run.std.column("t").expect("t").pop().expect("a last sample");
+    let last = run.samples.times.last().copied().expect("a last sample");
     println!("{:?}", run.events);
     assert!(last <= stop.time && last > stop.time - 0.0078125, "{last} {stop:?}");
-    assert_eq!(run.trajectories.len(), 5 * run.std.len());
+    assert_eq!(tables::trajectories(&run.samples).len(), 5 * run.samples.len());
 }

@@ -2,13 +2,12 @@
 
 use crate::draw::Draw;
 use figures::failure::Failure;
-use jam::events::Watch;
 use jam::jams::{self, Drift};
 use jam::laws::{Logarithmic, Model};
 use jam::ring::Ring;
-use jam::states::{RingSystem, StateVariables};
-use ode::{Control, Method, Observer, Problem, Sampler, Step, integrate};
-use std::ops::ControlFlow;
+use jam::run::{AtOverlap, RunObserver, Sample, Sight, run as simulate, run_from};
+use jam::states::StateVariables;
+use ode::{Control, Method, Step};
 
 /// How the uniform flow is disturbed at the start, all speeds being 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,21 +63,28 @@ impl Run {
         Ring { pedestrians: self.pedestrians, length: self.length }
     }
 
-    /// The state at the start, in deviations from the uniform flow.
-    pub fn state(&self, form: &dyn RingSystem) -> Vec<f64> {
-        match self.start {
-            Start::One(shift) => form.start(jam::ring::Start { shift }),
+    /// The run itself, by a method.
+    ///
+    /// # Errors
+    /// There is no uniform flow, or a gap is closed at the start.
+    pub fn made_by(&self, method: Method, control: Control) -> Result<jam::run::Run, Failure> {
+        let (shift, displacements) = match self.start {
+            Start::One(shift) => (shift, Vec::new()),
             Start::Random(size) => {
-                let (count, mut draw) = (self.pedestrians, Draw::default());
-                let places: Vec<f64> = (0..count).map(|_| draw.between(-size, size)).collect();
-                let mut state = form.start(jam::ring::Start { shift: 0.0 });
-                for n in 0..count {
-                    state[n] += places[(n + 1) % count] - places[n];
-                }
-                state[2 * count] += places[0];
-                state
+                let mut draw = Draw::default();
+                (0.0, (0..self.pedestrians).map(|_| draw.between(-size, size)).collect())
             }
-        }
+        };
+        let start = jam::ring::Start { shift };
+        let run = jam::run::Run::new(self.model(), self.ring(), start, self.end).map_err(Failure::work)?;
+        Ok(jam::run::Run {
+            displacements,
+            sample: self.sample,
+            method,
+            control,
+            form: StateVariables::Deviations,
+            ..run
+        })
     }
 }
 
@@ -133,13 +139,8 @@ impl Jammed {
 /// # Errors
 /// The integration failed.
 pub fn run(run: &Run, (method, control): (Method, Control)) -> Result<Jammed, Failure> {
-    let model = run.model();
-    let form = StateVariables::Deviations.build(&model, run.ring());
-    let start = run.state(&*form);
-    let mut looking = Looking::new(run, model, &*form);
-    looking.take(0.0, &start);
-    let problem = Problem { system: &*form, start: &start, begin: 0.0, end: run.end, method, control };
-    integrate(&problem, &mut looking).map_err(Failure::work)?;
+    let mut looking = Looking::new(run);
+    run_from(&run.made_by(method, control)?, None, &mut looking).map_err(Failure::work)?;
     Ok(looking.conclude())
 }
 
@@ -161,47 +162,21 @@ pub struct Snapshot {
 /// # Errors
 /// The integration failed.
 pub fn snapshots(run: &Run, (method, control): (Method, Control)) -> Result<Vec<Snapshot>, Failure> {
-    let form = StateVariables::Deviations.build(&run.model(), run.ring());
-    let start = run.state(&*form);
-    let mut keeping = Keeping { run, form: &*form, sampler: Sampler::new(run.sample, form.dimension()), kept: vec![] };
-    let problem = Problem { system: &*form, start: &start, begin: 0.0, end: run.end, method, control };
-    integrate(&problem, &mut keeping).map_err(Failure::work)?;
-    Ok(keeping.kept)
-}
-
-struct Keeping<'a> {
-    run: &'a Run,
-    form: &'a dyn RingSystem,
-    sampler: Sampler,
-    kept: Vec<Snapshot>,
-}
-
-impl Observer for Keeping<'_> {
-    fn after(&mut self, step: &mut Step<'_>) -> ControlFlow<()> {
-        let (form, kept, count) = (self.form, &mut self.kept, self.run.pedestrians);
-        self.sampler.within(step, self.run.end, &mut |time, state| {
-            let (mut positions, mut gaps, mut speeds) = (vec![0.0; count], vec![0.0; count], vec![0.0; count]);
-            form.write_positions(state, &mut positions);
-            form.read(state, &mut gaps, &mut speeds);
-            kept.push(Snapshot { time, positions, speeds, spread: form.speed_deviation(state) });
-        });
-        ControlFlow::Continue(())
-    }
-
-    fn next_sample(&self) -> f64 {
-        self.sampler.next()
-    }
+    // to the end, whatever happens on the way
+    let run = jam::run::Run { at_overlap: AtOverlap::Continue, ..run.made_by(method, control)? };
+    let outcome = simulate(&run).map_err(Failure::work)?;
+    let kept = outcome.samples.iter().skip(1).map(|sample| Snapshot {
+        time: sample.time,
+        positions: sample.positions.to_vec(),
+        speeds: sample.speeds.to_vec(),
+        spread: sample.std,
+    });
+    Ok(kept.collect())
 }
 
 struct Looking<'a> {
     run: &'a Run,
-    form: &'a dyn RingSystem,
-    watch: Watch<'a>,
-    sampler: Sampler,
     seen: Seen,
-    positions: Vec<f64>,
-    gaps: Vec<f64>,
-    speeds: Vec<f64>,
     stop: Option<(&'static str, f64)>,
 }
 
@@ -225,38 +200,35 @@ struct Late {
     fastest: Option<f64>,
 }
 
-impl<'a> Looking<'a> {
-    fn new(run: &'a Run, model: Model, form: &'a dyn RingSystem) -> Looking<'a> {
-        let zeros = || vec![0.0; run.pedestrians];
-        Looking {
-            run,
-            form,
-            watch: Watch::new(model, form, run.pedestrians),
-            sampler: Sampler::new(run.sample, form.dimension()),
-            seen: Seen::default(),
-            positions: zeros(),
-            gaps: zeros(),
-            speeds: zeros(),
-            stop: None,
+impl RunObserver for Looking<'_> {
+    fn seen(&mut self, _step: &mut Step<'_>, sight: &mut Sight<'_, '_>) {
+        let stop = sight.new.iter().find(|event| event.kind.is_stop());
+        self.stop = stop.map(|event| (event.kind.name(), event.time));
+    }
+
+    fn sampled(&mut self, &Sample { time, std, positions, speeds, .. }: &Sample<'_>) {
+        let passed = self.seen.before.filter(|before| before.1 < ONSET && std >= ONSET);
+        if let (None, Some((earlier, less))) = (self.seen.onset, passed) {
+            self.seen.onset = Some(earlier + (time - earlier) * (ONSET - less) / (std - less));
+        }
+        self.seen.before = Some((time, std));
+        let length = self.run.length;
+        let found = jams::threshold(speeds, self.run.desired_speed)
+            .map_or(Vec::new(), |threshold| jams::find(positions, speeds, length, threshold));
+        self.seen.drift.follow(&found, length, self.run.sample);
+        if time >= self.run.end - LATE {
+            self.seen.late.take(time, std, positions, speeds);
         }
     }
 
-    fn take(&mut self, t: f64, state: &[f64]) {
-        let spread = self.form.speed_deviation(state);
-        let passed = self.seen.before.filter(|before| before.1 < ONSET && spread >= ONSET);
-        if let (None, Some((earlier, less))) = (self.seen.onset, passed) {
-            self.seen.onset = Some(earlier + (t - earlier) * (ONSET - less) / (spread - less));
-        }
-        self.seen.before = Some((t, spread));
-        self.form.write_positions(state, &mut self.positions);
-        self.form.read(state, &mut self.gaps, &mut self.speeds);
-        let length = self.run.length;
-        let found = jams::threshold(&self.speeds, self.run.desired_speed)
-            .map_or(Vec::new(), |threshold| jams::find(&self.positions, &self.speeds, length, threshold));
-        self.seen.drift.follow(&found, length, self.run.sample);
-        if t >= self.run.end - LATE {
-            self.seen.late.take(t, spread, &self.positions, &self.speeds);
-        }
+    fn is_done(&self) -> bool {
+        self.stop.is_some()
+    }
+}
+
+impl<'a> Looking<'a> {
+    fn new(run: &'a Run) -> Looking<'a> {
+        Looking { run, seen: Seen::default(), stop: None }
     }
 
     fn conclude(self) -> Jammed {
@@ -290,23 +262,5 @@ impl Late {
             self.slowest = Some(self.slowest.map_or(v, |least| math::smaller(least, v)));
             self.fastest = Some(self.fastest.map_or(v, |most| math::larger(most, v)));
         }
-    }
-}
-
-impl Observer for Looking<'_> {
-    fn after(&mut self, step: &mut Step<'_>) -> ControlFlow<()> {
-        let new = self.watch.look(step);
-        let stop = new.iter().find(|happening| happening.kind.is_stop());
-        let until = stop.map_or(self.run.end, |happening| happening.time);
-        // the sampler lends its buffer while this one takes what it gives
-        let mut sampler = std::mem::replace(&mut self.sampler, Sampler::new(self.run.sample, 0));
-        sampler.within(step, until, &mut |t, state| self.take(t, state));
-        self.sampler = sampler;
-        self.stop = stop.map(|happening| (happening.kind.name(), happening.time));
-        if self.stop.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    }
-
-    fn next_sample(&self) -> f64 {
-        self.sampler.next()
     }
 }

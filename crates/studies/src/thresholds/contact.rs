@@ -5,11 +5,11 @@ use crate::hard::rows::{Rows, row};
 use crate::hard::run::{Case, Leg, two_methods};
 use crate::parameters::jammed::Run;
 use figures::failure::Failure;
-use jam::events::{EventKind, Watch};
+use jam::events::{Event, EventKind};
 use jam::ring::Ring;
-use jam::states::{RingSystem, StateVariables};
-use ode::{Control, Method, Observer, Problem, Sampler, Step, integrate};
-use std::ops::ControlFlow;
+use jam::run::{RunObserver, Sample, Sight, run_from};
+use jam::states::StateVariables;
+use ode::{Control, Method, Step};
 
 /// The desired speed 1.2 m/s times the relaxation time 0.5 s of the source, in metres: `v_0' = 0.6 m / a_0`.
 const REACH: f64 = 0.6;
@@ -196,79 +196,48 @@ pub(super) fn bracket(at: impl Fn(f64) -> Run, (low, high): (f64, f64), width: f
 }
 
 fn look(run: &Run, method: Method, tolerance: f64) -> Result<Seen, Failure> {
-    let (model, ring) = (run.model(), run.ring());
-    let form = StateVariables::Deviations.build(&model, ring);
-    let start = run.state(&*form);
+    let run = jam::run::Run { sample: SAMPLE, ..run.made_by(method, Control::Adaptive { tolerance })? };
     let seen = Seen { touched: None, least: f64::INFINITY, negative_before: None };
-    let watch = Watch::new(model, &*form, ring.pedestrians);
-    let sampler = Sampler::new(SAMPLE, form.dimension());
-    let mut looking = Looking { watch, form: &*form, sampler, end: run.end, seen };
-    let control = Control::Adaptive { tolerance };
-    let problem = Problem { system: &*form, start: &start, begin: 0.0, end: run.end, method, control };
-    integrate(&problem, &mut looking).map_err(Failure::work)?;
+    let mut looking = Looking { seen, reached: 0.0 };
+    run_from(&run, None, &mut looking).map_err(Failure::work)?;
     Ok(looking.seen)
 }
 
-struct Looking<'a> {
-    watch: Watch<'a>,
-    form: &'a dyn RingSystem,
-    sampler: Sampler,
-    end: f64,
+struct Looking {
     seen: Seen,
+    /// The end of the step looked at last.
+    reached: f64,
 }
 
-impl Looking<'_> {
-    /// Takes the least speed at the samples of a step, up to this time.
-    fn slow_down(&mut self, step: &mut Step<'_>, until: f64) {
-        let (form, least, count) = (self.form, &mut self.seen.least, self.watch.speeds().len());
-        let (mut gaps, mut speeds) = (vec![0.0; count], vec![0.0; count]);
-        self.sampler.within(step, until, &mut |time, state| {
-            form.read(state, &mut gaps, &mut speeds);
-            if time >= STARTED {
-                *least = speeds.iter().copied().fold(*least, math::smaller);
+impl RunObserver for Looking {
+    fn seen(&mut self, step: &mut Step<'_>, sight: &mut Sight<'_, '_>) {
+        let find = |kind: EventKind| sight.new.iter().find(|event| event.kind == kind);
+        let (overlap, negative) = (find(EventKind::Overlap), find(EventKind::NegativeSpeed).map(|event| event.time));
+        let seen = &mut self.seen;
+        match (seen.touched, overlap) {
+            (None, Some(&Event { time, pedestrian, .. })) => {
+                let [_, speeds] = sight.watch.everybody_at(step, time);
+                let (speed, ahead) = (speeds[pedestrian], speeds[(pedestrian + 1) % speeds.len()]);
+                let later = negative.filter(|&negative| negative > time);
+                seen.negative_before = seen.negative_before.or(negative.filter(|&negative| negative <= time));
+                seen.touched = Some(Touched { time, pedestrian, speed, ahead, negative: later });
             }
-        });
-    }
-
-    fn touch(&self, step: &mut Step<'_>, time: f64, pedestrian: usize) -> Touched {
-        let count = self.watch.speeds().len();
-        let mut state = vec![0.0; step.before().len()];
-        step.at(time, &mut state);
-        let (mut gaps, mut speeds) = (vec![0.0; count], vec![0.0; count]);
-        self.form.read(&state, &mut gaps, &mut speeds);
-        let (speed, ahead) = (speeds[pedestrian], speeds[(pedestrian + 1) % count]);
-        Touched { time, pedestrian, speed, ahead, negative: None }
-    }
-}
-
-impl Observer for Looking<'_> {
-    fn after(&mut self, step: &mut Step<'_>) -> ControlFlow<()> {
-        let new = self.watch.look(step);
-        let find = |event: EventKind| new.iter().find(|happening| happening.kind == event);
-        let (overlap, negative) =
-            (find(EventKind::Overlap), find(EventKind::NegativeSpeed).map(|happening| happening.time));
-        if self.seen.touched.is_none() {
-            self.slow_down(step, overlap.map_or(self.end, |happening| happening.time));
-        }
-        match (self.seen.touched, overlap) {
-            (None, Some(happening)) => {
-                let mut touched = self.touch(step, happening.time, happening.pedestrian);
-                touched.negative = negative.filter(|&time| time > happening.time);
-                self.seen.negative_before = self.seen.negative_before.or(negative.filter(|&t| t <= happening.time));
-                self.seen.touched = Some(touched);
-            }
-            (None, None) => {
-                self.seen.negative_before = self.seen.negative_before.or(negative);
-            }
+            (None, None) => seen.negative_before = seen.negative_before.or(negative),
             (Some(touched), _) => {
-                self.seen.touched = Some(Touched { negative: touched.negative.or(negative), ..touched });
+                seen.touched = Some(Touched { negative: touched.negative.or(negative), ..touched });
             }
         }
-        let is_over = self.seen.touched.is_some_and(|t| t.negative.is_some() || step.end > t.time + AFTER);
-        if is_over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        self.reached = step.end;
     }
 
-    fn next_sample(&self) -> f64 {
-        self.sampler.next()
+    /// Up to the first contact.
+    fn sampled(&mut self, sample: &Sample<'_>) {
+        if sample.time >= STARTED {
+            self.seen.least = sample.speeds.iter().copied().fold(self.seen.least, math::smaller);
+        }
+    }
+
+    fn is_done(&self) -> bool {
+        self.seen.touched.is_some_and(|t| t.negative.is_some() || self.reached > t.time + AFTER)
     }
 }

@@ -5,9 +5,8 @@ use super::contact::bracket;
 use crate::hard::rows::{Rows, row};
 use crate::parameters::jammed::Run;
 use figures::failure::Failure;
-use jam::states::{RingSystem, StateVariables};
-use ode::{Control, Method, Observer, Problem, Sampler, Step, integrate};
-use std::ops::ControlFlow;
+use jam::run::{AtOverlap, RunObserver, Sample, run_from};
+use ode::{Control, Method};
 
 /// The headways of the rings, all of 133 pedestrians.
 const HEADWAYS: [f64; 4] = [1.4, 1.5, 1.6, 1.7];
@@ -64,50 +63,33 @@ pub fn jam_headway() -> Result<Rows, Failure> {
 
 /// The least headway.
 fn least(run: &Run, method: Method) -> Result<f64, Failure> {
-    let (model, ring) = (run.model(), run.ring());
-    let form = StateVariables::Deviations.build(&model, ring);
-    let start = run.state(&*form);
-    let sampler = Sampler::new(SAMPLE, form.dimension());
-    let (count, least) = (ring.pedestrians, f64::INFINITY);
-    let mut looking = Looking { form: &*form, count, sampler, end: run.end, before: None, least };
     let control = Control::Adaptive { tolerance: 1e-10 };
-    let problem = Problem { system: &*form, start: &start, begin: 0.0, end: run.end, method, control };
-    integrate(&problem, &mut looking).map_err(Failure::work)?;
+    let run = jam::run::Run { sample: SAMPLE, at_overlap: AtOverlap::Continue, ..run.made_by(method, control)? };
+    let mut looking = Looking { before: None, least: f64::INFINITY };
+    run_from(&run, None, &mut looking).map_err(Failure::work)?;
     Ok(looking.least)
 }
 
 /// Time, headways and their rates at a sample.
 type Sampled = (f64, Vec<f64>, Vec<f64>);
 
-struct Looking<'a> {
-    form: &'a dyn RingSystem,
-    count: usize,
-    sampler: Sampler,
-    end: f64,
+struct Looking {
     before: Option<Sampled>,
     least: f64,
 }
 
-impl Observer for Looking<'_> {
-    fn after(&mut self, step: &mut Step<'_>) -> ControlFlow<()> {
-        let (form, count, before, least) = (self.form, self.count, &mut self.before, &mut self.least);
-        self.sampler.within(step, self.end, &mut |time, state| {
-            let (mut headways, mut speeds) = (vec![0.0; count], vec![0.0; count]);
-            form.read(state, &mut headways, &mut speeds);
-            let rates: Vec<f64> = (0..count).map(|n| speeds[(n + 1) % count] - speeds[n]).collect();
-            if let Some((then, old, falling)) = before.as_ref().filter(|_| time > STARTED) {
-                for n in (0..count).filter(|&n| falling[n] < 0.0 && rates[n] > 0.0) {
-                    let lowest = lowest_of_cubic(time - then, [old[n], headways[n]], [falling[n], rates[n]]);
-                    *least = math::smaller(*least, lowest);
-                }
+impl RunObserver for Looking {
+    fn sampled(&mut self, sample: &Sample<'_>) {
+        let (time, headways, speeds) = (sample.time, sample.spacings.to_vec(), sample.speeds);
+        let count = headways.len();
+        let rates: Vec<f64> = (0..count).map(|n| speeds[(n + 1) % count] - speeds[n]).collect();
+        if let Some((then, old, falling)) = self.before.as_ref().filter(|_| time > STARTED) {
+            for n in (0..count).filter(|&n| falling[n] < 0.0 && rates[n] > 0.0) {
+                let lowest = lowest_of_cubic(time - then, [old[n], headways[n]], [falling[n], rates[n]]);
+                self.least = math::smaller(self.least, lowest);
             }
-            *before = Some((time, headways, rates));
-        });
-        ControlFlow::Continue(())
-    }
-
-    fn next_sample(&self) -> f64 {
-        self.sampler.next()
+        }
+        self.before = Some((time, headways, rates));
     }
 }
 

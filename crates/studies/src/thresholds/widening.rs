@@ -5,14 +5,14 @@ use super::critical::{algebraic, exponential};
 use crate::hard::rows::{Rows, row};
 use crate::hard::run::two_methods;
 use figures::failure::Failure;
-use jam::events::{EventKind, Watch};
+use jam::events::{Event, EventKind};
 use jam::laws::{Logarithmic, Model};
 use jam::ring::{Ring, Start};
+use jam::run::{Run, RunObserver, Sample, Sight, run_from};
 use jam::stability::Linear;
-use jam::states::{RingSystem, StateVariables};
+use jam::states::StateVariables;
 use jam::uniform::steady_speed;
-use ode::{Control, Method, Observer, Problem, Sampler, Step, integrate};
-use std::ops::ControlFlow;
+use ode::{Control, Method, Step};
 
 /// A law for each widening.
 type Widened = fn(f64) -> Model;
@@ -49,8 +49,7 @@ pub fn table() -> Result<Rows, Failure> {
             match model {
                 Model::Algebraic(law) => push("gap", gap, &law.linearise(gap)),
                 Model::Exponential(law) => push("gap", gap, &law.linearise(gap)),
-                Model::Logarithmic(_) => {}
-                Model::Formula(_) => (),
+                Model::Logarithmic(_) | Model::Formula(_) | Model::Own(_) => {}
             }
         }
     }
@@ -124,46 +123,33 @@ struct Followed {
     least: f64,
 }
 
-struct Following<'a> {
-    watch: Watch<'a>,
-    form: &'a dyn RingSystem,
-    sampler: Sampler,
-    followed: Followed,
-}
-
 fn follow(model: &Model, ring: Ring, (method, control): (Method, Control)) -> Result<Followed, Failure> {
-    // gaps keep their digits at the walls to which an unstable run comes
-    let form = StateVariables::Spacings.build(model, ring);
-    let start = form.start(Start { shift: 1e-4 });
-    let followed = Followed { stop: None, negative: None, least: f64::INFINITY };
-    let (watch, sampler) =
-        (Watch::new(model.clone(), &*form, ring.pedestrians), Sampler::new(SAMPLE, form.dimension()));
-    let mut following = Following { watch, form: &*form, sampler, followed };
-    let problem = Problem { system: &*form, start: &start, begin: 0.0, end: END, method, control };
-    integrate(&problem, &mut following).map_err(Failure::work)?;
-    Ok(following.followed)
+    let run = Run::new(model.clone(), ring, Start { shift: 1e-4 }, END).map_err(Failure::work)?;
+    // spacings keep their digits at the walls to which an unstable run comes
+    let run = Run { sample: SAMPLE, method, control, form: StateVariables::Spacings, ..run };
+    let mut followed = Followed { stop: None, negative: None, least: f64::INFINITY };
+    run_from(&run, None, &mut followed).map_err(Failure::work)?;
+    Ok(followed)
 }
 
-impl Observer for Following<'_> {
-    fn after(&mut self, step: &mut Step<'_>) -> ControlFlow<()> {
-        let new = self.watch.look(step);
-        let stop = new.iter().find(|happening| happening.kind.is_stop());
-        let until = stop.map_or(END, |happening| happening.time);
-        let (form, least, count) = (self.form, &mut self.followed.least, self.watch.speeds().len());
-        let (mut gaps, mut speeds) = (vec![0.0; count], vec![0.0; count]);
-        self.sampler.within(step, until, &mut |_, state| {
-            form.read(state, &mut gaps, &mut speeds);
-            *least = speeds.iter().copied().fold(*least, math::smaller);
-        });
-        let negative =
-            new.iter().find(|happening| happening.kind == EventKind::NegativeSpeed && happening.time <= until);
-        self.followed.negative = self.followed.negative.or(negative.map(|happening| happening.time));
-        self.followed.stop = stop.map(|happening| (happening.kind.name(), happening.time));
-        if stop.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+impl RunObserver for Followed {
+    fn seen(&mut self, _step: &mut Step<'_>, sight: &mut Sight<'_, '_>) {
+        let stop = sight.new.iter().find(|event| event.kind.is_stop());
+        let until = stop.map_or(END, |event| event.time);
+        let is_before = |event: &&Event| event.kind == EventKind::NegativeSpeed && event.time <= until;
+        self.negative = self.negative.or(sight.new.iter().find(is_before).map(|event| event.time));
+        self.stop = stop.map(|event| (event.kind.name(), event.time));
     }
 
-    fn next_sample(&self) -> f64 {
-        self.sampler.next()
+    fn sampled(&mut self, sample: &Sample<'_>) {
+        // all start at rest
+        if sample.time > 0.0 {
+            self.least = sample.speeds.iter().copied().fold(self.least, math::smaller);
+        }
+    }
+
+    fn is_done(&self) -> bool {
+        self.stop.is_some()
     }
 }
 

@@ -7,12 +7,12 @@ use figures::failure::Failure;
 use jam::laws::Model;
 use jam::laws::presets::{PRESETS, Preset};
 use jam::ring::{Ring, Start};
+use jam::run::{Judging, run_from};
 use jam::stability::Waves;
 use jam::states::StateVariables;
 use jam::uniform::{headway_of_gap, steady_speed};
 use ode::{Control, Method};
 use scene::run::{AtOverlap, Scene};
-use scene::simulation::{Judging, RunObserver, run_from};
 
 /// Pedestrians, as in the runs of the source.
 const PEDESTRIANS: usize = 67;
@@ -46,6 +46,7 @@ pub(super) fn table() -> Result<Rows, Failure> {
             model,
             ring: Ring { pedestrians: PEDESTRIANS, length: headway * PEDESTRIANS as f64 },
             start: Start { shift: 0.1 },
+            displacements: Vec::new(),
             t_end: 6000.0,
             sample: 6000.0,
             method: Method::Dop853,
@@ -55,7 +56,7 @@ pub(super) fn table() -> Result<Rows, Failure> {
             keeps_trajectories: false,
             at_overlap: AtOverlap::Stop,
         };
-        let outcome = run_from(&scene, None, &mut Judged).map_err(Failure::work)?;
+        let outcome = run_from(&scene, None, &mut Judging::UntilCertain).map_err(Failure::work)?;
         let verdict = outcome.verdict.ok_or_else(|| Failure::work("a run without an outcome"))?;
         rows.push(row![
             preset.name,
@@ -102,13 +103,4 @@ fn threshold(preset: &Preset) -> Result<Option<f64>, Failure> {
         if margin(preset, middle)? > 0.0 { high = middle } else { low = middle }
     }
     Ok(Some(high))
-}
-
-/// A run goes on until its outcome is certain.
-struct Judged;
-
-impl RunObserver for Judged {
-    fn judging(&self) -> Judging {
-        Judging::UntilCertain
-    }
 }

@@ -2,32 +2,29 @@
 //! where, and how often, is the caller's business.
 //!
 //! The bytes are 64-bit words, low byte first, numbers by their bits: place, counts, state, pace, events, samples, jams, what the judge has seen. What
-//! follows from the scene and the rest is left out: the times and numbers in the table of trajectories, and whether the
+//! follows from the run and the rest is left out: the times of the trajectories, and whether the
 //! run has come to a stop. Nothing guards them against damage; a file should hold their hash.
 
-use crate::run::Scene;
-use crate::simulation::Counts;
-use files::table::Table;
-use jam::events::{Event, EventKind};
-use jam::jams::{Drift, Jam};
-use jam::outcome::{Judge, Memory};
-use jam::states::StateVariables;
-use ode::{Control, Pace, Place, ResumePoint, Statistics};
+use super::{Run, Sample, Samples, Statistics};
+use crate::events::{Event, EventKind};
+use crate::jams::{Drift, Jam};
+use crate::outcome::{Judge, Memory};
+use crate::states::StateVariables;
+use ode::{Control, Pace, Place, ResumePoint};
 
 /// A run between two of its steps.
 #[derive(Clone, Copy, Debug)]
 pub struct PartialRun<'a> {
-    pub(crate) scene: &'a Scene,
+    pub(crate) run: &'a Run,
     pub(crate) mark: &'a ResumePoint<'a>,
     pub(crate) found: &'a [Event],
-    pub(crate) std: &'a Table,
-    pub(crate) trajectories: &'a Table,
+    pub(crate) samples: &'a Samples,
     pub(crate) drift: &'a Drift,
     /// When the jams were looked at last.
     pub(crate) followed: f64,
     /// When the leg near the walls began, if it has.
     pub(crate) near_walls: Option<f64>,
-    pub(crate) earlier: Counts,
+    pub(crate) earlier: Statistics,
     /// The judge of its outcome, if there is one.
     pub(crate) judge: Option<&'a Judge>,
 }
@@ -35,7 +32,7 @@ pub struct PartialRun<'a> {
 impl PartialRun<'_> {
     /// The part of its time that is done, 0 to 1.
     pub fn fraction(&self) -> f64 {
-        fraction(self.scene, self.mark.place.step, self.mark.statistics.time)
+        fraction(self.run, self.mark.place.step, self.mark.statistics.time)
     }
 
     /// Everything that [`Checkpoint::parse`] needs.
@@ -57,15 +54,17 @@ impl PartialRun<'_> {
         words.count(usize::from(self.near_walls.is_some()));
         words.numbers(&[self.near_walls.unwrap_or(0.0)]);
         words.count(self.found.len());
-        for happening in self.found {
-            words.count(EventKind::ALL.iter().take_while(|event| **event != happening.kind).count());
-            words.numbers(&[happening.time, happening.gap, happening.step]);
-            words.count(happening.pedestrian);
+        for event in self.found {
+            words.count(EventKind::ALL.iter().take_while(|kind| **kind != event.kind).count());
+            words.numbers(&[event.time, event.gap, event.step]);
+            words.count(event.pedestrian);
         }
-        words.count(self.std.len());
-        self.std.rows().for_each(|row| words.numbers(row));
-        words.count(self.trajectories.len());
-        self.trajectories.rows().for_each(|row| words.numbers(&row[2..]));
+        words.count(self.samples.len());
+        self.samples.iter().for_each(|sample| words.numbers(&[sample.time, sample.std]));
+        words.count(self.samples.positions.len());
+        self.samples.iter().for_each(|sample| {
+            sample.positions.iter().zip(sample.speeds).for_each(|(x, v)| words.numbers(&[*x, *v]));
+        });
         words.numbers(&[self.drift.distance, self.drift.time]);
         words.count(self.drift.before.len());
         for jam in &self.drift.before {
@@ -84,15 +83,14 @@ impl PartialRun<'_> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Checkpoint {
     pub(crate) place: Place,
-    pub(crate) statistics: Statistics,
+    pub(crate) statistics: ode::Statistics,
     pub(crate) state: Vec<f64>,
     pub(crate) pace: Option<Remembered>,
-    pub(crate) earlier: Counts,
+    pub(crate) earlier: Statistics,
     pub(crate) followed: f64,
     pub(crate) near_walls: Option<f64>,
     pub(crate) found: Vec<Event>,
-    pub(crate) std: Table,
-    pub(crate) trajectories: Table,
+    pub(crate) samples: Samples,
     pub(crate) drift: Drift,
     pub(crate) memory: Option<Memory>,
 }
@@ -116,22 +114,22 @@ impl Remembered {
 }
 
 impl Checkpoint {
-    /// Reads what [`PartialRun::to_bytes`] wrote for this scene; `None` for anything of another form.
-    pub fn parse(bytes: &[u8], scene: &Scene) -> Option<Checkpoint> {
+    /// Reads what [`PartialRun::to_bytes`] wrote for this run; `None` for anything of another form.
+    pub fn parse(bytes: &[u8], run: &Run) -> Option<Checkpoint> {
         let mut words = Reader { words: bytes.chunks_exact(8) };
         let place = Place { step: words.whole()?, slow_until: words.whole()? };
         let (steps, rejected, evaluations) = (words.whole()?, words.whole()?, words.whole()?);
-        let statistics = Statistics { steps, rejected, evaluations, time: words.number()?, state: Vec::new() };
+        let statistics = ode::Statistics { steps, rejected, evaluations, time: words.number()?, state: Vec::new() };
         let count = words.count()?;
         let state = (0..count).map(|_| words.number()).collect::<Option<Vec<f64>>>()?;
         let pace = if words.count()? == 1 { Some(words.pace(state.len())?) } else { None };
-        let earlier = Counts { steps: words.whole()?, rejected: words.whole()?, evaluations: words.whole()? };
+        let earlier =
+            Statistics { steps: words.whole()?, rejected: words.whole()?, evaluations: words.whole()?, time: 0.0 };
         let (followed, is_near_walls, begin) = (words.number()?, words.count()? == 1, words.number()?);
         let near_walls = is_near_walls.then_some(begin);
         let count = words.count()?;
-        let found = (0..count).map(|_| words.happening()).collect::<Option<Vec<Event>>>()?;
-        let std = words.std()?;
-        let trajectories = words.trajectories(scene, &std)?;
+        let found = (0..count).map(|_| words.event()).collect::<Option<Vec<Event>>>()?;
+        let samples = words.samples(run)?;
         let (distance, time, count) = (words.number()?, words.number()?, words.count()?);
         let before = (0..count).map(|_| words.jam()).collect::<Option<Vec<Jam>>>()?;
         let count = words.count()?;
@@ -140,9 +138,9 @@ impl Checkpoint {
             numbers => Some(Memory::parse(&numbers)?),
         };
         let is_whole = words.words.next().is_none() && words.words.remainder().is_empty();
-        let kind = if is_near_walls { StateVariables::Spacings } else { scene.form };
-        let fits = state.len() == kind.build(&scene.model, scene.ring).dimension()
-            && pace.is_some() == matches!(scene.control, Control::Adaptive { .. });
+        let kind = if is_near_walls { StateVariables::Spacings } else { run.form };
+        let fits = state.len() == kind.build(&run.model, run.ring).dimension()
+            && pace.is_some() == matches!(run.control, Control::Adaptive { .. });
         let drift = Drift { before, distance, time };
         (is_whole && fits).then_some(Checkpoint {
             place,
@@ -153,8 +151,7 @@ impl Checkpoint {
             followed,
             near_walls,
             found,
-            std,
-            trajectories,
+            samples,
             drift,
             memory,
         })
@@ -166,15 +163,15 @@ impl Checkpoint {
     }
 
     /// The part of the run's time that need not be gone through again, 0 to 1.
-    pub fn fraction(&self, scene: &Scene) -> f64 {
-        fraction(scene, self.place.step, self.statistics.time)
+    pub fn fraction(&self, run: &Run) -> f64 {
+        fraction(run, self.place.step, self.statistics.time)
     }
 }
 
-fn fraction(scene: &Scene, step: u64, time: f64) -> f64 {
-    match scene.control {
-        Control::Fixed { step: h } => step as f64 * h / scene.t_end,
-        Control::Adaptive { .. } => time / scene.t_end,
+fn fraction(run: &Run, step: u64, time: f64) -> f64 {
+    match run.control {
+        Control::Fixed { step: h } => step as f64 * h / run.t_end,
+        Control::Adaptive { .. } => time / run.t_end,
     }
 }
 
@@ -221,10 +218,10 @@ impl Reader<'_> {
         Some(Remembered { rates, carry, time, step: self.number()?, error: self.number()?, unit: self.number()? })
     }
 
-    fn happening(&mut self) -> Option<Event> {
-        let event = *EventKind::ALL.get(self.count()?)?;
+    fn event(&mut self) -> Option<Event> {
+        let kind = *EventKind::ALL.get(self.count()?)?;
         let (time, gap, step) = (self.number()?, self.number()?, self.number()?);
-        Some(Event { kind: event, time, pedestrian: self.count()?, gap, step })
+        Some(Event { kind, time, pedestrian: self.count()?, gap, step })
     }
 
     fn jam(&mut self) -> Option<Jam> {
@@ -232,26 +229,26 @@ impl Reader<'_> {
         Some(Jam { first, pedestrians, extent: self.number()?, centre: self.number()? })
     }
 
-    fn std(&mut self) -> Option<Table> {
-        let mut table = crate::simulation::std_table();
+    /// As many pedestrians for each sample as are kept, or none at all.
+    fn samples(&mut self, run: &Run) -> Option<Samples> {
+        let pedestrians = if run.keeps_trajectories { run.ring.pedestrians } else { 0 };
+        let mut samples = Samples::new(pedestrians);
         for _ in 0..self.count()? {
-            table.push(&[self.number()?, self.number()?]);
+            samples.push(Sample {
+                time: self.number()?,
+                std: self.number()?,
+                positions: &[],
+                speeds: &[],
+                spacings: &[],
+            });
         }
-        Some(table)
-    }
-
-    /// As many rows for each sample as there are pedestrians, or none at all.
-    fn trajectories(&mut self, scene: &Scene, std: &Table) -> Option<Table> {
-        let pedestrians = if scene.keeps_trajectories { scene.ring.pedestrians } else { 0 };
-        let mut table = crate::simulation::trajectories_table();
-        if self.count()? != std.len() * pedestrians {
+        if self.count()? != samples.len() * pedestrians {
             return None;
         }
-        for row in std.rows() {
-            for n in 0..pedestrians {
-                table.push(&[row[0], n as f64, self.number()?, self.number()?]);
-            }
+        for _ in 0..samples.len() * pedestrians {
+            samples.positions.push(self.number()?);
+            samples.speeds.push(self.number()?);
         }
-        Some(table)
+        Some(samples)
     }
 }

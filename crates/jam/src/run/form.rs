@@ -1,0 +1,68 @@
+//! Which form of the state suits a run, and whether its start has a value.
+
+use crate::laws::Model;
+use crate::ring::{Ring, Start};
+use crate::states::{RingSystem, StateVariables};
+use ode::Method;
+
+/// Below this response of the uniform flow to a gap, its force has lost digits to underflow.
+const LEAST_RESPONSE: f64 = 1e-280;
+
+/// The form of the state: deviations from the uniform flow of this speed if none is `wanted` and they can hold the run, else
+/// spacings.
+pub fn fitting(
+    wanted: Option<StateVariables>,
+    model: &Model,
+    ring: Ring,
+    speed: Option<f64>,
+    method: Method,
+) -> StateVariables {
+    let form = wanted.unwrap_or(StateVariables::Deviations);
+    let has_no_series = wanted.is_none() && !method.suits(&*form.build(model, ring));
+    if form == StateVariables::Deviations && (!has_deviations(model, ring, speed) || has_no_series) {
+        StateVariables::Spacings
+    } else {
+        form
+    }
+}
+
+/// The method of a run that names none: Taylor's, or `dop853` where only that method keeps the state in deviations, in which a
+/// small perturbation loses no digits.
+pub fn usual_method(wanted: Option<StateVariables>, model: &Model, ring: Ring, speed: Option<f64>) -> Method {
+    let variables = wanted.unwrap_or(if has_deviations(model, ring, speed) {
+        StateVariables::Deviations
+    } else {
+        StateVariables::Spacings
+    });
+    if Method::Taylor.suits(&*variables.build(model, ring)) { Method::Taylor } else { Method::Dop853 }
+}
+
+/// Whether a ring has a uniform flow that its state can deviate from.
+pub fn has_deviations(model: &Model, ring: Ring, steady_speed: Option<f64>) -> bool {
+    match (model, steady_speed) {
+        (_, None) => false,
+        // on a kink there is no uniform flow to be near to
+        (Model::Formula(_) | Model::Own(_), Some(speed)) => model.response(ring.headway(), speed).is_some(),
+        // what the uniform flow itself cannot hold in a number is lost in deviations from it
+        (model, Some(speed)) => model.linearise(ring.headway(), speed).phi >= LEAST_RESPONSE,
+    }
+}
+
+/// The first pedestrian whose acceleration is not finite at the start, and that.
+pub fn without_value(form: &dyn RingSystem, start: Start, ring: Ring) -> Option<(usize, f64)> {
+    let state = form.start(start);
+    let mut rates = vec![0.0; state.len()];
+    form.rates(&state, &mut rates);
+    let (mut spacings, mut accelerations) = (vec![0.0; ring.pedestrians], vec![0.0; ring.pedestrians]);
+    form.read_rates(&rates, &mut spacings, &mut accelerations);
+    accelerations.iter().position(|a| !a.is_finite()).map(|n| (n, accelerations[n]))
+}
+
+/// The complaint that a formula looks further than once around the ring.
+pub fn too_wide(model: &Model, ring: Ring) -> Option<String> {
+    let Model::Formula(law) = model else { return None };
+    let (behind, ahead) = law.reach();
+    let reach = behind.max(ahead);
+    let problem = || format!("the formulas look {reach} pedestrians away; there must be at least {}", reach + 1);
+    (reach >= ring.pedestrians).then(problem)
+}

@@ -1,0 +1,98 @@
+//! The ends of a run that no step shows: at a wall of the force, and where a law has no value.
+
+use super::recorder::Recorder;
+use crate::events::{Event, EventKind};
+use crate::states::StateVariables;
+use ode::Control;
+
+/// Where the smallest effective gap falls below this part of that in the uniform flow, spacings become the state: they keep all
+/// digits however small they are; deviations from the uniform flow have lost three of them there. They do, too, where
+/// deviations lead no further.
+const NEAR_WALLS: f64 = 1e-3;
+
+/// An effective gap below this, at a wall where no shorter step leads on, is that of a pedestrian who comes nearer to the wall
+/// than a double can tell: the force has no bound that a number has.
+const NO_GAP: f64 = 1e-200;
+
+impl Recorder<'_> {
+    /// Whether a run ends since a pedestrian comes nearer to a wall than any double can tell; then that is an event.
+    pub(super) fn is_at_wall(&mut self, failure: &ode::Failure, time: f64, state: &[f64]) -> bool {
+        let Some(narrowest) = self.narrowest else { return false };
+        let is_singular = self.run.model.is_singular() && self.is_in_spacings();
+        let is_stuck = matches!(failure, ode::Failure::StepTooSmall { .. });
+        let left = self.effective_gaps(state)[narrowest.pedestrian];
+        let is_at_wall = is_singular && is_stuck && left < NO_GAP;
+        if is_at_wall {
+            let (pedestrian, gap) = (narrowest.pedestrian, narrowest.gap);
+            self.watch.add(Event { kind: EventKind::BlowUp, time, pedestrian, gap, step: 0.0 });
+        }
+        is_at_wall
+    }
+
+    /// Whether a run ends since its law has no value a little further on; then that is an event.
+    pub(super) fn is_undefined(&mut self, time: f64, state: &[f64]) -> bool {
+        if !self.run.model.may_be_undefined() {
+            return false;
+        }
+        let form = self.record.form;
+        let mut rates = vec![0.0; form.dimension()];
+        form.rates(state, &mut rates);
+        // as far as a step that fails would go at least
+        let further = 1e-9 * if time > 1.0 { time } else { 1.0 };
+        let next: Vec<f64> = state.iter().zip(&rates).map(|(x, rate)| x + further * rate).collect();
+        let (mut spacings, mut accelerations) = (self.record.spacings.clone(), self.record.speeds.clone());
+        for tried in [state, &next] {
+            form.rates(tried, &mut rates);
+            form.read_rates(&rates, &mut spacings, &mut accelerations);
+            let Some(pedestrian) = accelerations.iter().position(|a| !a.is_finite()) else { continue };
+            form.read(state, &mut spacings, &mut accelerations);
+            let gap = spacings[pedestrian];
+            self.watch.add(Event { kind: EventKind::Undefined, time, pedestrian, gap, step: 0.0 });
+            return true;
+        }
+        false
+    }
+
+    /// The effective gaps, with all the digits that the form has.
+    pub(super) fn effective_gaps(&self, state: &[f64]) -> Vec<f64> {
+        let mut gaps = self.watch.rooms_of(state);
+        if self.is_in_spacings() && self.run.model.room_per_speed() == 0.0 {
+            gaps.copy_from_slice(&state[..self.run.ring.pedestrians]);
+        }
+        gaps
+    }
+
+    fn is_in_spacings(&self) -> bool {
+        self.is_near_walls || self.run.form == StateVariables::Spacings
+    }
+
+    /// Whether the run is one in deviations that may go on in spacings. Fixed steps stay in the form they were asked for.
+    pub(super) fn can_turn(&self) -> bool {
+        let is_adaptive = matches!(self.run.control, Control::Adaptive { .. });
+        !self.is_near_walls && self.run.form == StateVariables::Deviations && is_adaptive
+    }
+
+    /// Whether the leg in deviations ends here.
+    pub(super) fn comes_near_walls(&self) -> bool {
+        let run = self.run;
+        let Some(speed) = run.steady_speed else { return false };
+        let least = NEAR_WALLS * run.model.room(run.ring.headway(), speed, speed);
+        let is_near = !self.watch.is_quiet() && run.model.is_singular() && self.can_turn();
+        is_near && self.watch.rooms().iter().any(|&gap| gap < least)
+    }
+}
+
+/// What helps a run that broke.
+pub(super) fn advice(failure: &ode::Failure, run: &super::Run) -> Option<&'static str> {
+    match failure {
+        ode::Failure::TooManySteps { .. } if run.most_steps < ode::MOST_STEPS => {
+            Some("raise most_steps or the tolerance")
+        }
+        ode::Failure::TooManySteps { .. } => Some("raise the tolerance"),
+        ode::Failure::NotFinite { .. } => Some("a smaller step may help"),
+        ode::Failure::StepTooSmall { .. } if run.form == StateVariables::Positions => {
+            Some("state = \"deviations\" keeps more digits of small gaps")
+        }
+        _ => None,
+    }
+}
