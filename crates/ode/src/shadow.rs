@@ -5,6 +5,7 @@
 //! series and not every step, so it costs a small part of the first one.
 
 use crate::dense::Step;
+use crate::linear::Linear;
 use crate::system::{Measure, System};
 use crate::taylor::{Change, forced};
 use crate::vector::largest;
@@ -39,6 +40,9 @@ pub struct Shadow {
     length: f64,
     power: usize,
     is_sure: bool,
+    /// Carries the error over each step by itself, where the system tells how small differences move.
+    linear: Option<Linear>,
+    is_linear_known: bool,
     /// What the next rounding is drawn by.
     lot: u64,
 }
@@ -92,6 +96,8 @@ impl Shadow {
             length: 0.0,
             power: 1,
             is_sure: true,
+            linear: None,
+            is_linear_known: false,
             lot: 0,
         }
     }
@@ -144,6 +150,14 @@ impl Shadow {
 
     fn advance(&mut self, step: &mut Step<'_>) {
         let h = step.length();
+        if !self.is_linear_known {
+            (self.linear, self.is_linear_known) = (Linear::new(step.system), true);
+        }
+        if self.linear.is_some() {
+            self.expand_linear(step);
+            self.length = h;
+            return;
+        }
         let adds_much = relative(step.system, step.ends.before, &self.added) > FRESH * self.size;
         if adds_much || self.elapsed + h > self.reach || h < SHORTER * self.expanded {
             self.expand(step);
@@ -151,6 +165,20 @@ impl Shadow {
         }
         self.elapsed += h;
         self.length = h;
+    }
+
+    /// Carries the error over the step by the linearised equations.
+    fn expand_linear(&mut self, step: &Step<'_>) {
+        if self.has_rows {
+            let mut error = std::mem::take(&mut self.error);
+            self.at(1.0, &mut error);
+            self.error = error;
+        }
+        self.added.fill(0.0);
+        if let Some(linear) = &mut self.linear {
+            self.has_rows = linear.expand(step, &self.error);
+            self.is_sure &= self.has_rows;
+        }
     }
 
     /// Expands the difference about the start of a step.
@@ -213,6 +241,12 @@ impl Shadow {
 
     /// Writes the error at the fraction `theta` of the step looked at last, component by component.
     pub fn at(&self, theta: f64, result: &mut [f64]) {
+        if let Some(linear) = self.linear.as_ref().filter(|_| self.has_rows) {
+            linear.at(theta, result);
+            let share = (0..self.power).fold(1.0, |power, _| power * theta);
+            result.iter_mut().zip(&self.own).for_each(|(result, own)| *result += share * own);
+            return;
+        }
         if self.has_rows {
             let h = (self.elapsed - (1.0 - theta) * self.length) / self.unit;
             dispatch(Change::<false> { rows: &self.rows, n: result.len(), from: 0, h, result });
