@@ -11,24 +11,26 @@ use math::simd::dispatch;
 /// The series of a difference over the step looked at last.
 #[derive(Clone, Debug)]
 pub(crate) struct Linear {
-    /// The coefficients of the equations at the start and at the end of the step, and their growth over a piece of it.
+    /// The coefficients of the equations at the start of the step or of its last piece, at its end, and their growth over a
+    /// piece.
     start: Vec<f64>,
     end: Vec<f64>,
     growth: Vec<f64>,
-    /// At the start of the piece.
-    piece_start: Vec<f64>,
     /// How fast differences move at most, at the end of the step.
     fastest: f64,
     /// Whether `end` is known from the step before, and for how many more steps it may stand for theirs.
     is_known: bool,
+    is_steady: bool,
     steady_for: u32,
-    /// The rows of all pieces, which are equally long.
+    /// The rows of all pieces, which are equally long; what stands behind them is of no meaning.
     rows: Vec<f64>,
+    /// How many numbers the rows of a piece are.
+    length: usize,
     pieces: usize,
 }
 
 /// Terms of a series from the first that is smaller than this part are left out.
-const REST: f64 = 1e-3;
+const REST: f64 = 3e-3;
 
 /// A piece is at most so long, in units of the time in which differences move: terms of longer ones would cancel.
 const LONGEST: f64 = 10.0;
@@ -49,11 +51,12 @@ impl Linear {
             start: zeros(),
             end: zeros(),
             growth: zeros(),
-            piece_start: zeros(),
             fastest: 0.0,
             is_known: false,
+            is_steady: false,
             steady_for: 0,
             rows: Vec::new(),
+            length: 0,
             pieces: 0,
         })
     }
@@ -69,53 +72,50 @@ impl Linear {
         self.pieces = if pieces > 1.0 { pieces as usize } else { 1 };
         let share = 1.0 / self.pieces as f64;
         let (order, unit, dimension) = (order(turns * share), step.length() * share, error.len());
-        self.growth.iter_mut().zip(self.start.iter().zip(&self.end)).for_each(|(growth, (start, end))| {
-            *growth = (end - start) * share;
-        });
-        self.piece_start.copy_from_slice(&self.start);
-        self.rows.resize(self.pieces * (order + 1) * dimension, 0.0);
-        let length = (order + 1) * dimension;
+        self.length = (order + 1) * dimension;
+        if self.rows.len() < self.pieces * self.length {
+            self.rows.resize(self.pieces * self.length, 0.0);
+        }
         self.rows[..dimension].copy_from_slice(error);
+        self.growth.iter_mut().for_each(|growth| *growth *= share);
         for piece in 0..self.pieces {
-            let (done, rest) = self.rows.split_at_mut(piece * length);
-            let rows = &mut rest[..length];
+            let (done, rest) = self.rows.split_at_mut(piece * self.length);
+            let rows = &mut rest[..self.length];
             if piece > 0 {
-                whole(&done[done.len() - length..], dimension, 1.0, &mut rows[..dimension]);
-                self.piece_start.iter_mut().zip(&self.growth).for_each(|(start, growth)| *start += growth);
+                whole(&done[done.len() - self.length..], dimension, 1.0, &mut rows[..dimension]);
+                self.start.iter_mut().zip(&self.growth).for_each(|(start, growth)| *start += growth);
             }
-            let tangent = Tangent { start: &self.piece_start, growth: &self.growth };
-            step.system.difference(tangent, order, unit, rows);
+            let growth = if self.is_steady { &[][..] } else { &self.growth[..] };
+            step.system.difference(Tangent { start: &self.start, growth }, order, unit, rows);
         }
         true
     }
 
-    /// Finds the coefficients at both ends; returns how fast differences move at most.
+    /// Finds the coefficients at the start of the step and their growth; returns how fast differences move at most.
     fn look(&mut self, step: &Step<'_>) -> f64 {
-        let before = if self.is_known {
-            self.start.copy_from_slice(&self.end);
-            self.fastest
-        } else {
-            step.system.tangent(step.before(), &mut self.start)
-        };
-        if self.is_known && self.steady_for > 0 {
+        let before = if self.is_known { self.fastest } else { step.system.tangent(step.before(), &mut self.end) };
+        self.start.copy_from_slice(&self.end);
+        self.is_steady = self.steady_for > 0;
+        if self.is_steady {
             self.steady_for -= 1;
+            self.growth.fill(0.0);
             return before;
         }
-        // `end` may be that of an earlier step, which stood for those since
+        // after steady steps `end` is that of an earlier one, near enough
         self.fastest = step.system.tangent(step.after(), &mut self.end);
         self.is_known = true;
-        let apart = self.start.iter().zip(&self.end).map(|(start, end)| (start - end).abs());
-        let change = apart.fold(0.0, |most: f64, apart| if apart <= most { most } else { apart });
-        self.steady_for = if change <= STEADY * largest(&self.end) { STEADY_FOR } else { 0 };
+        for (growth, (start, end)) in self.growth.iter_mut().zip(self.start.iter().zip(&self.end)) {
+            *growth = end - start;
+        }
+        self.steady_for = if largest(&self.growth) <= STEADY * largest(&self.end) { STEADY_FOR } else { 0 };
         if self.fastest > before { self.fastest } else { before }
     }
 
     /// Writes the difference at the fraction `theta` of the step, of what was there at its start.
     pub(crate) fn at(&self, theta: f64, result: &mut [f64]) {
-        let length = self.rows.len() / self.pieces;
         let place = theta * self.pieces as f64;
         let piece = (place as usize).min(self.pieces - 1);
-        whole(&self.rows[piece * length..][..length], result.len(), place - piece as f64, result);
+        whole(&self.rows[piece * self.length..][..self.length], result.len(), place - piece as f64, result);
     }
 }
 

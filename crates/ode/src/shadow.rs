@@ -112,11 +112,11 @@ impl Shadow {
         self.power = step.stepper.error_power() + 1;
         let states = step.ends.before.iter().zip(step.ends.after);
         let errors = self.error.iter().zip(&mut self.own);
-        for ((added, (error, own)), (before, after)) in self.added.iter_mut().zip(errors).zip(states) {
+        for ((error, own), (before, after)) in errors.zip(states) {
             *own += (ROUNDING * (after - before).abs()).copysign(*error);
-            *added += *own;
         }
         self.round(step, rounding);
+        self.added.iter_mut().zip(&self.own).for_each(|(added, own)| *added += own);
         true
     }
 
@@ -126,12 +126,11 @@ impl Shadow {
             return;
         }
         for range in forced(step.system) {
-            for (own, added) in self.own[range.clone()].iter_mut().zip(&mut self.added[range]) {
+            for own in &mut self.own[range] {
                 // Knuth's generator of 64 bits
                 self.lot = self.lot.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
                 let push = self.length * if self.lot >> 63 == 0 { rounding } else { -rounding };
                 *own += push;
-                *added += push;
             }
         }
     }
@@ -243,9 +242,7 @@ impl Shadow {
     pub fn at(&self, theta: f64, result: &mut [f64]) {
         if let Some(linear) = self.linear.as_ref().filter(|_| self.has_rows) {
             linear.at(theta, result);
-            let share = (0..self.power).fold(1.0, |power, _| power * theta);
-            result.iter_mut().zip(&self.own).for_each(|(result, own)| *result += share * own);
-            return;
+            return self.add(theta, result);
         }
         if self.has_rows {
             let h = (self.elapsed - (1.0 - theta) * self.length) / self.unit;
@@ -255,12 +252,25 @@ impl Shadow {
         } else {
             result.fill(0.0);
         }
+        result.iter_mut().zip(&self.error).for_each(|(result, error)| *result += error);
+        self.add(theta, result);
+    }
+
+    /// Adds what steps have added up to the fraction `theta` of the last one.
+    fn add(&self, theta: f64, result: &mut [f64]) {
+        if theta == 1.0 {
+            return result.iter_mut().zip(&self.added).for_each(|(result, added)| *result += added);
+        }
         // of the own error of the step, that of what lies before it is the rest
         let rest = 1.0 - (0..self.power).fold(1.0, |power, _| power * theta);
-        let errors = self.error.iter().zip(&self.added).zip(&self.own);
-        for (result, ((error, added), own)) in result.iter_mut().zip(errors) {
-            *result += error + (added - rest * own);
+        for (result, (added, own)) in result.iter_mut().zip(self.added.iter().zip(&self.own)) {
+            *result += added - rest * own;
         }
+    }
+
+    /// The error at the start of the last expansion, that of the step looked at last where the system tells its tangent.
+    pub fn before(&self) -> &[f64] {
+        &self.error
     }
 
     /// How many components it has.

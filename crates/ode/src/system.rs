@@ -78,7 +78,7 @@ pub trait System {
 pub struct Tangent<'a> {
     /// At the start.
     pub start: &'a [f64],
-    /// Their growth.
+    /// Their growth; empty: they do not change.
     pub growth: &'a [f64],
 }
 
