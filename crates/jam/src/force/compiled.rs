@@ -8,6 +8,7 @@ use crate::laws::Law;
 use crate::ramp::Bend;
 use math::affine::Affine;
 use math::change::{Player, Recorder, Tape};
+use math::dual::Dual;
 use math::lanes::Lanes;
 use math::simd::{Kernel, dispatch};
 use ode::Batch;
@@ -97,6 +98,14 @@ impl<L: Law> Force for Compiled<L> {
 
     fn relaxation(&self, _flow: Flow) -> f64 {
         self.relaxation.unwrap_or(f64::NAN)
+    }
+
+    fn slopes(&self, more: f64, spacings: &[f64], slopes: &mut [f64]) -> bool {
+        let depends_on_these_alone = !self.law.uses_speeds();
+        if depends_on_these_alone {
+            dispatch(Slopes { law: self.law, more, spacings, slopes });
+        }
+        depends_on_these_alone
     }
 
     fn bend(&self) -> Option<Bend> {
@@ -190,6 +199,40 @@ impl<L: Law> Kernel for Deviations<'_, L> {
         match law.plain() {
             Some(law) => around(&Changes { law, tape }, pace(&law), spacings, speeds, accelerations),
             None => around(&Changes { law, tape }, pace(&law), spacings, speeds, accelerations),
+        }
+    }
+}
+
+/// The derivatives of the accelerations by the net gaps.
+struct Slopes<'a, L> {
+    law: L,
+    /// What the spacings lack of net gaps.
+    more: f64,
+    spacings: &'a [f64],
+    slopes: &'a mut [f64],
+}
+
+impl<L: Law> Slopes<'_, L> {
+    #[inline(always)]
+    fn of(self, law: impl Law) {
+        let rest = Dual::constant(0.0);
+        for (slope, spacing) in self.slopes.iter_mut().zip(self.spacings) {
+            *slope = law.acceleration(Dual::variable(self.more + spacing), rest, rest).slope;
+        }
+    }
+}
+
+impl<L: Law> Kernel for Slopes<'_, L> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        match self.law.plain() {
+            Some(law) => self.of(law),
+            None => {
+                let law = self.law;
+                self.of(law);
+            }
         }
     }
 }
