@@ -3,12 +3,9 @@
 //! Its bytes depend on the commit alone: members are sorted, owners, modes and dates are fixed (the date is that of the
 //! commit), nothing is compressed.
 
-pub mod codecheck;
-pub mod crate_metadata;
+pub mod descriptions;
 pub mod git;
-pub mod paper;
 pub mod tarball;
-pub mod zenodo;
 
 use checkout::disk;
 use checkout::failure::Failure;
@@ -83,13 +80,9 @@ pub fn gather(paths: &Paths, figures: &[Figure], commit: &Commit) -> Result<Memb
         members.entry(name).or_insert(Member { content, is_program: false });
     }
     members.extend(vendored(paths)?);
-    let texts = [
-        (VENDORED_CONFIG, vendored_config()),
-        ("COMMIT", format!("{}\n{}\n", commit.hash, commit.date)),
-        ("codecheck.yml", codecheck::text(paths, figures)?),
-        (".zenodo.json", zenodo::text(commit)?),
-        ("ro-crate-metadata.json", crate_metadata::text(paths, figures, commit, &members)?),
-    ];
+    let mut texts = descriptions::texts(paths, figures, commit, &members)?.to_vec();
+    texts.push((VENDORED_CONFIG, vendored_config()));
+    texts.push(("COMMIT", format!("{}\n{}\n", commit.hash, commit.date)));
     for (name, text) in texts {
         members.insert(name.to_owned(), Member { content: Content::Bytes(text.into_bytes()), is_program: false });
     }
