@@ -56,6 +56,9 @@ struct JsonArgs {
 #[derive(Debug, Args)]
 struct ExplainArgs {
     id: String,
+    /// Why it is no figure either, for the message
+    #[arg(long, default_value = "")]
+    no_figure: String,
     #[arg(long)]
     json: bool,
 }
@@ -114,7 +117,11 @@ fn carry_out(cli: Cli) -> Result<(), Failure> {
         Verb::Explain(arguments) => match claims::explain(paths, &arguments.id)? {
             Some((_, value)) if arguments.json => print::json(value),
             Some((text, _)) => print::out(&text),
-            None => Err(Failure::Usage(format!("no claim, erratum or parameter {}", arguments.id))),
+            None => {
+                let ExplainArgs { id, no_figure, .. } = arguments;
+                let text = format!("{id}: no claim, erratum or parameter has this id\n{no_figure}");
+                Err(Failure::Usage(text.trim_end().to_owned()))
+            }
         },
         Verb::Costs => costs::tell(paths),
     }
