@@ -41,7 +41,7 @@ pub fn texts(
         (vec![id(MAIN_WORKFLOW), id("README.md")], Vec::new(), Vec::new(), Vec::new());
     let mut codecheck = CODECHECK.to_owned();
     for figure in figures.iter().filter(|figure| !figure.is_supplement()) {
-        let (scene, program) = (Paths::scene(&figure.slug), Paths::program(&figure.slug));
+        let (scene, program) = (Paths::scene(&figure.slug), Paths::figure_folder(&figure.slug) + "main.rs");
         let mut made = outputs::tables(paths, figure)?;
         made.extend(outputs::pictures(paths, figure));
         made.retain(|name| members.contains_key(name));

@@ -11,13 +11,15 @@ use checkout::disk;
 use checkout::failure::Failure;
 use checkout::figure::{self, Figure};
 use checkout::outputs;
-use checkout::paths::{BUNDLE_TOP, DOCUMENT_PDF, PAGE, Paths, VENDOR};
+use checkout::paths::{BUNDLE_TOP, DOCUMENT_PDF, PAGE, Paths};
 use checkout::print;
 use checkout::process;
 use git::Commit;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+/// In the archive, the folder of the crates that the lock file names.
+const VENDOR: &str = "vendor";
 /// In the archive, what tells cargo of that folder; `.cargo/config.toml` includes it where it exists.
 const VENDORED_CONFIG: &str = ".cargo/vendored.toml";
 /// Documents that belong into the archive when they have been made.
@@ -91,7 +93,7 @@ pub fn gather(paths: &Paths, figures: &[Figure], commit: &Commit) -> Result<Memb
 
 /// The sources of all crates that the lock file names, so that nothing has to be fetched.
 fn vendored(paths: &Paths) -> Result<Members, Failure> {
-    let folder = paths.vendored();
+    let folder = paths.target.join("bundle").join(VENDOR);
     disk::remove(&folder)?;
     let mut cargo = process::cargo();
     cargo.args(["vendor", "--quiet", "--locked", "--versioned-dirs"]).arg(&folder).current_dir(&paths.root);
