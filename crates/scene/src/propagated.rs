@@ -174,10 +174,8 @@ impl Propagated {
         let Some(shadow) = self.lost.as_ref().or(self.shadow.as_ref()) else { return true };
         let now = largest(&shadow.before()[self.pedestrians..2 * self.pedestrians]);
         self.since += 1;
-        let is_worth = now > GROWN * self.looked_at
-            || self.since >= EVERY
-            || step.end >= self.t_end
-            || !sight.new.is_empty();
+        let is_worth =
+            now > GROWN * self.looked_at || self.since >= EVERY || step.end >= self.t_end || !sight.new.is_empty();
         if is_worth {
             (self.since, self.looked_at) = (0, now);
         }
@@ -187,7 +185,9 @@ impl Propagated {
     /// Keeps what the error tells of the time of a blow-up to come, where one may come: at a wall, in spacings.
     fn remember(&mut self, step: &Step<'_>) {
         let (n, state) = (self.pedestrians, step.before());
-        let Some(shadow) = self.shadow.as_ref().filter(|_| self.is_singular && state.len() == 2 * n + 1) else { return };
+        let Some(shadow) = self.shadow.as_ref().filter(|_| self.is_singular && state.len() == 2 * n + 1) else {
+            return;
+        };
         let (error, rates) = (shadow.before(), step.rates_before());
         let part = largest(&error[n..2 * n]) / largest(&state[n..2 * n]);
         if part < SMALL {
