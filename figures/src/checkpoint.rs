@@ -7,9 +7,9 @@
 use crate::failure::Failure;
 use cpu_time::{ProcessTime, ThreadTime};
 use files::write::{atomic, sha256, sha256_file};
+use jam::errors::Propagated;
 use jam::run::{Checkpoint, Judging, PartialRun, RunObserver, Sight, run_from};
 use ode::Step;
-use scene::propagated::Propagated;
 use scene::run::Scene;
 use scene::summary::Ended;
 use std::io::{IsTerminal as _, Write as _};

@@ -8,8 +8,8 @@ use claims::source::Sources;
 use claims::tables::{EVENTS, Tables};
 use files::scene_file;
 use files::table::{self, Cell, Table};
+use jam::errors::Errors;
 use jam::run::Outcome;
-use scene::check::Errors;
 use scene::tables;
 use serde_json::{Value, json};
 

@@ -3,11 +3,10 @@
 use crate::given::{FILE, complaint, panel};
 use crate::rejudge::Ran;
 use files::write::sha256;
+use jam::errors;
 use jam::events::Event;
-use jam::run::{Judging, RunObserver, Sample, Sight, run_from};
+use jam::run::{Judging, RunObserver, Sample, Sight};
 use ode::Step;
-use scene::check;
-use scene::propagated::Propagated;
 use scene::run::Scene;
 use scene::summary::{self, Ended};
 use scene::tables;
@@ -43,7 +42,7 @@ pub fn run_kept(text: &str, hearer: &mut dyn Hearer) -> Result<(Value, Ran), Val
     let mut watch = Watch { numbers: Vec::new(), hearer };
     let ended = end(&scene, &mut watch);
     watch.hearer.checking();
-    let errors = check::errors_of(&scene, &ended.outcome, ended.propagated.as_ref(), &mut ());
+    let errors = errors::errors_of(&scene, &ended.outcome, ended.propagated.as_ref(), &mut ());
     let mut told = summary::of_run(&scene, &ended, stability(&scene), Some(&errors));
     let mut sums = json!({ "std.csv": sha256(&tables::std(&ended.outcome.samples).to_csv()) });
     if scene.keeps_trajectories {
@@ -58,11 +57,7 @@ pub fn run_kept(text: &str, hearer: &mut dyn Hearer) -> Result<(Value, Ran), Val
 
 /// Runs to the end, with the errors that the steps tell where the method has them.
 fn end(scene: &Scene, watch: &mut Watch<'_>) -> Ended {
-    let mut propagated = scene.method.needs_series().then(|| Propagated::new(scene));
-    let made = match &mut propagated {
-        Some(propagated) => run_from(scene, None, &mut (watch, propagated)),
-        None => run_from(scene, None, watch),
-    };
+    let (made, propagated) = errors::run_propagated(scene, watch);
     let (outcome, broken) = match made {
         Ok(outcome) => (outcome, None),
         Err(broken) => (*broken.outcome.clone(), Some(broken)),

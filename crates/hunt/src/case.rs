@@ -4,8 +4,8 @@ use crate::answer::{Answer, Numbers};
 use crate::bound::Bound;
 use crate::{draw, judge, question, stated};
 use files::scene_file;
+use jam::errors::Propagated;
 use reference::solution::Kind;
-use scene::propagated::Propagated;
 use serde_json::{Value, json};
 
 /// Smaller shifts, as parts of the headway, are lost beside the spacings.

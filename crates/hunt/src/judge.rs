@@ -5,12 +5,12 @@ use crate::bound::Bound;
 use crate::question;
 use crate::stated::{self, Stated};
 use files::scene_file;
+use jam::errors::Propagated;
 use jam::events::{Event, EventKind};
 use jam::run::{Broken, Outcome, run_from};
 use jam::states::StateVariables;
 use math::larger;
 use reference::solution::{End, Kind, Question};
-use scene::propagated::Propagated;
 use scene::run::Scene;
 use std::panic::catch_unwind;
 

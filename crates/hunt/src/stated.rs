@@ -2,10 +2,10 @@
 
 use crate::answer::Answer;
 use crate::judge::{Ratio, is_beyond, is_blown_up, kind};
+use jam::errors;
+use jam::errors::Propagated;
 use jam::states::StateVariables;
 use ode::{Control, Method};
-use scene::check;
-use scene::propagated::Propagated;
 use scene::run::Scene;
 use scene::simulation::{Outcome, run};
 
@@ -80,7 +80,7 @@ const FINEST: f64 = 1e-17;
 
 /// What a run states; of the table of trajectories, of which it states nothing, what [`difference`] finds.
 pub fn of(scene: &Scene, outcome: &Outcome, propagated: &Propagated) -> Stated {
-    let errors = check::errors_of(scene, outcome, Some(propagated), &mut ());
+    let errors = errors::errors_of(scene, outcome, Some(propagated), &mut ());
     let or_none = |error: Option<f64>| error.unwrap_or(f64::INFINITY);
     let end = [or_none(errors.positions), or_none(errors.speeds)];
     let table = difference(scene, outcome).table;

@@ -147,6 +147,7 @@
 #![deny(rustdoc::broken_intra_doc_links)]
 
 pub mod criteria;
+pub mod errors;
 pub mod events;
 pub mod force;
 pub mod jams;

@@ -5,6 +5,7 @@ use crate::watch::{Watch, detached};
 use cpu_time::ThreadTime;
 use files::reader::{Reader, SceneError, Section, Value};
 use files::scene_file::{self, Kind};
+use jam::errors::{errors_of, run_propagated};
 use jam::precise::Precise;
 use jam::run::{Judging, run_from};
 use jam::stability::Waves;
@@ -12,9 +13,8 @@ use jam::uniform;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use scene::propagated::Propagated;
 use scene::summary::{self, Ended};
-use scene::{check, tables, uniform::stability};
+use scene::{tables, uniform::stability};
 
 /// Runs a scene: `std` (t, std), `trajectories` (t, n, x, v) or None, `x` and `v` of the final state, all flat, and the
 /// rest. `wanted`: whether a second run estimates the errors, and whether it
@@ -37,12 +37,8 @@ pub fn simulate<'py>(
         watch.turn_to(scene.t_end, 0.0, share);
         watch.judging = if outcome { Judging::Along } else { Judging::No };
         let clock = ThreadTime::now();
-        let has_errors = check && scene.method.needs_series();
-        let mut propagated = has_errors.then(|| Propagated::new(&scene));
-        let made = match &mut propagated {
-            Some(propagated) => run_from(&scene, None, &mut (&mut watch, propagated)),
-            None => run_from(&scene, None, &mut watch),
-        };
+        let (made, propagated) =
+            if check { run_propagated(&scene, &mut watch) } else { (run_from(&scene, None, &mut watch), None) };
         let (outcome, broken) = match made {
             Ok(outcome) => (outcome, None),
             Err(broken) => (*broken.outcome.clone(), Some(broken)),
@@ -51,7 +47,7 @@ pub fn simulate<'py>(
         watch.judging = Judging::No;
         watch.turn_to(ended.outcome.statistics.time, share, 1.0 - share);
         let propagated = ended.propagated.as_ref();
-        let errors = check.then(|| check::errors_of(&scene, &ended.outcome, propagated, &mut watch));
+        let errors = check.then(|| errors_of(&scene, &ended.outcome, propagated, &mut watch));
         watch.tell(1.0);
         (ended, stability(&scene), errors)
     })?;
@@ -64,7 +60,8 @@ pub fn simulate<'py>(
     made.set_item("sample", scene.sample)?;
     made.set_item("desired_speed", scene.model.speed_scale())?;
     made.set_item("std", PyArray1::from_vec(py, tables::std(&outcome.samples).into_cells()))?;
-    let kept = scene.keeps_trajectories.then(|| PyArray1::from_vec(py, tables::trajectories(&outcome.samples).into_cells()));
+    let kept =
+        scene.keeps_trajectories.then(|| PyArray1::from_vec(py, tables::trajectories(&outcome.samples).into_cells()));
     made.set_item("trajectories", kept)?;
     made.set_item("x", PyArray1::from_vec(py, outcome.positions))?;
     made.set_item("v", PyArray1::from_vec(py, outcome.speeds))?;

@@ -1,7 +1,7 @@
 //! Looking on while something is computed without the interpreter's lock: Ctrl-C ends it, a callback hears how far it is.
 
-use pyo3::prelude::*;
 use jam::run::{Judging, PartialRun, RunObserver};
+use pyo3::prelude::*;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::time::{Duration, Instant};
 

@@ -1,13 +1,10 @@
 //! From a scene file to tables: validated scenes ([`law`], [`run`], [`map`], [`curve`], [`sweep`]) and their numbers, in memory;
-//! how far their numbers are off ([`check`]); what is told of them in the end ([`summary`]). A scene in time is a
-//! [`jam::run::Run`]. No file is opened here, so that the tables can be computed wherever Rust runs.
+//! what is told of them in the end ([`summary`]). A scene in time is a [`jam::run::Run`]. No file is opened here, so that the tables can be computed wherever Rust runs.
 
-pub mod check;
 pub mod curve;
 pub mod law;
 pub mod map;
 pub mod overrides;
-pub mod propagated;
 pub mod run;
 pub mod summary;
 pub mod sweep;

@@ -1,11 +1,11 @@
 //! What is told of a run or a map in the end, as JSON.
 
-use crate::check::Errors;
 use crate::map::{Computed, Map};
-use crate::propagated::Propagated;
 use crate::run::Scene;
 use crate::simulation::{Broken, Outcome};
 use crate::uniform::Stability;
+use jam::errors::Errors;
+use jam::errors::Propagated;
 use jam::outcome::{Decision, Verdict};
 use ode::Control;
 use serde_json::{Value, json};

@@ -95,7 +95,7 @@ impl<A: RunObserver, B: RunObserver> RunObserver for (A, B) {
 }
 
 /// Somebody else's looks.
-impl<A: RunObserver> RunObserver for &mut A {
+impl<A: RunObserver + ?Sized> RunObserver for &mut A {
     fn after(&mut self, step: &Step<'_>) {
         (**self).after(step);
     }

@@ -1,9 +1,9 @@
 //! Errors as estimated against errors as they are, in random scenes.
 
+use jam::errors::Propagated;
+use jam::errors::{errors, errors_of};
 use jam::run::{Outcome, run, run_from};
 use ode::{Control, Method};
-use scene::check::{errors, errors_of};
-use scene::propagated::Propagated;
 use scene::run::{Scene, read};
 
 /// Numbers drawn at random, always the same (Knuth's generator of 64 bits).

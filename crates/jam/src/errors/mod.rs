@@ -1,19 +1,21 @@
-//! How far the numbers of a run are off: from a second run of the same scene, by another method or by other steps.
+//! How far the numbers of a run are off: from a second run of the same run, by another method or by other steps.
 //!
 //! The same method at another tolerance would often take the same steps, those of a short run above all: two runs that are
 //! one differ by nothing. Another method shares neither steps nor coefficients; it is of order 8 and at a smaller tolerance,
 //! so that its own error is the smaller one. Of fixed steps the order tells how the difference and the error compare. Where
 //! it can be, the second run is one in deviations from the uniform flow, in which the start has no rounding.
 
-use crate::propagated::Propagated;
-use crate::run::Scene;
-use jam::events::{Event, EventKind};
-use jam::laws::Model;
-use jam::run::{Outcome, RunObserver, has_deviations, run_from};
-use jam::states::StateVariables;
+mod propagated;
+
+pub use propagated::Propagated;
+
+use crate::events::{Event, EventKind};
+use crate::laws::Model;
+use crate::run::{Broken, Outcome, Run, RunObserver, has_deviations, run_from};
+use crate::states::StateVariables;
 use ode::{Control, Method};
 
-/// Estimated errors; `None` where the second run says nothing, having ended elsewhere.
+/// Estimated errors, in the units of the numbers; `None` where the second run says nothing, having ended elsewhere.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Errors {
     /// The largest of the standard deviation over all samples.
@@ -45,28 +47,62 @@ const SAME_TIME: f64 = 1e-9;
 /// No number is known better than to so many roundings of the largest of its kind.
 pub(crate) const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
+/// Makes a run and estimates the errors of its numbers, by its steps where they tell them, else by a second run.
+///
+/// ```
+/// use jam::laws::{Logarithmic, Model};
+/// use jam::ring::{Ring, Start};
+/// use jam::run::Run;
+///
+/// let law = Model::Logarithmic(Logarithmic { desired_speed: 1.0, widening: 0.0, epsilon: 0.01 });
+/// let run = Run::new(law, Ring { pedestrians: 20, length: 30.0 }, Start { shift: 0.1 }, 50.0)?;
+/// let (outcome, errors) = jam::errors::stated(&run)?;
+/// let error = errors.std.expect("both runs came to the end");
+/// assert!(error > 0.0 && error < 1e-6, "{:?} +- {error:e}", outcome.samples.std.last());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// As [`run`](crate::run::run).
+pub fn stated(run: &Run) -> Result<(Outcome, Errors), Broken> {
+    let (made, propagated) = run_propagated(run, &mut ());
+    let outcome = made?;
+    let errors = errors_of(run, &outcome, propagated.as_ref(), &mut ());
+    Ok((outcome, errors))
+}
+
+/// Makes a run whose steps are asked for their errors, if its method tells them.
+pub fn run_propagated(run: &Run, observer: &mut dyn RunObserver) -> (Result<Outcome, Broken>, Option<Propagated>) {
+    let mut propagated = run.method.needs_series().then(|| Propagated::new(run));
+    let made = match &mut propagated {
+        Some(propagated) => run_from(run, None, &mut (observer, propagated)),
+        None => run_from(run, None, observer),
+    };
+    (made, propagated)
+}
+
 /// The errors that the steps of the run have told, if they have; else those by a second run, at which somebody may look on.
 pub fn errors_of(
-    scene: &Scene,
+    run: &Run,
     outcome: &Outcome,
     propagated: Option<&Propagated>,
     onlooker: &mut dyn RunObserver,
 ) -> Errors {
-    let told = propagated.and_then(|propagated| propagated.errors(scene, outcome));
-    told.unwrap_or_else(|| errors_seen(scene, outcome, onlooker))
+    let told = propagated.and_then(|propagated| propagated.errors(run, outcome));
+    told.unwrap_or_else(|| errors_seen(run, outcome, onlooker))
 }
 
 /// Runs the scene once more and compares.
-pub fn errors(scene: &Scene, outcome: &Outcome) -> Errors {
-    errors_seen(scene, outcome, &mut ())
+pub fn errors(run: &Run, outcome: &Outcome) -> Errors {
+    errors_seen(run, outcome, &mut ())
 }
 
 /// The same, with somebody who looks on while the scene runs once more.
-fn errors_seen(scene: &Scene, outcome: &Outcome, onlooker: &mut dyn RunObserver) -> Errors {
-    let Second { scene: second, factor } = second(scene, outcome);
+fn errors_seen(run: &Run, outcome: &Outcome, onlooker: &mut dyn RunObserver) -> Errors {
+    let Second { run: second, factor } = second(run, outcome);
     let other = run_from(&second, None, onlooker).unwrap_or_else(|broken| *broken.outcome);
     let difference = |numbers: &[f64], others: &[f64]| factor * difference(numbers, others);
-    let gathered = gathered(scene, outcome);
+    let gathered = gathered(run, outcome);
     let ends_alike = outcome.stop().map(|stop| stop.kind) == other.stop().map(|stop| stop.kind);
     let times = [outcome, &other].map(|outcome| outcome.statistics.time);
     let is_same_time = (times[0] - times[1]).abs() <= SAME_TIME * times[0];
@@ -78,11 +114,11 @@ fn errors_seen(scene: &Scene, outcome: &Outcome, onlooker: &mut dyn RunObserver)
             .then(|| difference(numbers(outcome), numbers(&other)) + gathered * largest(numbers(outcome)))
     };
     // the drive and the force may cancel
-    let desired = ROUNDINGS * scene.model.desired_speed().abs();
+    let desired = ROUNDINGS * run.model.desired_speed().abs();
     Errors {
         cost: other.statistics.evaluations as f64 / outcome.statistics.evaluations as f64,
         std: (ends_alike && has_samples).then(|| {
-            std_error(&outcome.samples.std, &other.samples.std) + rounding(scene, outcome, &second) + f64::MIN_POSITIVE
+            std_error(&outcome.samples.std, &other.samples.std) + rounding(run, outcome, &second) + f64::MIN_POSITIVE
         }),
         positions: state(|outcome| &outcome.positions).map(|error| error + ROUNDINGS * largest(&outcome.positions)),
         speeds: state(|outcome| &outcome.speeds).map(|error| error + desired),
@@ -96,32 +132,32 @@ fn errors_seen(scene: &Scene, outcome: &Outcome, onlooker: &mut dyn RunObserver)
 
 /// The second run, and the error of the run over the difference of both.
 struct Second {
-    scene: Scene,
+    run: Run,
     factor: f64,
 }
 
-fn second(scene: &Scene, outcome: &Outcome) -> Second {
+fn second(run: &Run, outcome: &Outcome) -> Second {
     // a run ends with the step in which it finds its last event; a blow-up is no time to end at
     let is_blow_up = outcome.events.iter().any(|happening| happening.kind == EventKind::BlowUp);
-    let t_end = if is_blow_up { scene.t_end } else { outcome.statistics.time };
-    let is_fixed_series = scene.method.needs_series() && matches!(scene.control, Control::Fixed { .. });
-    let can_deviate = has_deviations(&scene.model, scene.ring, scene.steady_speed) && !is_fixed_series;
+    let t_end = if is_blow_up { run.t_end } else { outcome.statistics.time };
+    let is_fixed_series = run.method.needs_series() && matches!(run.control, Control::Fixed { .. });
+    let can_deviate = has_deviations(&run.model, run.ring, run.steady_speed) && !is_fixed_series;
     // the same form would not show what becomes of the rounding of the start
-    let form = if can_deviate { StateVariables::Deviations } else { scene.form };
-    match scene.control {
+    let form = if can_deviate { StateVariables::Deviations } else { run.form };
+    match run.control {
         Control::Adaptive { tolerance } => {
-            let method = if scene.method == Method::Dop853 { Method::Verner87 } else { Method::Dop853 };
-            let tighter = tolerance * if scene.method.order() < HIGH { TIGHTER } else { TIGHTER_IF_HIGH };
+            let method = if run.method == Method::Dop853 { Method::Verner87 } else { Method::Dop853 };
+            let tighter = tolerance * if run.method.order() < HIGH { TIGHTER } else { TIGHTER_IF_HIGH };
             let control = Control::Adaptive { tolerance: if tighter > TIGHTEST { tighter } else { TIGHTEST } };
             Second {
-                scene: Scene { method, control, t_end, form, most_steps: most_steps(outcome), ..scene.clone() },
+                run: Run { method, control, t_end, form, most_steps: most_steps(outcome), ..run.clone() },
                 factor: AGREEMENT,
             }
         }
         Control::Fixed { step } => {
-            let made = if step < scene.t_end { step } else { scene.t_end };
-            let seen = if has_kinks(&scene.model) { ACROSS_KINKS } else { HIGHEST_SEEN };
-            let order = scene.method.order().min(seen) as i32;
+            let made = if step < run.t_end { step } else { run.t_end };
+            let seen = if has_kinks(&run.model) { ACROSS_KINKS } else { HIGHEST_SEEN };
+            let order = run.method.order().min(seen) as i32;
             let ratio = match order {
                 // a longer step would be cut to the same one
                 _ if made > 0.5 * t_end => 0.5,
@@ -130,7 +166,7 @@ fn second(scene: &Scene, outcome: &Outcome) -> Second {
             };
             let growth = (0..order).fold(1.0, |power: f64, _| power * ratio);
             let control = Control::Fixed { step: ratio * made };
-            Second { scene: Scene { control, t_end, form, ..scene.clone() }, factor: CAUTION / (growth - 1.0).abs() }
+            Second { run: Run { control, t_end, form, ..run.clone() }, factor: CAUTION / (growth - 1.0).abs() }
         }
     }
 }
@@ -161,30 +197,30 @@ const CAUTION: f64 = 2.0;
 
 /// The rounding of the standard deviation: that of speeds where they are not kept as deviations; none where spacings lose
 /// the perturbation whole, so that all motion is one, and the second run does not.
-fn rounding(scene: &Scene, outcome: &Outcome, second: &Scene) -> f64 {
+fn rounding(run: &Run, outcome: &Outcome, second: &Run) -> f64 {
     let shows_all = second.form == StateVariables::Deviations;
-    match scene.form {
-        StateVariables::Deviations => of_headway(scene) * largest_std(outcome),
-        _ if shows_all && loses_shift(scene) && largest_std(outcome) == 0.0 => 0.0,
+    match run.form {
+        StateVariables::Deviations => of_headway(run) * largest_std(outcome),
+        _ if shows_all && loses_shift(run) && largest_std(outcome) == 0.0 => 0.0,
         _ => ROUNDINGS * largest(&outcome.speeds),
     }
 }
 
 /// How much the headway, `L/N` to the nearest double, changes deviations that grow or fade by how the force answers to a
 /// spacing: much where that falls by a factor of `e` over a small part of the headway.
-pub(crate) fn of_headway(scene: &Scene) -> f64 {
+pub(crate) fn of_headway(run: &Run) -> f64 {
     const PART: f64 = 1e-9;
-    let Some(speed) = scene.steady_speed else { return 0.0 };
-    let headway = scene.ring.headway();
-    let [here, there] = [headway, headway * (1.0 + PART)].map(|headway| scene.model.linearise(headway, speed).phi);
+    let Some(speed) = run.steady_speed else { return 0.0 };
+    let headway = run.ring.headway();
+    let [here, there] = [headway, headway * (1.0 + PART)].map(|headway| run.model.linearise(headway, speed).phi);
     let condition = ((there - here) / (PART * here)).abs();
     if condition.is_finite() { 0.5 * f64::EPSILON * condition } else { 0.0 }
 }
 
 /// Whether spacings lose the shift of the start to the last digit.
-pub(crate) fn loses_shift(scene: &Scene) -> bool {
-    let (clearance, shift) = (scene.ring.headway() - scene.model.contact(), scene.start.shift);
-    scene.form == StateVariables::Spacings
+pub(crate) fn loses_shift(run: &Run) -> bool {
+    let (clearance, shift) = (run.ring.headway() - run.model.contact(), run.start.shift);
+    run.form == StateVariables::Spacings
         && shift != 0.0
         && clearance - shift == clearance
         && clearance + shift == clearance
@@ -196,8 +232,8 @@ pub(crate) fn largest_std(outcome: &Outcome) -> f64 {
 }
 
 /// What fixed steps, whose sums are not compensated, may gather of roundings: once motion is steady all have one sign.
-fn gathered(scene: &Scene, outcome: &Outcome) -> f64 {
-    match scene.control {
+fn gathered(run: &Run, outcome: &Outcome) -> f64 {
+    match run.control {
         Control::Fixed { .. } => 0.5 * f64::EPSILON * outcome.statistics.steps as f64,
         Control::Adaptive { .. } => 0.0,
     }

@@ -1,14 +1,13 @@
 //! The errors of a run by Taylor's method, whose steps tell their own, carried along with it ([`ode::Shadow`]).
 //!
-//! Some runs by this method are run a second time like those by others ([`crate::check`]): those by steps of fixed length,
+//! Some runs by this method are run a second time like those by others ([`super::errors`]): those by steps of fixed length,
 //! whose errors are roundings that they do not tell; those of laws with kinks, which a step may cross unseen; those whose
 //! errors move much faster than they; and those that went on from a checkpoint, which does not keep the errors before it.
 
-use crate::check::{Errors, ROUNDINGS, has_kinks, largest, largest_std, loses_shift, of_headway};
-use crate::run::Scene;
-use crate::simulation::{Outcome, RunObserver, Sight};
-use jam::events::{Event, EventKind};
-use jam::states::StateVariables;
+use super::{Errors, ROUNDINGS, has_kinks, largest, largest_std, loses_shift, of_headway};
+use crate::events::{Event, EventKind};
+use crate::run::{Outcome, Run as Scene, RunObserver, Sight};
+use crate::states::StateVariables;
 use ode::{Shadow, Step};
 
 /// Looks on while a scene runs from its start, and knows the errors at its end if the steps tell theirs.
@@ -322,7 +321,7 @@ mod tests {
 
     /// The standard deviation of these.
     fn std(values: &[f64]) -> f64 {
-        jam::observe::spread(values)
+        crate::observe::spread(values)
     }
 
     #[test]
