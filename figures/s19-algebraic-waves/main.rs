@@ -58,8 +58,9 @@ fn varied(scene: &Scene) -> Result<Sheet, Failure> {
         let outcome = run_from(&scene, None, &mut Judging::UntilCertain).map_err(Failure::work)?;
         let verdict = outcome.verdict.ok_or_else(|| Failure::work("a run without an outcome"))?;
         let speed = verdict.wave_speed.map_or(Cell::Empty, Cell::Number);
-        let [time, gap, slowest, std] =
-            [verdict.time, verdict.least_gap, verdict.least_speed, verdict.std].map(Cell::Number);
+        // what happened while the waves grew is no part of them
+        let slowest = verdict.lasting_least_speed.unwrap_or(verdict.least_speed);
+        let [time, gap, slowest, std] = [verdict.time, verdict.least_gap, slowest, verdict.std].map(Cell::Number);
         let method = Cell::from(scene.method.name());
         let row = [Cell::from(varied), value, method, Cell::from(verdict.class.name()), time, gap, slowest, std, speed];
         sheet.push(&row[..]);

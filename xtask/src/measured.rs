@@ -11,7 +11,7 @@ use checkout::figure::Figure;
 use checkout::hashing;
 use checkout::manifest::{Entry, FLAGGED_ABOVE, read, to_text};
 use checkout::outputs;
-use checkout::paths::Paths;
+use checkout::paths::{EVENTS, Paths};
 use files::pairs::KEYS;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -215,6 +215,7 @@ fn write_events(paths: &Paths, all: &[Figure], measured: &[(&Figure, &Measured)]
         let id = scene.split('-').next().unwrap_or("");
         fresh.contains_key(&scene.to_owned()) || is_measured(id) || !all.iter().any(|figure| figure.id == id)
     };
-    let old = disk::read_text(&paths.events())?.unwrap_or_default();
-    disk::write_if_changed(&paths.events(), events::merge(&old, &lines, &dropped).as_bytes())
+    let path = paths.root.join(EVENTS);
+    let old = disk::read_text(&path)?.unwrap_or_default();
+    disk::write_if_changed(&path, events::merge(&old, &lines, &dropped).as_bytes())
 }

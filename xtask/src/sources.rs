@@ -158,7 +158,7 @@ fn flatten(flat: &mut Inputs, path: &str, table: &toml::Table) {
 /// Pictures and temporary files are outputs; documents, scripts and the crates of [`NO_SOURCES`] reach no output.
 fn is_source(name: &str) -> bool {
     let apart = NO_SOURCES.iter().any(|start| name.starts_with(start));
-    let output = Paths::is_output(name) || name.split('/').any(Paths::is_temporary);
+    let output = Paths::is_output(name) || name.split('/').any(files::write::is_draft_name);
     let in_figures = name.starts_with("figures/");
     let code = [".rs", ".toml"].iter().any(|end| name.ends_with(end));
     !apart && !output && ![".md", ".py"].iter().any(|end| name.ends_with(end)) && (!in_figures || code)

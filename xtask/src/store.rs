@@ -27,7 +27,7 @@ pub fn folder(paths: &Paths, key: &str) -> PathBuf {
 
 /// The folder a run writes to before it is stored.
 pub fn fresh(paths: &Paths, key: &str) -> PathBuf {
-    paths.store().join(Paths::temporary(key))
+    paths.store().join(files::write::draft_name(key))
 }
 
 /// Whether the stored run is there and every byte of it is as it was stored. The list must name every file: one that

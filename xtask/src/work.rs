@@ -102,7 +102,7 @@ fn perform(
             Ok(Made { usage, bytes: bytes(&disk::walk(&store::folder(paths, key), &|_| true)?), ..Made::default() })
         }
         Step::Draw { figure } => {
-            let fresh = paths.output(&paths.fresh_tables(&surveys[*figure].figure.id));
+            let fresh = paths.output(&files::write::draft_name(&paths.tables(&surveys[*figure].figure.id)));
             disk::remove(&fresh)?;
             draw(paths, &surveys[*figure], &fresh, &log, stop).inspect_err(|_| discard(&fresh))
         }
@@ -204,11 +204,11 @@ pub fn forget(paths: &Paths, nodes: &[Node]) -> Result<(), Failure> {
 /// A folder cannot be read.
 pub fn leftovers(paths: &Paths, all: &[Figure]) -> Result<Vec<PathBuf>, Failure> {
     let paper = paths.with_scheme(Scheme::Paper).scheme_data();
-    let mut folders = vec![paths.store(), paths.xtask(), paths.reports(), paths.data(), paper];
+    let mut folders = vec![paths.store(), paths.xtask(), paths.own().join("report"), paths.data(), paper];
     folders.extend(all.iter().map(|figure| paths.output(&Paths::figure_folder(&figure.slug))));
     let mut found = Vec::new();
     for folder in folders {
-        let names = disk::names(&folder)?.into_iter().filter(|name| Paths::is_temporary(name));
+        let names = disk::names(&folder)?.into_iter().filter(|name| files::write::is_draft_name(name));
         found.extend(names.map(|name| folder.join(name)));
     }
     Ok(found)

@@ -64,3 +64,19 @@ impl Failure {
         Failure::Failed(error.to_string())
     }
 }
+
+/// An error of the operating system whose text names its path; a pipe or a device in the place of a file is bad input.
+impl From<std::io::Error> for Failure {
+    fn from(error: std::io::Error) -> Failure {
+        match error.kind() {
+            std::io::ErrorKind::InvalidInput => Failure::Usage(error.to_string()),
+            _ => Failure::failed(error),
+        }
+    }
+}
+
+impl From<files::reader::SceneError> for Failure {
+    fn from(error: files::reader::SceneError) -> Failure {
+        Failure::Usage(error.to_string())
+    }
+}

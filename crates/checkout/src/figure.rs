@@ -25,7 +25,10 @@ impl Figure {
     /// The paper's label, `fig:stdv_rec`; empty for a scene without one or one that cannot be read.
     pub fn label(&self) -> &str {
         let source = self.recipe.as_ref().map_or("", |recipe| recipe.source.as_str());
-        source.split_whitespace().next().unwrap_or("").trim_end_matches([',', ':'])
+        let (first, rest) = source.split_once(' ').unwrap_or((source, ""));
+        // "not in the paper" begins with no label
+        let is_label = rest.is_empty() || first.contains(':') || first.ends_with(',');
+        if is_label { first.trim_end_matches([',', ':']) } else { "" }
     }
 
     /// What it shows, in words.

@@ -46,7 +46,7 @@ pub fn hash_by(paths: &[PathBuf], hash: &HashOne) -> Result<Vec<Option<String>>,
                 hashes[index] = hash;
             }
         }
-        Ok(())
+        Ok::<(), Failure>(())
     })?;
     hashes.into_iter().collect()
 }

@@ -61,8 +61,6 @@ pub const PAGE: &str = "paper/report.html";
 pub const PAPER_SUMS: &str = "paper/SHA256SUMS";
 /// The top folder of the archive that `bundle` writes.
 pub const BUNDLE_TOP: &str = "jamming-transitions-reproduction";
-/// In the archive, the folder of the crates that the lock file names.
-pub const VENDOR: &str = "vendor";
 /// The tables of a stored run.
 pub const RUN_TABLES: [&str; 2] = ["std.csv", "trajectories.csv"];
 
@@ -109,16 +107,6 @@ impl Paths {
         name.starts_with(SCRATCH)
     }
 
-    /// The name under which something is made before it is put in its place; files are written under such names too.
-    pub fn temporary(name: &str) -> String {
-        files::write::draft_name(name)
-    }
-
-    /// Whether a name is one of [`Paths::temporary`], of any process.
-    pub fn is_temporary(name: &str) -> bool {
-        files::write::is_draft_name(name)
-    }
-
     /// The folder of the figures' sources.
     pub fn figures(&self) -> PathBuf {
         self.root.join("figures")
@@ -127,11 +115,6 @@ impl Paths {
     /// The scene file of a figure, by name.
     pub fn scene(slug: &str) -> String {
         format!("figures/{slug}/scene.toml")
-    }
-
-    /// The source of a figure's program, by name.
-    pub fn program(slug: &str) -> String {
-        format!("figures/{slug}/main.rs")
     }
 
     /// The folder of a figure's source and pictures, by name, with the final `/`.
@@ -150,11 +133,6 @@ impl Paths {
             Scheme::Adaptive => format!("data/{id}"),
             Scheme::Paper => format!("data/paper-scheme/{id}"),
         }
-    }
-
-    /// The folder a figure's tables are written to before they take the place of the old ones, by name.
-    pub fn fresh_tables(&self, id: &str) -> String {
-        Paths::temporary(&self.tables(id))
     }
 
     /// The folder of a figure's pictures, by name.
@@ -193,31 +171,6 @@ impl Paths {
         }
     }
 
-    /// How far the paper's scheme is from the accurate runs and from the published curves.
-    pub fn distances(&self) -> PathBuf {
-        self.with_scheme(Scheme::Paper).scheme_data().join("distance.csv")
-    }
-
-    /// A table of values from outside.
-    pub fn reference(&self, name: &str) -> PathBuf {
-        self.root.join("data/reference").join(format!("{name}.csv"))
-    }
-
-    /// A table of the report of accuracy.
-    pub fn accuracy(&self, name: &str) -> PathBuf {
-        self.root.join(ACCURACY).join(format!("{name}.csv"))
-    }
-
-    /// The description of every table and column.
-    pub fn data_package(&self) -> PathBuf {
-        self.root.join("data/datapackage.json")
-    }
-
-    /// What each picture shows, in words.
-    pub fn alternatives(&self) -> PathBuf {
-        self.root.join("paper/alternatives.toml")
-    }
-
     /// The committed samples of a figure's tables, by name.
     pub fn golden(id: &str) -> String {
         format!("data/golden/{id}")
@@ -228,20 +181,9 @@ impl Paths {
         format!("data/states/{scene}.csv")
     }
 
-    /// Where a run is made once more with its trajectories.
-    pub fn states_scratch(&self) -> PathBuf {
-        let folder = if self.base == self.root { self.xtask() } else { self.base.clone() };
-        folder.join("states")
-    }
-
     /// What is known of each output.
     pub fn manifest(&self) -> PathBuf {
         self.root.join("data/manifest.json")
-    }
-
-    /// Events of all runs.
-    pub fn events(&self) -> PathBuf {
-        self.root.join(EVENTS)
     }
 
     /// A table by the name under which the ledger reads it, `fig11/trajectories`, as a name.
@@ -264,16 +206,6 @@ impl Paths {
         if self.base == self.root { self.target.join("store") } else { self.base.join("store") }
     }
 
-    /// Where the tables of accuracy are made before they are compared.
-    pub fn made_accuracy(&self) -> PathBuf {
-        self.xtask().join("accuracy")
-    }
-
-    /// A table of archived timings.
-    pub fn timing(&self, name: &str) -> PathBuf {
-        self.root.join("data/timing").join(format!("{name}.csv"))
-    }
-
     /// From where a run that was killed goes on.
     pub fn checkpoint(&self, key: &str) -> PathBuf {
         self.store().join(format!("{key}.checkpoint"))
@@ -281,37 +213,17 @@ impl Paths {
 
     /// The archive, unless it is asked for elsewhere.
     pub fn archive(&self) -> PathBuf {
-        self.bundle().join(format!("{BUNDLE_TOP}.tar"))
-    }
-
-    /// Where the crates for the archive are unpacked.
-    pub fn vendored(&self) -> PathBuf {
-        self.bundle().join(VENDOR)
-    }
-
-    fn bundle(&self) -> PathBuf {
-        self.target.join("bundle")
-    }
-
-    /// Where programs to be measured are built and lie.
-    pub fn bench(&self) -> PathBuf {
-        self.target.join("bench")
-    }
-
-    /// What was measured of a commit, alone or against another one.
-    pub fn bench_archive(&self, commit: &str, against: Option<&str>) -> PathBuf {
-        let against = against.map_or(String::new(), |against| format!("-against-{against}"));
-        self.root.join("data/timing/bench").join(format!("{commit}{against}.json"))
-    }
-
-    /// A picture as PDF, by name.
-    pub fn picture_pdf(id: &str) -> String {
-        format!("{PICTURE_PDFS}/{id}.pdf")
+        self.target.join("bundle").join(format!("{BUNDLE_TOP}.tar"))
     }
 
     /// The runner's own folder.
     pub fn xtask(&self) -> PathBuf {
         self.target.join("xtask")
+    }
+
+    /// Where programs leave what is no output: the runner's own folder, or the scratch folder of `verify`.
+    pub fn own(&self) -> PathBuf {
+        if self.base == self.root { self.xtask() } else { self.base.clone() }
     }
 
     /// What each figure was made from.
@@ -332,11 +244,6 @@ impl Paths {
         }
     }
 
-    /// A file that is written to see whether one can be.
-    pub fn probe(&self) -> PathBuf {
-        self.xtask().join("probe")
-    }
-
     /// What the binaries were built from.
     pub fn build_record(&self, package: &str) -> PathBuf {
         self.xtask().join(format!("build-{package}.json"))
@@ -349,8 +256,7 @@ impl Paths {
 
     /// What a node printed.
     pub fn log(&self, node: &str) -> PathBuf {
-        let folder = if self.base == self.root { self.xtask() } else { self.base.clone() };
-        folder.join("log").join(format!("{}.txt", node.replace([' ', '/'], "-")))
+        self.own().join("log").join(format!("{}.txt", node.replace([' ', '/'], "-")))
     }
 
     /// What a figure's binary says of its tables.
@@ -359,13 +265,7 @@ impl Paths {
             Scheme::Adaptive => format!("{id}.json"),
             Scheme::Paper => format!("{id}-paper.json"),
         };
-        self.reports().join(name)
-    }
-
-    /// The folder of what figures' binaries say of their tables.
-    pub fn reports(&self) -> PathBuf {
-        let folder = if self.base == self.root { self.xtask() } else { self.base.clone() };
-        folder.join("report")
+        self.own().join("report").join(name)
     }
 
     /// Whether a tracked file of this name is written by the runner, so that a change of it is no change of a source.

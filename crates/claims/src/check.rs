@@ -122,7 +122,7 @@ impl Measure {
     ///
     /// # Errors
     /// Usage: the key, and what would be valid.
-    pub(crate) fn check(&self, place: &Place) -> Result<(), Failure> {
+    pub fn check(&self, place: &Place) -> Result<(), Failure> {
         if let Some(is) = &self.is {
             Requirement::parse(is).map_err(|problem| place.fail("is", problem))?;
         }

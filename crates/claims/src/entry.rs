@@ -45,6 +45,8 @@ pub enum Take {
     Largest,
     /// The mean.
     Mean,
+    /// The sum.
+    Sum,
     /// Largest less least.
     Span,
     /// The value of the one row that is left.
@@ -66,6 +68,7 @@ impl Take {
             Take::Least => "least",
             Take::Largest => "largest",
             Take::Mean => "mean",
+            Take::Sum => "sum",
             Take::Span => "span",
             Take::Only => "only",
             Take::Count => "count",

@@ -8,7 +8,7 @@
 //!
 //! ```toml
 //! name = "least"                # for placeholders; optional
-//! take = "least"                # least largest mean span first last | only: of the one row that is left | count, share: of rows
+//! take = "least"                # least largest mean sum span first last | only: of the one row that is left | count, share: of rows
 //! of = "v"                      # a formula (crate `formula`) whose names are columns: "v - v_beside"
 //! table = "fig11/trajectories"  # below data/, without .csv
 //! where = ["t >= 1", "v < 0"]   # all must hold; op one of < <= > >= = !=

@@ -30,7 +30,44 @@ pub fn evaluate(measure: &Measure, tables: &Tables<'_>, place: &Place) -> Result
     })
 }
 
+/// The rows that are left of the table, each with its value.
+///
+/// # Errors
+/// As [`evaluate`]; or the measure takes another one than `only`, has a second operand, or a row of which it is open whether
+/// it is left.
+pub fn each(
+    measure: &Measure,
+    tables: &Tables<'_>,
+    place: &Place,
+) -> Result<(Rc<Sheet>, Vec<(usize, Uncertain)>), Failure> {
+    if measure.take != Take::Only || measure.operand(place)?.is_some() {
+        return Err(place.fail("take", "must be `only`, without a second operand, where each row gives a number"));
+    }
+    let (sheet, chosen, of) = looked_at(measure, tables, place)?;
+    let values = of.map(|of| values(&sheet, of, &chosen)).transpose();
+    let values = values.map_err(|problem| place.fail("of", of_the_table(measure, &problem)))?;
+    match values {
+        Some(values) if values.open.is_empty() => Ok((sheet, chosen.sure.into_iter().zip(values.sure).collect())),
+        _ => Err(place.fail("where", of_the_table(measure, "errors leave open which rows are left"))),
+    }
+}
+
 fn of_table(measure: &Measure, tables: &Tables<'_>, place: &Place) -> Result<Uncertain, Failure> {
+    let (sheet, chosen, of) = looked_at(measure, tables, place)?;
+    if measure.take.counts() {
+        return counted(measure.take, &chosen, sheet.rows()).map_err(|problem| place.fail("among", problem));
+    }
+    let of = of.ok_or_else(|| place.fail("of", "is missing"))?;
+    let values = values(&sheet, of, &chosen).map_err(|problem| place.fail("of", of_the_table(measure, &problem)))?;
+    taken(measure.take, &values).map_err(|problem| place.fail("where", of_the_table(measure, &problem)))
+}
+
+/// The table, the rows of it that are chosen, and what is taken of them; nothing where rows are counted.
+fn looked_at(
+    measure: &Measure,
+    tables: &Tables<'_>,
+    place: &Place,
+) -> Result<(Rc<Sheet>, Chosen, Option<Bound>), Failure> {
     let sheet = sheet(measure, tables, place)?;
     let of = measure.of.as_deref().map(Expression::parse).transpose().map_err(|problem| place.fail("of", problem))?;
     let names = of.as_ref().map(Expression::names).unwrap_or_default();
@@ -39,20 +76,13 @@ fn of_table(measure: &Measure, tables: &Tables<'_>, place: &Place) -> Result<Unc
         None => None,
     };
     let binding = Binding { sheet: &sheet, errors: errors.map(|errors| (names.as_slice(), errors)) };
-    let bind = |key: &str, conditions: &[String]| -> Result<Vec<BoundCondition>, Failure> {
-        let bound = conditions.iter().map(|text| Condition::parse(text)?.bind(&binding));
-        bound.collect::<Result<_, String>>().map_err(|problem| place.fail(key, of_the_table(measure, &problem)))
-    };
-    let wanted = bind("where", &measure.conditions)?;
+    let bound = measure.conditions.iter().map(|text| Condition::parse(text)?.bind(&binding));
     let fail = |problem: String| place.fail("where", of_the_table(measure, &problem));
+    let wanted = bound.collect::<Result<Vec<_>, String>>().map_err(fail)?;
     let chosen = choose(&sheet, &wanted).map_err(fail)?;
-    if measure.take.counts() {
-        return counted(measure.take, &chosen, sheet.rows()).map_err(|problem| place.fail("among", problem));
-    }
-    let of = of.ok_or_else(|| place.fail("of", "is missing"))?;
-    let of = of.bind(&binding).map_err(|problem| place.fail("of", of_the_table(measure, &problem)))?;
-    let values = values(&sheet, of, &chosen).map_err(|problem| place.fail("of", of_the_table(measure, &problem)))?;
-    taken(measure.take, &values).map_err(|problem| place.fail("where", of_the_table(measure, &problem)))
+    let of = of.filter(|_| !measure.take.counts()).map(|of| of.bind(&binding)).transpose();
+    let of = of.map_err(|problem| place.fail("of", of_the_table(measure, &problem)))?;
+    Ok((Rc::clone(&sheet), chosen, of))
 }
 
 fn of_the_table(measure: &Measure, problem: &str) -> String {
@@ -178,14 +208,16 @@ fn taken(take: Take, values: &Values) -> Result<Uncertain, String> {
             let (least, largest) = (extreme(values, f64::total_cmp), extreme(values, |a, b| b.total_cmp(a)));
             Ok(largest - least)
         }
-        Take::Mean => {
-            let sum = sure.iter().fold(Uncertain::exact(0.0), |sum, &value| sum + value);
-            Ok(bounded(sum / Uncertain::exact(sure.len() as f64)))
-        }
+        Take::Mean => Ok(bounded(sum(sure) / Uncertain::exact(sure.len() as f64))),
+        Take::Sum => Ok(bounded(sum(sure))),
         Take::Only if sure.len() > 1 => Err(format!("{} rows are left where `only` needs one", sure.len())),
         Take::Last => Ok(bounded(sure.last().copied().unwrap_or(first))),
         _ => Ok(bounded(first)),
     }
+}
+
+fn sum(values: &[Uncertain]) -> Uncertain {
+    values.iter().fold(Uncertain::exact(0.0), |sum, &value| sum + value)
 }
 
 /// The first of the values in an order, with the interval in which the first of the true ones lies.

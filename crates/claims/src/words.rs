@@ -25,7 +25,7 @@ pub fn describe(measure: &Measure, place: &Place) -> Result<String, Failure> {
         Take::Share => "share of rows".to_owned(),
         Take::Only => of.to_owned(),
         Take::First | Take::Last | Take::Least | Take::Largest => format!("{} {of}", measure.take.word()),
-        Take::Mean | Take::Span => format!("{} of {of}", measure.take.word()),
+        Take::Mean | Take::Sum | Take::Span => format!("{} of {of}", measure.take.word()),
     };
     let mut words = format!("{what} in {}", file(&measure.table));
     if !measure.among.is_empty() {

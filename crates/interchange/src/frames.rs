@@ -1,6 +1,6 @@
 //! The table of a run, `t, n, x, v`, as frames: every pedestrian at every whole multiple of the time between samples.
 
-use crate::problem::Problem;
+use checkout::failure::Failure;
 use csv::ByteRecord;
 use std::io::Read;
 use std::path::Path;
@@ -39,7 +39,7 @@ impl Frames<std::fs::File> {
     ///
     /// # Errors
     /// The file cannot be read, or has other columns.
-    pub fn open(path: &Path, pedestrians: u32, interval: f64) -> Result<Frames<std::fs::File>, Problem> {
+    pub fn open(path: &Path, pedestrians: u32, interval: f64) -> Result<Frames<std::fs::File>, Failure> {
         let file = std::fs::File::open(path).map_err(|error| files::write::with_path(error, path))?;
         Frames::read(&path.display().to_string(), file, pedestrians, interval)
     }
@@ -50,13 +50,13 @@ impl<R: Read> Frames<R> {
     ///
     /// # Errors
     /// It cannot be read, or has other columns.
-    pub fn read(file: &str, table: R, pedestrians: u32, interval: f64) -> Result<Frames<R>, Problem> {
+    pub fn read(file: &str, table: R, pedestrians: u32, interval: f64) -> Result<Frames<R>, Failure> {
         let mut reader = csv::Reader::from_reader(table);
-        let columns = reader.headers().map_err(|error| Problem::Input(format!("{file}: {error}")))?;
+        let columns = reader.headers().map_err(|error| Failure::Usage(format!("{file}: {error}")))?;
         if columns != COLUMNS[..] {
             let found: Vec<&str> = columns.iter().collect();
             let problem = format!("columns {} in place of {}", found.join(","), COLUMNS.join(","));
-            return Err(Problem::Input(format!("{file}:1: {problem}")));
+            return Err(Failure::Usage(format!("{file}:1: {problem}")));
         }
         let (record, file) = (ByteRecord::new(), file.to_owned());
         Ok(Frames { reader, record, file, pedestrians, interval, frame: 0, n: 0 })
@@ -77,16 +77,16 @@ impl<R: Read> Frames<R> {
         Ok(row)
     }
 
-    fn complain(&self, problem: impl std::fmt::Display) -> Problem {
+    fn complain(&self, problem: impl std::fmt::Display) -> Failure {
         let line = self.record.position().map_or(0, csv::Position::line);
-        Problem::Input(format!("{}:{line}: {problem}", self.file))
+        Failure::Usage(format!("{}:{line}: {problem}", self.file))
     }
 }
 
 impl<R: Read> Iterator for Frames<R> {
-    type Item = Result<Row, Problem>;
+    type Item = Result<Row, Failure>;
 
-    fn next(&mut self) -> Option<Result<Row, Problem>> {
+    fn next(&mut self) -> Option<Result<Row, Failure>> {
         match self.reader.read_byte_record(&mut self.record) {
             Ok(true) => Some(self.row().map_err(|problem| self.complain(problem))),
             Ok(false) if self.n > 0 => {

@@ -1,6 +1,6 @@
 //! The header of both files: the run, the ring, and the units.
 
-use crate::problem::Problem;
+use checkout::failure::Failure;
 use files::reader::{POSITIVE, Reader, SceneError};
 use files::scene_file::{Kind, Panel, SceneFile};
 use std::ops::RangeInclusive;
@@ -58,9 +58,9 @@ impl Header {
         length: Option<f64>,
         time: f64,
         rate: f64,
-    ) -> Result<Header, Problem> {
+    ) -> Result<Header, Failure> {
         if panel.kind != Kind::Run {
-            return Err(Problem::Input(format!("{}: has no [run], so no trajectories", recipe.file)));
+            return Err(Failure::Usage(format!("{}: has no [run], so no trajectories", recipe.file)));
         }
         let mut tables = Reader::new(&recipe.file, "scene", &panel.tables);
         let mut ring = Reader::new(&recipe.file, "ring", tables.section("ring")?);
@@ -74,7 +74,7 @@ impl Header {
         };
         if !LENGTHS.contains(&length) {
             let (low, high) = (LENGTHS.start(), LENGTHS.end());
-            return Err(Problem::Input(format!(
+            return Err(Failure::Usage(format!(
                 "a_0 = {length:?} m: must be from {low:e} to {high:e} m; --a0 sets it"
             )));
         }

@@ -6,9 +6,6 @@
 
 pub mod frames;
 pub mod header;
-pub mod problem;
 pub mod run;
 pub mod sqlite;
 pub mod text;
-
-pub use problem::Problem;

@@ -1,17 +1,16 @@
 //! Runs a scene with a sample for each frame and writes its table for other programs: `export SCENE.toml --out DIR ...`.
 
+use checkout::failure::Failure;
 use checkout::figure;
 use checkout::paths::Paths;
+use checkout::print;
 use clap::{Parser, ValueEnum};
 use files::scene_file;
 use files::write::{self, Draft, with_path};
-use interchange::Problem;
 use interchange::frames::Frames;
 use interchange::header::{Header, RATES};
 use interchange::{sqlite, text};
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 /// What the command line asks for.
 #[derive(Debug, Parser)]
@@ -75,25 +74,19 @@ fn rate(text: &str) -> Result<f64, String> {
     number.ok_or_else(|| format!("{text}: must be a number from {} to {}", RATES.start(), RATES.end()))
 }
 
-fn main() -> ExitCode {
-    match run(&Arguments::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(problem) => {
-            eprintln!("error: {problem}");
-            ExitCode::from(problem.code())
-        }
-    }
+fn main() {
+    std::process::exit(run(&Arguments::parse()).map_or_else(|failure| failure.tell(), |()| 0));
 }
 
-fn run(arguments: &Arguments) -> Result<(), Problem> {
+fn run(arguments: &Arguments) -> Result<(), Failure> {
     let recipe = scene_file::read(&scene(arguments)?)?;
     let panel = match &arguments.panel {
         Some(name) => recipe.panel(name)?,
         None if recipe.panels.len() == 1 => &recipe.panels[0],
-        None => return Err(Problem::Input(format!("{}: has several panels: choose one with --panel", recipe.file))),
+        None => return Err(Failure::Usage(format!("{}: has several panels: choose one with --panel", recipe.file))),
     };
     let header = Header::new(&recipe, panel, arguments.a0, arguments.tau, arguments.fps)?;
-    let folder = tempfile::tempdir().map_err(|error| Problem::Work(error.to_string()))?;
+    let folder = tempfile::tempdir().map_err(|error| Failure::Failed(error.to_string()))?;
     let table = match &arguments.table {
         Some(table) => table.clone(),
         None => {
@@ -118,25 +111,22 @@ fn run(arguments: &Arguments) -> Result<(), Problem> {
 }
 
 /// The scene file that is meant: a file, or that of a figure.
-fn scene(arguments: &Arguments) -> Result<PathBuf, Problem> {
+fn scene(arguments: &Arguments) -> Result<PathBuf, Failure> {
     let wanted = &arguments.scene;
     if wanted.ends_with(".toml") || Path::new(wanted).is_file() {
         return Ok(PathBuf::from(wanted));
     }
-    let found = Paths::find(arguments.root.clone()).and_then(|paths| {
-        let all = figure::discover(&paths)?;
-        Ok(paths.root.join(Paths::scene(&figure::find(&all, wanted)?.slug)))
-    });
-    found.map_err(|failure| Problem::Input(failure.text().to_owned()))
+    let paths = Paths::find(arguments.root.clone())?;
+    Ok(paths.root.join(Paths::scene(&figure::find(&figure::discover(&paths)?, wanted)?.slug)))
 }
 
 /// `simulate` in the folder of this program.
-fn beside() -> Result<PathBuf, Problem> {
+fn beside() -> Result<PathBuf, Failure> {
     Ok(std::env::current_exe()?.with_file_name(format!("simulate{}", std::env::consts::EXE_SUFFIX)))
 }
 
 /// All files or none, unless a rename fails half-way; then what was written, on stdout.
-fn publish(drafts: Vec<(Draft, u64)>, header: &Header) -> Result<(), Problem> {
+fn publish(drafts: Vec<(Draft, u64)>, header: &Header) -> Result<(), Failure> {
     let mut words = String::new();
     for (draft, rows) in &drafts {
         let (file, frames) = (draft.place().display(), rows / u64::from(header.pedestrians));
@@ -148,8 +138,5 @@ fn publish(drafts: Vec<(Draft, u64)>, header: &Header) -> Result<(), Problem> {
     let units: Vec<String> =
         facts.iter().filter(|(name, _)| is_unit(name)).map(|(name, value)| format!("{name}: {value}")).collect();
     words.push_str(&format!("{} frames a second; {}\n", header.rate, units.join("; ")));
-    match std::io::stdout().write_all(words.as_bytes()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Problem::Work(format!("stdout: {error}"))),
-        _ => Ok(()),
-    }
+    print::out(&words)
 }

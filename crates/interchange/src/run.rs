@@ -1,7 +1,7 @@
 //! The run that is exported: made by `simulate` with a sample for each frame.
 
 use crate::header::Header;
-use crate::problem::Problem;
+use checkout::failure::Failure;
 use files::scene_file::{Panel, SceneFile};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -21,7 +21,7 @@ pub fn make(
     header: &Header,
     t_end: Option<f64>,
     folder: &Path,
-) -> Result<PathBuf, Problem> {
+) -> Result<PathBuf, Failure> {
     let determinants = panel.determinants();
     refuse_too_many(&determinants, header, t_end)?;
     let mut program = Command::new(simulate);
@@ -43,13 +43,13 @@ pub fn make(
         .arg("--sample")
         .arg(format!("{:?}", header.interval()));
     program.args(t_end.iter().flat_map(|end| ["--t-end".to_owned(), format!("{end:?}")]));
-    let output = program.output().map_err(|error| Problem::Work(format!("{}: {error}", simulate.display())))?;
+    let output = program.output().map_err(|error| Failure::Failed(format!("{}: {error}", simulate.display())))?;
     let words = String::from_utf8_lossy(&output.stderr);
     let words = words.trim().trim_start_matches("error: ").to_owned();
     match output.status.code() {
         Some(0) => Ok(folder.join("trajectories.csv")),
-        Some(2) => Err(Problem::Input(words)),
-        _ => Err(Problem::Work(words)),
+        Some(2) => Err(Failure::Usage(words)),
+        _ => Err(Failure::Failed(words)),
     }
 }
 
@@ -61,7 +61,7 @@ fn with_trajectories(determinants: &str) -> Option<String> {
 }
 
 /// Refuses a frame rate that gives more rows than a run may have: `simulate` would speak of samples, which nobody asked for.
-fn refuse_too_many(determinants: &str, header: &Header, t_end: Option<f64>) -> Result<(), Problem> {
+fn refuse_too_many(determinants: &str, header: &Header, t_end: Option<f64>) -> Result<(), Failure> {
     let scenes = determinants.lines().find_map(|line| line.strip_prefix("run.t_end = ")?.parse::<f64>().ok());
     // what is missing is told by `simulate`
     let Some(end) = t_end.or(scenes) else { return Ok(()) };
@@ -71,7 +71,7 @@ fn refuse_too_many(determinants: &str, header: &Header, t_end: Option<f64>) -> R
         return Ok(());
     }
     let rows = f64::from(pedestrians) * seconds * fps;
-    Err(Problem::Input(format!(
+    Err(Failure::Usage(format!(
         "--fps {fps:?}: {pedestrians} pedestrians up to t = {end:?} ({seconds:?} s) are {rows:.3e} rows, more than \
          {MOST_ROWS:e}; at most {most:.4} frames a second, or an earlier end (--t-end)"
     )))

@@ -3,7 +3,7 @@
 
 use crate::frames::Row;
 use crate::header::Header;
-use crate::problem::Problem;
+use checkout::failure::Failure;
 use files::write::Draft;
 use rusqlite::{Connection, params};
 
@@ -44,8 +44,8 @@ PRAGMA page_size = 4096;
 ///
 /// # Errors
 /// A row cannot be read, or the file not be written.
-pub fn write(draft: &Draft, header: &Header, rows: impl Iterator<Item = Result<Row, Problem>>) -> Result<u64, Problem> {
-    let at = |error: rusqlite::Error| Problem::Work(format!("{}: {error}", draft.place().display()));
+pub fn write(draft: &Draft, header: &Header, rows: impl Iterator<Item = Result<Row, Failure>>) -> Result<u64, Failure> {
+    let at = |error: rusqlite::Error| Failure::Failed(format!("{}: {error}", draft.place().display()));
     let database = Connection::open(draft.path()).map_err(at)?;
     database.execute_batch(SETTINGS).map_err(at)?;
     // one transaction: the same bytes whenever it is made
@@ -72,10 +72,10 @@ struct Extent {
 fn fill(
     database: &Connection,
     header: &Header,
-    rows: impl Iterator<Item = Result<Row, Problem>>,
+    rows: impl Iterator<Item = Result<Row, Failure>>,
     extent: &mut Extent,
-    at: &dyn Fn(rusqlite::Error) -> Problem,
-) -> Result<(), Problem> {
+    at: &dyn Fn(rusqlite::Error) -> Failure,
+) -> Result<(), Failure> {
     // everybody walks on the line y = 0 and looks along it
     let mut insert = database.prepare("INSERT INTO trajectory_data VALUES(?, ?, ?, 0, 1, 0)").map_err(at)?;
     for row in rows {

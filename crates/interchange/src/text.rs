@@ -3,7 +3,7 @@
 
 use crate::frames::Row;
 use crate::header::Header;
-use crate::problem::Problem;
+use checkout::failure::Failure;
 use files::write::{Draft, with_path};
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -19,8 +19,8 @@ pub fn digits(length: f64) -> usize {
 ///
 /// # Errors
 /// A row cannot be read, or the file not be written.
-pub fn write(draft: &Draft, header: &Header, rows: impl Iterator<Item = Result<Row, Problem>>) -> Result<u64, Problem> {
-    let at = |error| Problem::from(with_path(error, draft.place()));
+pub fn write(draft: &Draft, header: &Header, rows: impl Iterator<Item = Result<Row, Failure>>) -> Result<u64, Failure> {
+    let at = |error| Failure::from(with_path(error, draft.place()));
     let mut file = BufWriter::new(File::create(draft.path()).map_err(at)?);
     file.write_all(comments(header).as_bytes()).map_err(at)?;
     let (mut count, digits) = (0, digits(header.units.length));

@@ -15,15 +15,18 @@ pub struct Dual {
 
 impl Dual {
     /// The variable itself.
+    #[inline(always)]
     pub fn variable(value: f64) -> Dual {
         Dual { value, slope: 1.0 }
     }
 
     /// What does not depend on the variable.
+    #[inline(always)]
     pub fn constant(value: f64) -> Dual {
         Dual { value, slope: 0.0 }
     }
 
+    #[inline(always)]
     fn chain(self, value: f64, slope: f64) -> Dual {
         Dual { value, slope: slope * self.slope }
     }
@@ -31,6 +34,7 @@ impl Dual {
 
 impl Neg for Dual {
     type Output = Dual;
+    #[inline(always)]
     fn neg(self) -> Dual {
         Dual { value: -self.value, slope: -self.slope }
     }
@@ -38,6 +42,7 @@ impl Neg for Dual {
 
 impl Add for Dual {
     type Output = Dual;
+    #[inline(always)]
     fn add(self, other: Dual) -> Dual {
         Dual { value: self.value + other.value, slope: self.slope + other.slope }
     }
@@ -45,6 +50,7 @@ impl Add for Dual {
 
 impl Sub for Dual {
     type Output = Dual;
+    #[inline(always)]
     fn sub(self, other: Dual) -> Dual {
         Dual { value: self.value - other.value, slope: self.slope - other.slope }
     }
@@ -52,6 +58,7 @@ impl Sub for Dual {
 
 impl Mul for Dual {
     type Output = Dual;
+    #[inline(always)]
     fn mul(self, other: Dual) -> Dual {
         Dual { value: self.value * other.value, slope: self.slope * other.value + self.value * other.slope }
     }
@@ -59,6 +66,7 @@ impl Mul for Dual {
 
 impl Div for Dual {
     type Output = Dual;
+    #[inline(always)]
     fn div(self, other: Dual) -> Dual {
         let value = self.value / other.value;
         Dual { value, slope: (self.slope - value * other.slope) / other.value }
@@ -67,6 +75,7 @@ impl Div for Dual {
 
 impl Add<f64> for Dual {
     type Output = Dual;
+    #[inline(always)]
     fn add(self, other: f64) -> Dual {
         Dual { value: self.value + other, ..self }
     }
@@ -74,6 +83,7 @@ impl Add<f64> for Dual {
 
 impl Sub<f64> for Dual {
     type Output = Dual;
+    #[inline(always)]
     fn sub(self, other: f64) -> Dual {
         Dual { value: self.value - other, ..self }
     }
@@ -81,6 +91,7 @@ impl Sub<f64> for Dual {
 
 impl Mul<f64> for Dual {
     type Output = Dual;
+    #[inline(always)]
     fn mul(self, other: f64) -> Dual {
         Dual { value: self.value * other, slope: self.slope * other }
     }
@@ -88,68 +99,82 @@ impl Mul<f64> for Dual {
 
 impl Div<f64> for Dual {
     type Output = Dual;
+    #[inline(always)]
     fn div(self, other: f64) -> Dual {
         Dual { value: self.value / other, slope: self.slope / other }
     }
 }
 
 impl Number for Dual {
+    #[inline(always)]
     fn recip(self) -> Dual {
         let inverse = 1.0 / self.value;
         self.chain(inverse, -inverse * inverse)
     }
 
+    #[inline(always)]
     fn powi(self, n: i32) -> Dual {
         let slope = if n == 0 { 0.0 } else { f64::from(n) * Number::powi(self.value, n - 1) };
         self.chain(Number::powi(self.value, n), slope)
     }
 
+    #[inline(always)]
     fn powf(self, q: f64) -> Dual {
         let value = lane::pow(self.value, q);
         self.chain(value, q * value / self.value)
     }
 
+    #[inline(always)]
     fn exp(self) -> Dual {
         let value = lane::exp(self.value);
         self.chain(value, value)
     }
 
+    #[inline(always)]
     fn exp_m1(self) -> Dual {
         self.chain(lane::exp_m1(self.value), lane::exp(self.value))
     }
 
+    #[inline(always)]
     fn ln(self) -> Dual {
         self.chain(lane::ln(self.value), 1.0 / self.value)
     }
 
+    #[inline(always)]
     fn ln_1p(self) -> Dual {
         self.chain(lane::ln_1p(self.value), 1.0 / (1.0 + self.value))
     }
 
+    #[inline(always)]
     fn sqrt(self) -> Dual {
         let root = self.value.sqrt();
         self.chain(root, 0.5 / root)
     }
 
     /// With 1 - tanh^2 as 4 sigma(2 x) sigma(-2 x), which does not cancel.
+    #[inline(always)]
     fn tanh(self) -> Dual {
         let y = 2.0 * self.value;
         self.chain(lane::tanh(self.value), 4.0 * (lane::sigmoid(y) * lane::sigmoid(-y)))
     }
 
+    #[inline(always)]
     fn softplus(self) -> Dual {
         self.chain(lane::softplus(self.value), lane::sigmoid(self.value))
     }
 
     /// At 0 the derivative is that of the right-hand side.
+    #[inline(always)]
     fn abs(self) -> Dual {
         if self.value < 0.0 { -self } else { self }
     }
 
+    #[inline(always)]
     fn min(self, other: Dual) -> Dual {
         if other.value < self.value { other } else { self }
     }
 
+    #[inline(always)]
     fn max(self, other: Dual) -> Dual {
         if other.value > self.value { other } else { self }
     }

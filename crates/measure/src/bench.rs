@@ -68,7 +68,8 @@ pub fn run(paths: &Paths, arguments: &BenchArgs) -> Result<(), Failure> {
         all.push(benchmarks::measure(&tree, against.as_ref(), name, arguments.rounds)?);
     }
     let summary = summary(paths, arguments, other.as_deref(), &all);
-    let file = paths.bench_archive(&here(paths), other.as_deref());
+    let against = other.as_ref().map_or(String::new(), |other| format!("-against-{other}"));
+    let file = paths.root.join("data/timing/bench").join(format!("{}{against}.json", here(paths)));
     disk::write(&file, format!("{summary:#}\n").as_bytes())?;
     if arguments.json {
         print::json(summary)?;

@@ -82,7 +82,7 @@ impl Measured {
 /// # Errors
 /// Unsupported: no cargo. Failed: they do not build, or cannot be copied.
 pub fn build(paths: &Paths, sources: &Path, name: &str) -> Result<Tree, Failure> {
-    let target = paths.bench().join("build");
+    let target = bench(paths).join("build");
     let mut cargo = process::cargo();
     cargo.args(["build", "--quiet", "--release", "--locked", "-p", "jam", "--example", "cost"]);
     cargo.args(["-p", "figures", "--bin", "simulate"]).current_dir(sources).env("CARGO_TARGET_DIR", &target);
@@ -90,7 +90,7 @@ pub fn build(paths: &Paths, sources: &Path, name: &str) -> Result<Tree, Failure>
         Failure::Child(code) => Failure::Failed(format!("{name} does not build: cargo ended with {code}")),
         other => other,
     })?;
-    let folder = paths.bench().join(name);
+    let folder = bench(paths).join(name);
     disk::create_folder(&folder)?;
     let suffix = std::env::consts::EXE_SUFFIX;
     for program in ["examples/cost", "simulate"] {
@@ -106,10 +106,10 @@ pub fn build(paths: &Paths, sources: &Path, name: &str) -> Result<Tree, Failure>
 /// # Errors
 /// Unsupported: no git or tar. Failed: the commit cannot be unpacked.
 pub fn unpack(paths: &Paths, commit: &str) -> Result<PathBuf, Failure> {
-    let folder = paths.bench().join(format!("{commit}-sources"));
+    let folder = bench(paths).join(format!("{commit}-sources"));
     disk::remove(&folder)?;
     disk::create_folder(&folder)?;
-    let archive = paths.bench().join(format!("{commit}.tar"));
+    let archive = bench(paths).join(format!("{commit}.tar"));
     let mut git = Command::new("git");
     git.arg("-C").arg(&paths.root).args(["archive", "--format=tar", "-o"]).arg(&archive).arg(commit);
     let mut tar = Command::new("tar");
@@ -214,6 +214,11 @@ pub fn measure(tree: &Tree, against: Option<&Tree>, name: &str, rounds: u16) -> 
     measured.instructions = tree.instructions(name);
     measured.against_instructions = against.and_then(|other| other.instructions(name));
     Ok(measured)
+}
+
+/// Where programs to be measured are built and lie.
+fn bench(paths: &Paths) -> PathBuf {
+    paths.target.join("bench")
 }
 
 fn is_run(name: &str) -> bool {

@@ -5,6 +5,7 @@
 //! series and not every step, so it costs a small part of the first one.
 
 use crate::dense::Step;
+use crate::linear::Linear;
 use crate::system::{Measure, System};
 use crate::taylor::{Change, forced};
 use crate::vector::largest;
@@ -39,6 +40,9 @@ pub struct Shadow {
     length: f64,
     power: usize,
     is_sure: bool,
+    /// Carries the error over each step by itself, where the system tells how small differences move.
+    linear: Option<Linear>,
+    is_linear_known: bool,
     /// What the next rounding is drawn by.
     lot: u64,
 }
@@ -92,6 +96,8 @@ impl Shadow {
             length: 0.0,
             power: 1,
             is_sure: true,
+            linear: None,
+            is_linear_known: false,
             lot: 0,
         }
     }
@@ -106,11 +112,11 @@ impl Shadow {
         self.power = step.stepper.error_power() + 1;
         let states = step.ends.before.iter().zip(step.ends.after);
         let errors = self.error.iter().zip(&mut self.own);
-        for ((added, (error, own)), (before, after)) in self.added.iter_mut().zip(errors).zip(states) {
+        for ((error, own), (before, after)) in errors.zip(states) {
             *own += (ROUNDING * (after - before).abs()).copysign(*error);
-            *added += *own;
         }
         self.round(step, rounding);
+        self.added.iter_mut().zip(&self.own).for_each(|(added, own)| *added += own);
         true
     }
 
@@ -120,12 +126,11 @@ impl Shadow {
             return;
         }
         for range in forced(step.system) {
-            for (own, added) in self.own[range.clone()].iter_mut().zip(&mut self.added[range]) {
+            for own in &mut self.own[range] {
                 // Knuth's generator of 64 bits
                 self.lot = self.lot.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
                 let push = self.length * if self.lot >> 63 == 0 { rounding } else { -rounding };
                 *own += push;
-                *added += push;
             }
         }
     }
@@ -144,6 +149,14 @@ impl Shadow {
 
     fn advance(&mut self, step: &mut Step<'_>) {
         let h = step.length();
+        if !self.is_linear_known {
+            (self.linear, self.is_linear_known) = (Linear::new(step.system), true);
+        }
+        if self.linear.is_some() {
+            self.expand_linear(step);
+            self.length = h;
+            return;
+        }
         let adds_much = relative(step.system, step.ends.before, &self.added) > FRESH * self.size;
         if adds_much || self.elapsed + h > self.reach || h < SHORTER * self.expanded {
             self.expand(step);
@@ -151,6 +164,20 @@ impl Shadow {
         }
         self.elapsed += h;
         self.length = h;
+    }
+
+    /// Carries the error over the step by the linearised equations.
+    fn expand_linear(&mut self, step: &Step<'_>) {
+        if self.has_rows {
+            let mut error = std::mem::take(&mut self.error);
+            self.at(1.0, &mut error);
+            self.error = error;
+        }
+        self.added.fill(0.0);
+        if let Some(linear) = &mut self.linear {
+            self.has_rows = linear.expand(step, &self.error);
+            self.is_sure &= self.has_rows;
+        }
     }
 
     /// Expands the difference about the start of a step.
@@ -213,6 +240,10 @@ impl Shadow {
 
     /// Writes the error at the fraction `theta` of the step looked at last, component by component.
     pub fn at(&self, theta: f64, result: &mut [f64]) {
+        if let Some(linear) = self.linear.as_ref().filter(|_| self.has_rows) {
+            linear.at(theta, result);
+            return self.add(theta, result);
+        }
         if self.has_rows {
             let h = (self.elapsed - (1.0 - theta) * self.length) / self.unit;
             dispatch(Change::<false> { rows: &self.rows, n: result.len(), from: 0, h, result });
@@ -221,12 +252,25 @@ impl Shadow {
         } else {
             result.fill(0.0);
         }
+        result.iter_mut().zip(&self.error).for_each(|(result, error)| *result += error);
+        self.add(theta, result);
+    }
+
+    /// Adds what steps have added up to the fraction `theta` of the last one.
+    fn add(&self, theta: f64, result: &mut [f64]) {
+        if theta == 1.0 {
+            return result.iter_mut().zip(&self.added).for_each(|(result, added)| *result += added);
+        }
         // of the own error of the step, that of what lies before it is the rest
         let rest = 1.0 - (0..self.power).fold(1.0, |power, _| power * theta);
-        let errors = self.error.iter().zip(&self.added).zip(&self.own);
-        for (result, ((error, added), own)) in result.iter_mut().zip(errors) {
-            *result += error + (added - rest * own);
+        for (result, (added, own)) in result.iter_mut().zip(self.added.iter().zip(&self.own)) {
+            *result += added - rest * own;
         }
+    }
+
+    /// The error at the start of the last expansion, that of the step looked at last where the system tells its tangent.
+    pub fn before(&self) -> &[f64] {
+        &self.error
     }
 
     /// How many components it has.

@@ -41,6 +41,21 @@ pub trait System {
     /// are given.
     fn series(&self, _order: usize, _unit: f64, _coefficients: &mut [f64]) {}
 
+    /// How many numbers say how a small difference from a solution moves near a state: coefficients of the linearised
+    /// equations. 0 of a system that does not tell.
+    fn tangent_size(&self) -> usize {
+        0
+    }
+
+    /// Writes them, and returns about how fast the fastest difference moves.
+    fn tangent(&self, _state: &[f64], _tangent: &mut [f64]) -> f64 {
+        0.0
+    }
+
+    /// Writes the Taylor series of a small difference from a solution near which they change linearly with time, in the form
+    /// of [`System::series`]; the first row is given.
+    fn difference(&self, _tangent: Tangent<'_>, _order: usize, _unit: f64, _coefficients: &mut [f64]) {}
+
     /// In how many places the rates can bend sharply, as a smooth ramp does.
     fn bends(&self) -> usize {
         0
@@ -56,6 +71,15 @@ pub trait System {
         self.kinematics(state, rates);
         self.dynamics(state, rates);
     }
+}
+
+/// Coefficients of linearised equations: at the start, and by how much they grow in a unit of time.
+#[derive(Clone, Copy, Debug)]
+pub struct Tangent<'a> {
+    /// At the start.
+    pub start: &'a [f64],
+    /// Their growth; empty: they do not change.
+    pub growth: &'a [f64],
 }
 
 /// What became of many steps made at once (see [`System::heun`]).

@@ -66,7 +66,7 @@ fn set(paths: &Paths, all: &[Figure], typesetter: &Typesetter) -> Result<Vec<Str
     let mut made = vec![DOCUMENT_PDF.to_owned()];
     place(paths, DOCUMENT_PDF, |output| typesetter.set(paths, DOCUMENT, output, &[]))?;
     for figure in all {
-        let name = Paths::picture_pdf(&figure.id);
+        let name = format!("{PICTURE_PDFS}/{}.pdf", figure.id);
         let picture = format!("/{}/{}.svg", paths.pictures(&figure.slug, &figure.id), figure.id);
         let inputs = [("id", figure.id.as_str()), ("picture", &picture), ("title", figure.title())];
         place(paths, &name, |output| typesetter.set(paths, PICTURE_SOURCE, output, &inputs))?;

@@ -70,6 +70,9 @@ struct Point {
 const VALUES: [(&str, Value); 3] =
     [("margin", Value::Margin), ("criterion", Value::Criterion), ("growth_rate", Value::GrowthRate)];
 
+/// What keeps the criterion of a formula from being computed.
+const NO_CRITERION: &str = "the criterion is that of the paper, which has none for a formula";
+
 /// The criterion is left out where it differs by more than this from the exact one, relative to values above 1.
 pub const CRITERION_HOLDS: f64 = 1e-3;
 
@@ -227,6 +230,9 @@ impl Map {
     /// What keeps the map from being computed, if anything.
     fn complaint(&self) -> Option<String> {
         let has = |name| self.x.parameter == name || self.y.parameter == name;
+        if self.value == Value::Criterion && matches!(self.model, Model::Formula(_)) {
+            return Some(format!("{NO_CRITERION}; value must be \"margin\" (exact) or \"growth_rate\""));
+        }
         if self.value == Value::GrowthRate && !has("k") && self.point.wave_number.is_none() {
             return Some("growth_rate needs a wave number: an axis k, or uniform.k".to_owned());
         }
@@ -331,7 +337,7 @@ impl Map {
                 let k = point.wave_number.ok_or("needs a wave number")?;
                 Ok((response.growth_rate(k), precise().rounded().refined_growth_rate(k)))
             }
-            Value::Criterion => Err("the paper's criterion is one of its three laws: use margin".to_owned()),
+            Value::Criterion => Err(NO_CRITERION.to_owned()),
         }
     }
 }
@@ -374,7 +380,7 @@ fn stability(model: &Model, point: &Point) -> Result<(f64, Linear), String> {
             let (headway, speed) = steady()?;
             (criteria::logarithmic(law, headway, speed), law.linearise(headway, speed))
         }
-        Model::Formula(_) | Model::Own(_) => return Err("the paper's criterion is one of its three laws".to_owned()),
+        Model::Formula(_) | Model::Own(_) => return Err(NO_CRITERION.to_owned()),
     })
 }
 

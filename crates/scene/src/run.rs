@@ -5,7 +5,7 @@ use files::reader::{FINITE, POSITIVE, Reader, SceneError, Section};
 use jam::laws::Model;
 use jam::ring::{Ring, Start};
 pub use jam::run::{AtOverlap, Run as Scene};
-use jam::run::{fitting, flow, too_wide, without_value};
+use jam::run::{TOLERANCE, fitting, flow, too_wide, usual_method, without_value};
 use jam::states::StateVariables;
 use ode::{Control, Method};
 
@@ -64,8 +64,9 @@ fn read_for(file: &str, tables: &Section, purpose: Purpose) -> Result<Scene, Sce
     let t_end = run.number("t_end", POSITIVE)?;
     let sample = run.number("sample", POSITIVE)?;
     let method = method(&mut run)?;
-    let control = control(&mut run, method)?;
     let wanted = if run.has("state") { Some(run.one_of("state", &FORMS)?) } else { None };
+    let method = method.unwrap_or_else(|| usual_method(wanted, &model, ring, steady_speed));
+    let control = control(&mut run, method, TOLERANCE)?;
     let form = fitting(wanted, &model, ring, steady_speed, method);
     if let Some((pedestrian, value)) = without_value(&*form.build(&model, ring), start, ring) {
         let problem = format!(
@@ -185,22 +186,27 @@ fn most_steps(run: &mut Reader<'_>, control: Control, t_end: f64, purpose: Purpo
     }
 }
 
-pub(crate) fn method(run: &mut Reader<'_>) -> Result<Method, SceneError> {
-    run.one_of("method", &Method::ALL.map(|method| (method.name(), method)))
+/// The method that a scene names. One with steps of fixed length must name it.
+pub(crate) fn method(run: &mut Reader<'_>) -> Result<Option<Method>, SceneError> {
+    if run.has("method") || run.has("dt") {
+        return run.one_of("method", &Method::ALL.map(|method| (method.name(), method))).map(Some);
+    }
+    Ok(None)
 }
 
-/// `tolerance` for methods that choose their steps, `dt` for any.
-pub(crate) fn control(run: &mut Reader<'_>, method: Method) -> Result<Control, SceneError> {
+/// `tolerance` for methods that choose their steps, `usual` if nothing is named; `dt` for any.
+pub(crate) fn control(run: &mut Reader<'_>, method: Method, usual: f64) -> Result<Control, SceneError> {
     let tolerance = run.optional_number("tolerance", 1e-15..=1e-2)?;
     let step = run.optional_number("dt", POSITIVE)?;
     match (tolerance, step) {
         (None, Some(step)) => Ok(Control::Fixed { step }),
         (Some(tolerance), None) if method.is_adaptive() => Ok(Control::Adaptive { tolerance }),
+        (None, None) if method.is_adaptive() => Ok(Control::Adaptive { tolerance: usual }),
         (Some(_), None) => {
             let problem = format!("{} has no error estimate and needs dt, the length of its steps", method.name());
             Err(run.complaint("tolerance", &problem))
         }
         (Some(_), Some(_)) => Err(run.complaint("dt", "give either dt or tolerance, not both")),
-        (None, None) => Err(run.complaint("method", "needs tolerance (adaptive methods) or dt (fixed steps)")),
+        (None, None) => Err(run.complaint("method", "has no error estimate and needs dt, the length of its steps")),
     }
 }

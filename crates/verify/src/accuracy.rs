@@ -1,6 +1,6 @@
 //! Compares tables of error against work with the committed ones, and names the cheapest method for an error.
 
-use crate::precision::{COARSE_TARGETS, COSTS, FIXED, Row, SCENES, Scene, TARGETS};
+use crate::precision::{COARSE_TARGETS, COSTS, FIXED, Row, SCENES, Scene, TARGETS, timing};
 use crate::rows::{Relation, first_stranger};
 use checkout::disk;
 use checkout::failure::Failure;
@@ -130,7 +130,7 @@ fn bless(paths: &Paths, made: &Path, is_full: bool) -> Result<(), Failure> {
 fn read_scenes(paths: &Paths, folder: &Path) -> Result<Vec<Scene>, Failure> {
     let read = |scene: &str| {
         let table = format!("precision_{scene}");
-        Scene::read(scene, &folder.join(format!("{table}.csv")), &paths.timing(&table))
+        Scene::read(scene, &folder.join(format!("{table}.csv")), &timing(paths, &table))
     };
     SCENES.iter().map(|scene| read(scene)).collect()
 }

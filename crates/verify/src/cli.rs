@@ -56,6 +56,9 @@ struct JsonArgs {
 #[derive(Debug, Args)]
 struct ExplainArgs {
     id: String,
+    /// Why it is no figure either, for the message
+    #[arg(long, default_value = "")]
+    no_figure: String,
     #[arg(long)]
     json: bool,
 }
@@ -114,7 +117,11 @@ fn carry_out(cli: Cli) -> Result<(), Failure> {
         Verb::Explain(arguments) => match claims::explain(paths, &arguments.id)? {
             Some((_, value)) if arguments.json => print::json(value),
             Some((text, _)) => print::out(&text),
-            None => Err(Failure::Usage(format!("no claim, erratum or parameter {}", arguments.id))),
+            None => {
+                let ExplainArgs { id, no_figure, .. } = arguments;
+                let text = format!("{id}: no claim, erratum or parameter has this id\n{no_figure}");
+                Err(Failure::Usage(text.trim_end().to_owned()))
+            }
         },
         Verb::Costs => costs::tell(paths),
     }
@@ -142,7 +149,7 @@ fn judge(paths: &Paths, arguments: &JudgeArgs) -> Result<(), Failure> {
         claims::write(paths, &findings.claims.ledger)?;
         eprintln!("{LEDGER} is written as it was found: commit it");
     }
-    conclude(paths, &findings, arguments, &request)
+    conclude(&findings, arguments, &request)
 }
 
 fn findings(
@@ -168,21 +175,17 @@ fn findings(
     })
 }
 
-fn conclude(paths: &Paths, findings: &Findings, arguments: &JudgeArgs, request: &Request) -> Result<(), Failure> {
+fn conclude(findings: &Findings, arguments: &JudgeArgs, request: &Request) -> Result<(), Failure> {
     if findings.are_same() {
-        // what was made in the checkout itself stays
-        let name = request.base.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
-        let is_scratch = request.base.parent() == Some(&*paths.target) && Paths::is_scratch(&name);
-        return if is_scratch { disk::remove(&request.base) } else { Ok(()) };
+        return Ok(());
     }
     let mut wrong: Vec<&str> = findings.figures.iter().filter(|one| !one.is_same()).map(|one| &*one.id).collect();
     wrong.extend((!findings.claims.is_same()).then_some("claims"));
     wrong.extend((!findings.strays.is_empty()).then_some("lines that belong to no figure"));
-    let place = request.base.display();
-    let words = format!("not as committed: {}; what was made now lies in {place}", wrong.join(" "));
+    let words = format!("not as committed: {}", wrong.join(" "));
     if arguments.tolerant && findings.are_within() {
         eprintln!("{words}\nwithin the tolerances of {TOLERANCES}");
         return Ok(());
     }
-    Err(Failure::Differs(words))
+    Err(Failure::Differs(format!("{words}; what was made now lies in {}", request.base.display())))
 }

@@ -9,6 +9,8 @@ use files::pairs::{KEYS, pairs};
 use files::table::Table;
 use std::path::{Path, PathBuf};
 
+/// The table of distances, by name.
+const DISTANCES: &str = "data/paper-scheme/distance.csv";
 /// The header of the table of distances.
 pub const HEADER: &str = "figure,table,column,rows,largest_difference,at_t,at_n,verbatim,accurate,largest_relative,\
 relative_at_t,relative_at_n,published_points,verbatim_from_published,accurate_from_published";
@@ -101,7 +103,7 @@ pub fn tell(paths: &Paths, as_json: bool) -> Result<(), Failure> {
         eprintln!("cargo xtask figures makes the tables that tell how far these are from the accurate ones");
         return Ok(());
     }
-    disk::write_if_changed(&paths.distances(), to_csv(&distances).as_bytes())?;
+    disk::write_if_changed(&paths.root.join(DISTANCES), to_csv(&distances).as_bytes())?;
     if as_json { Ok(()) } else { print::out(&to_text(&distances)) }
 }
 
@@ -136,7 +138,7 @@ fn published(paths: &Paths, wanted: (&str, &str, &str), tables: &[Table; 2]) -> 
     else {
         return Ok(None);
     };
-    let path = paths.reference(name);
+    let path = paths.root.join("data/reference").join(format!("{name}.csv"));
     if !path.exists() {
         return Ok(None);
     }

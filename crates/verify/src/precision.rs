@@ -2,10 +2,10 @@
 
 use checkout::disk;
 use checkout::failure::Failure;
-use checkout::paths::Paths;
+use checkout::paths::{ACCURACY, Paths};
 use files::table::Sheet;
 use serde_json::{Value, json};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Errors for which the cheapest method is looked up.
 pub const TARGETS: [f64; 3] = [1e-6, 1e-9, 1e-12];
@@ -62,7 +62,7 @@ impl Scene {
     /// As [`Scene::read`].
     pub fn committed(paths: &Paths, name: &str) -> Result<Scene, Failure> {
         let table = format!("precision_{name}");
-        Scene::read(name, &paths.accuracy(&table), &paths.timing(&table))
+        Scene::read(name, &paths.root.join(ACCURACY).join(format!("{table}.csv")), &timing(paths, &table))
     }
 
     /// Reads the table of a scene, and its seconds where they are archived.
@@ -165,6 +165,11 @@ impl Scene {
             "least_errors": floors, "ballistic_gap_error_by_euler_gap_error": self.ratios("ballistic", "euler"),
         })
     }
+}
+
+/// A table of archived seconds.
+pub fn timing(paths: &Paths, table: &str) -> PathBuf {
+    paths.root.join("data/timing").join(format!("{table}.csv"))
 }
 
 fn row_json(row: &Row) -> Value {

@@ -34,7 +34,7 @@ impl Reference {
     /// Usage: a committed file is malformed. Differs: the table of events is missing.
     pub fn read(paths: &Paths, request: &Request) -> Result<Reference, Failure> {
         let missing = || Failure::Differs(format!("{EVENTS} does not exist: git restore it, or cargo xtask figures"));
-        let events = disk::read_text(&paths.events())?.ok_or_else(missing)?;
+        let events = disk::read_text(&paths.root.join(EVENTS))?.ok_or_else(missing)?;
         Reference::with_events(paths, request, &events)
     }
 

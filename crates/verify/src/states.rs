@@ -189,7 +189,7 @@ fn again(made: &Paths, survey: &Made<'_>, panel: &str) -> Result<String, Failure
         Some((key, _)) if key.trim().ends_with("record") => line.replace("\"std\"", "\"trajectories\"") + "\n",
         _ => format!("{line}\n"),
     };
-    let folder = made.states_scratch();
+    let folder = made.own().join("states");
     let file = folder.join("scene.toml");
     disk::write(&file, scene.lines().map(keep).collect::<String>().as_bytes())?;
     let mut command = Command::new(made.binary("simulate"));

@@ -47,7 +47,7 @@ const SCENES: [&str; 6] = [
 pub fn run(paths: &Paths, arguments: &AccuracyArgs) -> Result<(), Failure> {
     let _lock = Lock::take(paths)?;
     compile::tools(paths, STUDIES)?;
-    let made = paths.made_accuracy();
+    let made = paths.xtask().join("accuracy");
     disk::remove(&made)?;
     make(paths, arguments, &made)?;
     let mut verify = judge::program(paths)?;

@@ -113,7 +113,7 @@ fn numpy() -> Option<String> {
 }
 
 fn writable(paths: &Paths) -> Option<String> {
-    let probe = paths.probe();
+    let probe = paths.xtask().join("probe");
     disk::write(&probe, b"probe").and_then(|()| disk::remove(&probe)).ok().map(|()| "writable".to_owned())
 }
 

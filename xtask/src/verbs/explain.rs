@@ -24,8 +24,8 @@ pub fn run(paths: &Paths, arguments: &ExplainArgs) -> Result<(), Failure> {
         Ok(selected) => selected,
         Err(failure) => {
             let mut explain = judge::program(paths)?;
-            explain.args(["explain", &arguments.id]).args(arguments.json.then_some("--json"));
-            return judge::run(&mut explain).inspect_err(|_| eprintln!("{}", failure.text()));
+            explain.args(["explain", &arguments.id, "--no-figure", failure.text()]);
+            return judge::run(explain.args(arguments.json.then_some("--json")));
         }
     };
     let records = Records::read(paths)?;

@@ -59,7 +59,9 @@ pub fn run(paths: &Paths, arguments: &VerifyArgs) -> Result<(), Failure> {
     if let Some(file) = &arguments.report {
         verify.arg("--report").arg(file);
     }
-    judge::run(&mut verify)
+    judge::run(&mut verify)?;
+    // what differs stays, to be looked at
+    disk::remove(&scratch.base)
 }
 
 /// Judges what `figures --all` has made, where it stands: `ci` has just computed all of it.

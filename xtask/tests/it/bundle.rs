@@ -97,7 +97,7 @@ fn run_crate(text: &str, sums: &str) {
     for entity in graph.iter().filter(|one| one["@type"].to_string().contains("\"File\"")) {
         let name = entity["@id"].as_str().expect("a name");
         let is_there = sums.contains(&format!("  {name}\n"))
-            || [publish::bundle::crate_metadata::MAIN_WORKFLOW, "README.md"].contains(&name);
+            || [publish::bundle::descriptions::MAIN_WORKFLOW, "README.md"].contains(&name);
         assert!(is_there, "{name}");
     }
     for entity in graph {
@@ -152,18 +152,27 @@ fn it_refuses_what_is_modified_or_stale() {
 
 #[test]
 fn the_descriptions_say_what_the_citation_says() {
-    use publish::bundle::paper;
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../CITATION.cff");
-    let citation = fs::read_to_string(path).expect("CITATION.cff");
-    let version = format!("version: {}", paper::VERSION);
-    for text in [paper::TITLE, paper::DOI, paper::SOFTWARE, paper::MAKERS, &version].into_iter().chain(paper::KEYWORDS)
-    {
+    let read = |name: &str| {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name);
+        fs::read_to_string(&path).unwrap_or_else(|error| panic!("{name}: {error}"))
+    };
+    let citation = read("CITATION.cff");
+    let zenodo: serde_json::Value = serde_json::from_str(&read("crates/publish/src/bundle/zenodo.json")).expect("JSON");
+    let words = zenodo["keywords"].as_array().expect("keywords").iter();
+    let said = words.chain([
+        &zenodo["title"],
+        &zenodo["creators"][0]["name"],
+        &zenodo["related_identifiers"][0]["identifier"],
+    ]);
+    for text in said.map(|text| text.as_str().expect("a text")) {
         assert!(citation.contains(text), "{text}");
     }
-    for (family, given) in paper::AUTHORS {
-        assert!(
-            citation.contains(&format!("family-names: {family}\n      given-names: {given}\n")),
-            "{given} {family}"
-        );
+    assert!(citation.contains(&format!("version: {}", env!("CARGO_PKG_VERSION"))));
+    let authors = read("crates/publish/src/bundle/codecheck.yml");
+    let authors: Vec<&str> = authors.lines().filter_map(|line| line.trim().strip_prefix("- name: ")).collect();
+    assert_eq!(authors.len(), 6);
+    for (given, family) in authors.iter().map(|name| name.trim_matches('"').split_once(' ').expect("two names")) {
+        let name = format!("family-names: {family}\n      given-names: {given}\n");
+        assert!(citation.contains(&name), "{given} {family}");
     }
 }

@@ -1,13 +1,13 @@
 //! Text, and the table it is made from.
 
 use crate::{TABLE, header};
+use checkout::failure::Failure;
 use files::write::{Draft, publish};
-use interchange::Problem;
 use interchange::frames::{Frames, Row};
 use interchange::text;
 use std::fs;
 
-fn rows(table: &str) -> Result<Vec<Row>, Problem> {
+fn rows(table: &str) -> Result<Vec<Row>, Failure> {
     Frames::read("run.csv", table.as_bytes(), 2, 0.25)?.collect()
 }
 
@@ -58,7 +58,7 @@ fn frames_are_whole_and_in_order() {
     ] {
         assert!(TABLE.contains(from), "{from}");
         match rows(&TABLE.replace(from, to)) {
-            Err(Problem::Input(text)) => assert!(text.contains(problem), "{text}"),
+            Err(Failure::Usage(text)) => assert!(text.contains(problem), "{text}"),
             other => panic!("{from}: {other:?}"),
         }
     }

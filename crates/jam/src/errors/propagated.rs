@@ -20,6 +20,8 @@ pub struct Propagated {
     headway: f64,
     /// The size of the desired speed.
     desired: f64,
+    /// Whether the force has walls.
+    is_singular: bool,
     /// Whether spacings lose the shift.
     loses_shift: bool,
     shadow: Option<Shadow>,
@@ -30,9 +32,32 @@ pub struct Propagated {
     is_blind: bool,
     /// The largest error of the standard deviation so far.
     std: f64,
+    /// How large the errors of speeds were when that was looked at last, and how many steps ago.
+    looked_at: f64,
+    since: u32,
+    /// The last moment before a blow-up at which the error was small beside the state.
+    last_known: Option<LastKnown>,
+    /// The time at which the run ends.
+    t_end: f64,
     /// Of the times of events within steps.
     events: Vec<f64>,
 }
+
+/// A moment at which the error was a small part of the state: how late the run was, and that part.
+#[derive(Clone, Copy, Debug)]
+struct LastKnown {
+    time: f64,
+    late: f64,
+    part: f64,
+}
+
+/// Larger parts of the state do not follow linearised equations.
+const SMALL: f64 = 1e-3;
+
+/// The error of the standard deviation is looked at in every so many steps, while the errors of speeds have not grown by more
+/// than this factor since.
+const EVERY: u32 = 4;
+const GROWN: f64 = 1.1;
 
 /// The first order left out is not all that a step leaves out.
 const CAUTION: f64 = 2.0;
@@ -46,13 +71,15 @@ impl RunObserver for Propagated {
             self.is_blind = true;
             return;
         }
-        if sight.samples.is_none() && sight.new.is_empty() {
+        self.remember(step);
+        let samples = sight.samples.filter(|_| self.is_worth_looking(step, sight));
+        if samples.is_none() && sight.new.is_empty() {
             return;
         }
         let (n, dimension) = (self.pedestrians, step.after().len());
         let (mut error, mut state) = (vec![0.0; dimension], vec![0.0; dimension]);
         // between samples of one step errors grow or fade; the ends of the span tell both
-        let samples = sight.samples.map_or(Vec::new(), |[first, last]| vec![first, last]);
+        let samples = samples.map_or(Vec::new(), |[first, last]| vec![first, last]);
         for (index, time) in samples.iter().enumerate() {
             if index > 0 && samples[0] == *time {
                 continue;
@@ -73,6 +100,12 @@ impl RunObserver for Propagated {
         }
         for happening in sight.new {
             let place = step.fraction(happening.time);
+            let known = self.last_known.filter(|_| happening.kind == EventKind::BlowUp);
+            if let Some(LastKnown { time, late, part }) = known {
+                // later the error is as large as the state, but there is no time left for it to matter
+                self.events.push(late + part * (happening.time - time));
+                continue;
+            }
             error = self.error_at(place);
             step.at_fraction(place, &mut state);
             let mut rates = vec![0.0; dimension];
@@ -96,12 +129,17 @@ impl Propagated {
             clearance,
             shift: scene.start.shift,
             headway: scene.ring.headway(),
+            is_singular: scene.model.is_singular(),
             desired: scene.model.desired_speed().abs(),
             loses_shift: loses_shift(scene),
             shadow: None,
             lost: None,
             is_blind: !scene.method.needs_series() || has_kinks(&scene.model),
             std: 0.0,
+            looked_at: 0.0,
+            since: 0,
+            last_known: None,
+            t_end: scene.t_end,
             events: Vec::new(),
         }
     }
@@ -128,6 +166,33 @@ impl Propagated {
         let rounding = if is_in_gaps && self.lost.is_none() { f64::EPSILON * self.desired } else { 0.0 };
         let is_sure = self.lost.as_ref().is_none_or(Shadow::is_sure);
         is_sure && self.shadow.as_mut().is_some_and(|shadow| shadow.follow(step, rounding) && shadow.is_sure())
+    }
+
+    /// Whether the error of the standard deviation may be larger in this step than it was.
+    fn is_worth_looking(&mut self, step: &Step<'_>, sight: &Sight<'_, '_>) -> bool {
+        let Some(shadow) = self.lost.as_ref().or(self.shadow.as_ref()) else { return true };
+        let now = largest(&shadow.before()[self.pedestrians..2 * self.pedestrians]);
+        self.since += 1;
+        let is_worth =
+            now > GROWN * self.looked_at || self.since >= EVERY || step.end >= self.t_end || !sight.new.is_empty();
+        if is_worth {
+            (self.since, self.looked_at) = (0, now);
+        }
+        is_worth
+    }
+
+    /// Keeps what the error tells of the time of a blow-up to come, where one may come: at a wall, in spacings.
+    fn remember(&mut self, step: &Step<'_>) {
+        let (n, state) = (self.pedestrians, step.before());
+        let Some(shadow) = self.shadow.as_ref().filter(|_| self.is_singular && state.len() == 2 * n + 1) else {
+            return;
+        };
+        let (error, rates) = (shadow.before(), step.rates_before());
+        let part = largest(&error[n..2 * n]) / largest(&state[n..2 * n]);
+        if part < SMALL {
+            let late = largest(&error[..n]) / largest(&rates[..n]);
+            self.last_known = Some(LastKnown { time: step.start, late, part });
+        }
     }
 
     /// The error at a fraction of the step looked at last.

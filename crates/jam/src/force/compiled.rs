@@ -8,6 +8,7 @@ use crate::laws::Law;
 use crate::ramp::Bend;
 use math::affine::Affine;
 use math::change::{Player, Recorder, Tape};
+use math::dual::Dual;
 use math::lanes::Lanes;
 use math::simd::{Kernel, dispatch};
 use ode::Batch;
@@ -17,8 +18,8 @@ use std::cell::RefCell;
 #[derive(Clone, Debug)]
 pub struct Compiled<L: Law> {
     law: L,
-    /// How the acceleration of a uniform flow answers to its speed, where the formula is linear in the speeds.
-    relaxation: Option<f64>,
+    /// The slopes of the acceleration in the own speed and in that ahead, where the formula has the same ones everywhere.
+    speed_slopes: Option<[f64; 2]>,
     /// The uniform flow asked for last: once it is steady it is asked for again and again.
     reference: RefCell<Reference>,
     memory: RefCell<Memory>,
@@ -46,14 +47,12 @@ impl<L: Law> Compiled<L> {
     /// The force of this law.
     pub fn new(law: L) -> Compiled<L> {
         let reference = RefCell::new(Reference::new(&law, Flow { net_gap: 1.0, speed: 0.0 }));
-        Compiled { law, relaxation: relaxation(&law), reference, memory: RefCell::default() }
+        Compiled { law, speed_slopes: speed_slopes(&law), reference, memory: RefCell::default() }
     }
 }
 
-/// The slope of the acceleration in a speed that all share, if the formula has the same one everywhere.
-fn relaxation<L: Law>(law: &L) -> Option<f64> {
-    let [own, ahead] = law.acceleration(Affine::FREE, Affine::variable(0), Affine::variable(1)).slopes?;
-    Some(own + ahead)
+fn speed_slopes<L: Law>(law: &L) -> Option<[f64; 2]> {
+    law.acceleration(Affine::FREE, Affine::variable(0), Affine::variable(1)).slopes
 }
 
 impl<L: Law> Force for Compiled<L> {
@@ -92,11 +91,19 @@ impl<L: Law> Force for Compiled<L> {
     }
 
     fn uses_speeds(&self) -> bool {
-        self.relaxation.is_none()
+        self.speed_slopes.is_none()
     }
 
     fn relaxation(&self, _flow: Flow) -> f64 {
-        self.relaxation.unwrap_or(f64::NAN)
+        self.speed_slopes.map_or(f64::NAN, |[own, ahead]| own + ahead)
+    }
+
+    fn slopes(&self, more: f64, spacings: &[f64], slopes: &mut [f64]) -> bool {
+        let depends_on_these_alone = self.speed_slopes == Some([-1.0, 0.0]);
+        if depends_on_these_alone {
+            dispatch(Slopes { law: self.law, more, spacings, slopes });
+        }
+        depends_on_these_alone
     }
 
     fn bend(&self) -> Option<Bend> {
@@ -190,6 +197,40 @@ impl<L: Law> Kernel for Deviations<'_, L> {
         match law.plain() {
             Some(law) => around(&Changes { law, tape }, pace(&law), spacings, speeds, accelerations),
             None => around(&Changes { law, tape }, pace(&law), spacings, speeds, accelerations),
+        }
+    }
+}
+
+/// The derivatives of the accelerations by the net gaps.
+struct Slopes<'a, L> {
+    law: L,
+    /// What the spacings lack of net gaps.
+    more: f64,
+    spacings: &'a [f64],
+    slopes: &'a mut [f64],
+}
+
+impl<L: Law> Slopes<'_, L> {
+    #[inline(always)]
+    fn of(self, law: impl Law) {
+        let rest = Dual::constant(0.0);
+        for (slope, spacing) in self.slopes.iter_mut().zip(self.spacings) {
+            *slope = law.acceleration(Dual::variable(self.more + spacing), rest, rest).slope;
+        }
+    }
+}
+
+impl<L: Law> Kernel for Slopes<'_, L> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        match self.law.plain() {
+            Some(law) => self.of(law),
+            None => {
+                let law = self.law;
+                self.of(law);
+            }
         }
     }
 }

@@ -47,6 +47,12 @@ pub trait Force: std::fmt::Debug + Send {
     /// Has a meaning only where [`Force::uses_speeds`] is false.
     fn relaxation(&self, flow: Flow) -> f64;
 
+    /// Writes how the accelerations answer to the spacings, for spacings that are so much larger than these; false of a force
+    /// that depends on anything else besides one's own speed.
+    fn slopes(&self, _more: f64, _spacings: &[f64], _slopes: &mut [f64]) -> bool {
+        false
+    }
+
     /// Where the force bends sharply, if it does.
     fn bend(&self) -> Option<Bend> {
         None

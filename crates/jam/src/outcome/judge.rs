@@ -324,6 +324,7 @@ impl Judge {
         self.std = window.mean_std();
         self.decide(class, time, decision, lowest(&distances));
         if let Some(verdict) = &mut self.verdict {
+            verdict.lasting_least_speed = Some(window.least_speed);
             verdict.wave_speed = Some(window.mean_speed() + self.ring.headway() * label_speed);
         }
     }
@@ -341,6 +342,7 @@ impl Judge {
             least_gap: self.least_gap,
             least_speed: if self.least_speed.is_finite() { self.least_speed } else { self.least_of_all },
             std: self.std,
+            lasting_least_speed: None,
             wave_speed: None,
             distance,
         }

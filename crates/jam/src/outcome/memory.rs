@@ -39,10 +39,11 @@ impl Memory {
                 |is_before: &dyn Fn(&Class) -> bool| Class::ALL.iter().take_while(|class| is_before(class)).count();
             let class = index(&|class| *class != verdict.class);
             let decision = KEPT.iter().take_while(|decision| **decision != verdict.decision).count();
-            let Verdict { time, backward_flow, least_gap, least_speed, std, wave_speed, distance, .. } = verdict;
+            let Verdict { time, backward_flow, least_gap, least_speed, std, distance, .. } = verdict;
             let backward = if *backward_flow { 1.0 } else { 0.0 };
             all.extend([class as f64, decision as f64, *time, backward, *least_gap, *least_speed, *std, *distance]);
-            all.extend(*wave_speed);
+            // both of waves, none of anything else
+            all.extend(verdict.wave_speed.zip(verdict.lasting_least_speed).into_iter().flat_map(|(c, v)| [c, v]));
         }
         all
     }
@@ -72,8 +73,8 @@ impl Memory {
         };
         let verdict = match *rest {
             [] => None,
-            [class, decision, time, backward, least_gap, least_speed, std, distance, ref speed @ ..]
-                if speed.len() < 2 =>
+            [class, decision, time, backward, least_gap, least_speed, std, distance, ref waves @ ..]
+                if [0, 2].contains(&waves.len()) =>
             {
                 Some(Verdict {
                     class: *Class::ALL.get(whole(class)?)?,
@@ -83,7 +84,8 @@ impl Memory {
                     least_gap,
                     least_speed,
                     std,
-                    wave_speed: speed.first().copied(),
+                    lasting_least_speed: waves.get(1).copied(),
+                    wave_speed: waves.first().copied(),
                     distance,
                 })
             }

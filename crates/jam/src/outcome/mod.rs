@@ -136,6 +136,8 @@ pub struct Verdict {
     pub least_speed: f64,
     /// The standard deviation of the speeds, in units of `a_0 / tau`: of waves the mean over the last window, else that at the end.
     pub std: f64,
+    /// The least speed in the windows by which waves were judged; only of waves. That of the run may lie in their growth.
+    pub lasting_least_speed: Option<f64>,
     /// The speed at which waves travel along the ring, on the ground, in units of `a_0 / tau`, against the direction of walking if
     /// negative; only of waves.
     pub wave_speed: Option<f64>,
@@ -156,6 +158,7 @@ impl Verdict {
             least_gap: f64::NAN,
             least_speed: f64::NAN,
             std: f64::NAN,
+            lasting_least_speed: None,
             wave_speed: None,
             distance: 0.0,
         }

@@ -26,6 +26,17 @@ pub fn fitting(
     }
 }
 
+/// The method of a run that names none: Taylor's, or `dop853` where only that method keeps the state in deviations, in which a
+/// small perturbation loses no digits.
+pub fn usual_method(wanted: Option<StateVariables>, model: &Model, ring: Ring, speed: Option<f64>) -> Method {
+    let variables = wanted.unwrap_or(if has_deviations(model, ring, speed) {
+        StateVariables::Deviations
+    } else {
+        StateVariables::Spacings
+    });
+    if Method::Taylor.suits(&*variables.build(model, ring)) { Method::Taylor } else { Method::Dop853 }
+}
+
 /// Whether a ring has a uniform flow that its state can deviate from.
 pub fn has_deviations(model: &Model, ring: Ring, steady_speed: Option<f64>) -> bool {
     match (model, steady_speed) {

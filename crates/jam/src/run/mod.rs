@@ -13,7 +13,7 @@ mod samples;
 mod walls;
 
 pub use checkpoint::{Checkpoint, PartialRun};
-pub use form::{fitting, has_deviations, too_wide, without_value};
+pub use form::{fitting, has_deviations, too_wide, usual_method, without_value};
 pub use observer::{Judging, RunObserver, Sight};
 pub use outcome::{Broken, Narrowest, Outcome, Statistics};
 pub use recorder::{run, run_from};
@@ -67,8 +67,11 @@ pub enum AtOverlap {
     Continue,
 }
 
+/// The tolerance of a run that names none.
+pub const TOLERANCE: f64 = 1e-10;
+
 impl Run {
-    /// A run up to `t_end` by [`Method::Dop853`] with a tolerance of 1e-9, in deviations from the uniform flow where there is
+    /// A run up to `t_end` by the [usual method](usual_method) with a tolerance of [`TOLERANCE`], in deviations from the uniform flow where there is
     /// one, that keeps a sample at every unit of time and the trajectories. Other choices replace its fields.
     ///
     /// # Errors
@@ -94,7 +97,7 @@ impl Run {
             ));
         }
         let steady_speed = flow(&model, ring, None).map_err(|error| error.to_string())?;
-        let method = Method::Dop853;
+        let method = usual_method(None, &model, ring, steady_speed);
         let form = fitting(None, &model, ring, steady_speed, method);
         if let Some((pedestrian, value)) = without_value(&*form.build(&model, ring), start, ring) {
             return Err(format!(
@@ -109,7 +112,7 @@ impl Run {
             t_end,
             sample: 1.0,
             method,
-            control: Control::Adaptive { tolerance: 1e-9 },
+            control: Control::Adaptive { tolerance: TOLERANCE },
             most_steps: ode::MOST_STEPS,
             form,
             keeps_trajectories: true,

@@ -4,11 +4,12 @@
 //! distance `X` and speed `V` of the uniform flow, `dX/dt = V`, `dV/dt = f(V, V, Delta y)`. A perturbation of any size
 //! keeps all its digits, and an error is one of the perturbation, not of the state.
 
+use super::tangent::{fastest, series};
 use super::{FlowAlong, LEAST_SIZE, RingSystem, closing_rates};
 use crate::force::{Flow, Force, Motion};
 use crate::observe::spread;
 use crate::ring::{Ring, Start};
-use ode::{Group, Measure, System};
+use ode::{Group, Measure, System, Tangent};
 use std::ops::Range;
 
 /// The ring as deviations from its uniform flow.
@@ -82,6 +83,28 @@ impl System for Deviations {
             next[first] = done[n] * share;
             next[distance] = done[speed] * share;
             next[speed] = relaxation * done[speed] * share;
+        }
+    }
+
+    fn tangent_size(&self) -> usize {
+        if self.force.slopes(0.0, &[], &mut []) { self.pedestrians } else { 0 }
+    }
+
+    fn tangent(&self, state: &[f64], tangent: &mut [f64]) -> f64 {
+        self.force.slopes(self.net_gap, &state[..self.pedestrians], tangent);
+        fastest(tangent)
+    }
+
+    fn difference(&self, tangent: Tangent<'_>, order: usize, unit: f64, coefficients: &mut [f64]) {
+        let (n, dimension) = (self.pedestrians, self.dimension());
+        series(tangent, order, unit, coefficients);
+        let (first, distance, speed) = self.extras();
+        for k in 0..order {
+            let share = unit / (k + 1) as f64;
+            let (done, next) = coefficients[k * dimension..].split_at_mut(dimension);
+            next[first] = done[n] * share;
+            next[distance] = done[speed] * share;
+            next[speed] = -done[speed] * share;
         }
     }
 

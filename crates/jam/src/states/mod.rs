@@ -9,6 +9,7 @@
 mod deviations;
 mod positions;
 mod spacings;
+mod tangent;
 
 pub use crate::force::{Cut, heun_steps};
 pub use deviations::Deviations;

@@ -1,11 +1,12 @@
 //! Spacings and speeds: `[s_0 - s_c .. s_{N-1} - s_c, v_0 .. v_{N-1}, x_0]` with the gap `s_c` at contact (2, or 0 for the
 //! logarithmic law): a gap that closes keeps all its digits.
 
+use super::tangent::{fastest, series};
 use super::{LEAST_SIZE, RingSystem, closing_rates};
 use crate::force::{Flow, Force, Motion};
 use crate::observe::spread;
 use crate::ring::{Ring, Start};
-use ode::{Group, Measure, System};
+use ode::{Group, Measure, System, Tangent};
 use std::ops::Range;
 
 /// The ring as gaps and speeds.
@@ -52,6 +53,24 @@ impl System for Spacings {
         let (n, dimension) = (self.pedestrians, self.dimension());
         self.force.series(Motion { flow: AT_REST, pedestrians: n, order, unit, dimension, coefficients });
         for k in 1..order {
+            let (done, next) = coefficients[k * dimension..].split_at_mut(dimension);
+            next[2 * n] = done[n] * (unit / (k + 1) as f64);
+        }
+    }
+
+    fn tangent_size(&self) -> usize {
+        if self.force.slopes(0.0, &[], &mut []) { self.pedestrians } else { 0 }
+    }
+
+    fn tangent(&self, state: &[f64], tangent: &mut [f64]) -> f64 {
+        self.force.slopes(0.0, &state[..self.pedestrians], tangent);
+        fastest(tangent)
+    }
+
+    fn difference(&self, tangent: Tangent<'_>, order: usize, unit: f64, coefficients: &mut [f64]) {
+        let (n, dimension) = (self.pedestrians, self.dimension());
+        series(tangent, order, unit, coefficients);
+        for k in 0..order {
             let (done, next) = coefficients[k * dimension..].split_at_mut(dimension);
             next[2 * n] = done[n] * (unit / (k + 1) as f64);
         }

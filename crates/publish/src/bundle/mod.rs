@@ -3,24 +3,23 @@
 //! Its bytes depend on the commit alone: members are sorted, owners, modes and dates are fixed (the date is that of the
 //! commit), nothing is compressed.
 
-pub mod codecheck;
-pub mod crate_metadata;
+pub mod descriptions;
 pub mod git;
-pub mod paper;
 pub mod tarball;
-pub mod zenodo;
 
 use checkout::disk;
 use checkout::failure::Failure;
 use checkout::figure::{self, Figure};
 use checkout::outputs;
-use checkout::paths::{BUNDLE_TOP, DOCUMENT_PDF, PAGE, Paths, VENDOR};
+use checkout::paths::{BUNDLE_TOP, DOCUMENT_PDF, PAGE, Paths};
 use checkout::print;
 use checkout::process;
 use git::Commit;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+/// In the archive, the folder of the crates that the lock file names.
+const VENDOR: &str = "vendor";
 /// In the archive, what tells cargo of that folder; `.cargo/config.toml` includes it where it exists.
 const VENDORED_CONFIG: &str = ".cargo/vendored.toml";
 /// Documents that belong into the archive when they have been made.
@@ -83,13 +82,9 @@ pub fn gather(paths: &Paths, figures: &[Figure], commit: &Commit) -> Result<Memb
         members.entry(name).or_insert(Member { content, is_program: false });
     }
     members.extend(vendored(paths)?);
-    let texts = [
-        (VENDORED_CONFIG, vendored_config()),
-        ("COMMIT", format!("{}\n{}\n", commit.hash, commit.date)),
-        ("codecheck.yml", codecheck::text(paths, figures)?),
-        (".zenodo.json", zenodo::text(commit)?),
-        ("ro-crate-metadata.json", crate_metadata::text(paths, figures, commit, &members)?),
-    ];
+    let mut texts = descriptions::texts(paths, figures, commit, &members)?.to_vec();
+    texts.push((VENDORED_CONFIG, vendored_config()));
+    texts.push(("COMMIT", format!("{}\n{}\n", commit.hash, commit.date)));
     for (name, text) in texts {
         members.insert(name.to_owned(), Member { content: Content::Bytes(text.into_bytes()), is_program: false });
     }
@@ -98,7 +93,7 @@ pub fn gather(paths: &Paths, figures: &[Figure], commit: &Commit) -> Result<Memb
 
 /// The sources of all crates that the lock file names, so that nothing has to be fetched.
 fn vendored(paths: &Paths) -> Result<Members, Failure> {
-    let folder = paths.vendored();
+    let folder = paths.target.join("bundle").join(VENDOR);
     disk::remove(&folder)?;
     let mut cargo = process::cargo();
     cargo.args(["vendor", "--quiet", "--locked", "--versioned-dirs"]).arg(&folder).current_dir(&paths.root);

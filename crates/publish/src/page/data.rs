@@ -218,7 +218,7 @@ const PUBLISHED: [(&str, &str, &str, &str, [&str; 2]); 2] = [
 pub fn published(source: &Source<'_>) -> Result<Vec<Published>, Failure> {
     let read = |(id, title, file, curve, columns): (&'static str, &'static str, &'static str, &'static str, _)| {
         let [x, y]: [&'static str; 2] = columns;
-        let path = source.paths.reference(file);
+        let path = source.paths.root.join("data/reference").join(format!("{file}.csv"));
         let theirs = Table::read(&path).map_err(Failure::at(&path))?;
         let ours = source.table(curve)?;
         let (places, values) = (column(&ours, x)?, column(&ours, y)?);

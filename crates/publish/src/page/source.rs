@@ -12,6 +12,9 @@ use files::table::Table;
 use serde_json::Value;
 use std::collections::BTreeMap;
 
+/// What each picture shows, in words, by name.
+const ALTERNATIVES: &str = "paper/alternatives.toml";
+
 /// Words and LaTeX symbol of columns, by table and column.
 type Columns = BTreeMap<(String, String), (String, String)>;
 
@@ -53,7 +56,7 @@ impl Source<'_> {
     /// # Errors
     /// There are none: a picture without them is lost on those who cannot see it.
     pub fn alternative(&self, id: &str) -> Result<&str, Failure> {
-        let missing = || Failure::failed(format!("{}: no words for {id}", self.paths.alternatives().display()));
+        let missing = || Failure::failed(format!("{ALTERNATIVES}: no words for {id}"));
         self.alternatives.get(id).map(String::as_str).ok_or_else(missing)
     }
 
@@ -97,7 +100,7 @@ impl Source<'_> {
 }
 
 fn alternatives(paths: &Paths) -> Result<BTreeMap<String, String>, Failure> {
-    let path = paths.alternatives();
+    let path = paths.root.join(ALTERNATIVES);
     let text = disk::read_text(&path)?.ok_or_else(|| Failure::failed(format!("{}: no such file", path.display())))?;
     let section = Section::parse(&path.display().to_string(), &text).map_err(Failure::failed)?;
     let words = section.entries.into_iter().filter_map(|(id, entry)| match entry.value {
@@ -108,7 +111,7 @@ fn alternatives(paths: &Paths) -> Result<BTreeMap<String, String>, Failure> {
 }
 
 fn columns(paths: &Paths) -> Result<Columns, Failure> {
-    let path = paths.data_package();
+    let path = paths.root.join("data/datapackage.json");
     let text = disk::read_text(&path)?.ok_or_else(|| Failure::failed(format!("{}: no such file", path.display())))?;
     let package: Value = serde_json::from_str(&text).map_err(Failure::at(&path))?;
     let mut columns = BTreeMap::new();

@@ -4,12 +4,11 @@
 mod accuracy;
 pub mod form;
 mod ledger;
-mod outcomes;
+mod measured;
 mod published;
 mod runs;
 mod scenes;
 pub mod sheet;
-mod units;
 
 use checkout::failure::Failure;
 use checkout::figure::Figure;
@@ -61,8 +60,7 @@ impl Quantities {
         runs::collect(&source, &mut all)?;
         published::collect(&source, &mut all)?;
         accuracy::collect(&source, &mut all)?;
-        units::collect(&source, &mut all)?;
-        outcomes::collect(&source, &mut all)?;
+        measured::collect(&source, &mut all)?;
         ledger::collect(&source, &mut all)?;
         Ok(all)
     }

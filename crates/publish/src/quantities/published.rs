@@ -50,11 +50,6 @@ pub fn collect(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure>
         sorted.sort_by(f64::total_cmp);
         all.rounded(&format!("published.{short}.median"), sorted[sorted.len() / 2], 2, &from);
     }
-    let name = "data/s10/rivals.csv";
-    let rival = Sheet::read(source.paths, name)?.only(&[("rival", "both")])?;
-    for column in ["v0", "length"] {
-        all.exact(&format!("rivals.both.{column}"), rival.first(column)?, name);
-    }
     Ok(())
 }
 

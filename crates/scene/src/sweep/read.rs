@@ -7,7 +7,7 @@ use crate::run::{self, AtOverlap, FORMS};
 use files::reader::{Entry, FINITE, POSITIVE, Reader, SceneError, Section, Value};
 use jam::laws::Model;
 use jam::ring::{Ring, Start};
-use ode::Control;
+use ode::{Control, Method};
 
 /// As many cells as a sweep may have: 100 bytes each.
 const MOST_CELLS: usize = 400_000_000;
@@ -109,12 +109,15 @@ fn gap(file: &str, tables: &mut Section, axes: [&Axis; 2]) -> Result<Option<f64>
     Ok(Some(gap))
 }
 
+/// The tolerance of a cell's run where the scene names neither `tolerance` nor `dt`.
+const TOLERANCE: f64 = 1e-6;
+
 /// `[run]` of a sweep: nothing is sampled and nothing recorded.
 fn settings(file: &str, section: &Section, model: &Model) -> Result<Settings, SceneError> {
     let mut run = Reader::new(file, "run", section);
     let t_end = run.number("t_end", POSITIVE)?;
-    let method = run::method(&mut run)?;
-    let control = run::control(&mut run, method)?;
+    let method = run::method(&mut run)?.unwrap_or(Method::Taylor);
+    let control = run::control(&mut run, method, TOLERANCE)?;
     let form = if run.has("state") { Some(run.one_of("state", &FORMS)?) } else { None };
     let most_steps = run.optional_number("most_steps", 1.0..=1e11)?.map_or(MOST_STEPS, |most| most as u64);
     if run::at_overlap(&mut run, model)? == AtOverlap::Continue {

@@ -272,11 +272,6 @@ fn complaints_about_the_run() {
                 ":15: run.dt = 0.1: give either dt or tolerance, not both",
             ),
             (
-                "tolerance = 1e-11",
-                "",
-                ":13: run.method = \"dop853\": needs tolerance (adaptive methods) or dt (fixed steps)",
-            ),
-            (
                 "\"dop853\"",
                 "\"heun\"",
                 ":14: run.tolerance = 1e-11: heun has no error estimate and needs dt, the length of its steps",

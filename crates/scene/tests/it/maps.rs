@@ -228,3 +228,16 @@ fn curves_of_the_force() {
     assert!(force[4].abs() < 1e-15, "{force:?}");
     assert!(force.windows(2).all(|pair| pair[1] <= pair[0]), "{force:?}");
 }
+
+#[test]
+fn a_formula_has_no_criterion_of_the_paper() {
+    let text = "[law]\nkind = \"formula\"\nacceleration = \"tanh(s - d) - v\"\nbody = 0.0\n[map]\nvalue = \"criterion\"\n\
+                x = { parameter = \"headway\", from = 1.0, to = 2.0, cells = 2 }\n\
+                y = { parameter = \"d\", from = 1.0, to = 2.0, cells = 2 }\n";
+    let recipe = recipe(text);
+    let error =
+        scene::map::read("my.toml", &recipe.panels[0].tables).map(|_| ()).expect_err("no criterion").to_string();
+    for said in ["my.toml:5", "criterion", "formula", "\"margin\"", "\"growth_rate\""] {
+        assert!(error.contains(said), "{said}: {error}");
+    }
+}

@@ -136,6 +136,23 @@ fn waves_travel_as_fast_as_is_said() {
     assert!(off.abs() < 0.5, "{moved} in 50 at {speed}: off by {off}");
 }
 
+/// The slowest of lasting waves, against the slowest of snapshots; in the whole run somebody is slower.
+#[test]
+fn the_least_speed_of_lasting_waves_is_not_that_of_their_growth() {
+    let own = scene(&waves(3.0), SMALL, 0.1, TAYLOR);
+    let found = verdict(&own);
+    let lasting = found.lasting_least_speed.expect("waves");
+    let slowest = (0..20).map(|index| {
+        let adaptive = format!("t_end = {:?}\nmethod = \"dop853\"\ntolerance = 1e-9", 450.0 + 0.13 * f64::from(index));
+        let outcome = run(&scene(&waves(3.0), SMALL, 0.1, &adaptive), Judging::No);
+        outcome.speeds.iter().copied().fold(f64::INFINITY, math::smaller)
+    });
+    let snapshots = slowest.fold(f64::INFINITY, math::smaller);
+    assert!(found.least_speed <= lasting && (-1e-5..2e-3).contains(&(snapshots - lasting)), "{found:?} {snapshots}");
+    let decayed = verdict(&scene(&waves(3.0).replace("0.36", "0.1"), SMALL, 0.1, TAYLOR));
+    assert_eq!((decayed.class, decayed.lasting_least_speed), (Class::Decays, None));
+}
+
 #[test]
 fn an_outcome_is_the_same_along_the_run_and_at_any_sampling() {
     let own = scene(&waves(3.0), SMALL, 0.1, TAYLOR);

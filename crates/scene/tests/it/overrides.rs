@@ -74,3 +74,28 @@ fn any_value_can_be_set_and_a_step_takes_the_place_of_a_tolerance() {
     scene::overrides::set(&tables, values).canonical("", &mut lines);
     assert_eq!(lines, ["law.v0 = 2.0", "map.x.cells = 9.0", "run.dt = 0.5", "run.sample = 1.0"]);
 }
+
+#[test]
+fn a_scene_without_a_method_takes_taylors() {
+    let text = |law: &str, run: &str| {
+        format!(
+            "[law]\nkind = \"algebraic\"\nmu = 0.45\nq = 2\nv0 = 3.0\n{law}\n[ring]\npedestrians = 10\nlength = 30.0\n[start]\nshift = 0.1\n[run]\nt_end = 5.0\nsample = 1.0\n{run}"
+        )
+    };
+    let read = |law: &str, run: &str| {
+        let file = files::scene_file::parse("own.toml", &text(law, run)).expect("TOML");
+        scene::run::read("own.toml", &file.panels[0].tables)
+    };
+    let chosen = |law: &str, run: &str| {
+        let scene = read(law, run).expect("a scene");
+        (scene.method, scene.control)
+    };
+    let usual = Control::Adaptive { tolerance: 1e-10 };
+    assert_eq!(chosen("", ""), (Method::Taylor, usual));
+    assert_eq!(chosen("", "tolerance = 1e-7"), (Method::Taylor, Control::Adaptive { tolerance: 1e-7 }));
+    assert_eq!(chosen("", "method = \"verner76\""), (Method::Verner76, usual));
+    let missing = read("", "dt = 0.01").expect_err("steps of fixed length by no method").to_string();
+    assert!(missing.contains("method"), "{missing}");
+    let fixed = read("", "method = \"heun\"").expect_err("heun without dt").to_string();
+    assert!(fixed.contains("heun") && fixed.contains("dt"), "{fixed}");
+}

@@ -1,0 +1,135 @@
+//! A small difference from a solution, carried over steps by the linearised equations, for systems that tell them
+//! ([`crate::System::tangent`]). A step whose solution has become slow may be long for a difference, which then takes more
+//! orders than the step, or is carried over it in several pieces.
+
+use crate::dense::Step;
+use crate::system::{System, Tangent};
+use crate::taylor::Change;
+use crate::vector::largest;
+use math::simd::dispatch;
+
+/// The series of a difference over the step looked at last.
+#[derive(Clone, Debug)]
+pub(crate) struct Linear {
+    /// The coefficients of the equations at the start of the step or of its last piece, at its end, and their growth over a
+    /// piece.
+    start: Vec<f64>,
+    end: Vec<f64>,
+    growth: Vec<f64>,
+    /// How fast differences move at most, at the end of the step.
+    fastest: f64,
+    /// Whether `end` is known from the step before, and for how many more steps it may stand for theirs.
+    is_known: bool,
+    is_steady: bool,
+    steady_for: u32,
+    /// The rows of all pieces, which are equally long; what stands behind them is of no meaning.
+    rows: Vec<f64>,
+    /// How many numbers the rows of a piece are.
+    length: usize,
+    pieces: usize,
+}
+
+/// Terms of a series from the first that is smaller than this part are left out.
+const REST: f64 = 3e-3;
+
+/// A piece is at most so long, in units of the time in which differences move: terms of longer ones would cancel.
+const LONGEST: f64 = 10.0;
+
+/// More pieces than this would cost more than the step.
+const MOST_PIECES: f64 = 100.0;
+
+/// Coefficients that change by no more than this part over a step stand for those of a few more steps.
+const STEADY: f64 = 0.01;
+const STEADY_FOR: u32 = 3;
+
+impl Linear {
+    /// For a system; `None` if it does not tell its linearised equations.
+    pub(crate) fn new(system: &dyn System) -> Option<Linear> {
+        let size = system.tangent_size();
+        let zeros = || vec![0.0; size];
+        (size > 0).then(|| Linear {
+            start: zeros(),
+            end: zeros(),
+            growth: zeros(),
+            fastest: 0.0,
+            is_known: false,
+            is_steady: false,
+            steady_for: 0,
+            rows: Vec::new(),
+            length: 0,
+            pieces: 0,
+        })
+    }
+
+    /// Carries a difference, known at the start of a step, over the step; false where it moves too fast.
+    pub(crate) fn expand(&mut self, step: &Step<'_>, error: &[f64]) -> bool {
+        let fastest = self.look(step);
+        let turns = fastest * step.length();
+        let pieces = (turns / LONGEST).ceil();
+        if !(pieces <= MOST_PIECES) {
+            return false;
+        }
+        self.pieces = if pieces > 1.0 { pieces as usize } else { 1 };
+        let share = 1.0 / self.pieces as f64;
+        let (order, unit, dimension) = (order(turns * share), step.length() * share, error.len());
+        self.length = (order + 1) * dimension;
+        if self.rows.len() < self.pieces * self.length {
+            self.rows.resize(self.pieces * self.length, 0.0);
+        }
+        self.rows[..dimension].copy_from_slice(error);
+        self.growth.iter_mut().for_each(|growth| *growth *= share);
+        for piece in 0..self.pieces {
+            let (done, rest) = self.rows.split_at_mut(piece * self.length);
+            let rows = &mut rest[..self.length];
+            if piece > 0 {
+                whole(&done[done.len() - self.length..], dimension, 1.0, &mut rows[..dimension]);
+                self.start.iter_mut().zip(&self.growth).for_each(|(start, growth)| *start += growth);
+            }
+            let growth = if self.is_steady { &[][..] } else { &self.growth[..] };
+            step.system.difference(Tangent { start: &self.start, growth }, order, unit, rows);
+        }
+        true
+    }
+
+    /// Finds the coefficients at the start of the step and their growth; returns how fast differences move at most.
+    fn look(&mut self, step: &Step<'_>) -> f64 {
+        let before = if self.is_known { self.fastest } else { step.system.tangent(step.before(), &mut self.end) };
+        self.start.copy_from_slice(&self.end);
+        self.is_steady = self.steady_for > 0;
+        if self.is_steady {
+            self.steady_for -= 1;
+            self.growth.fill(0.0);
+            return before;
+        }
+        // after steady steps `end` is that of an earlier one, near enough
+        self.fastest = step.system.tangent(step.after(), &mut self.end);
+        self.is_known = true;
+        for (growth, (start, end)) in self.growth.iter_mut().zip(self.start.iter().zip(&self.end)) {
+            *growth = end - start;
+        }
+        self.steady_for = if largest(&self.growth) <= STEADY * largest(&self.end) { STEADY_FOR } else { 0 };
+        if self.fastest > before { self.fastest } else { before }
+    }
+
+    /// Writes the difference at the fraction `theta` of the step, of what was there at its start.
+    pub(crate) fn at(&self, theta: f64, result: &mut [f64]) {
+        let place = theta * self.pieces as f64;
+        let piece = (place as usize).min(self.pieces - 1);
+        whole(&self.rows[piece * self.length..][..self.length], result.len(), place - piece as f64, result);
+    }
+}
+
+/// The sum of a series.
+fn whole(rows: &[f64], n: usize, h: f64, result: &mut [f64]) {
+    dispatch(Change::<true> { rows, n, from: 0, h, result });
+}
+
+/// The last order whose term counts, where each is `turns / k` times the one before.
+fn order(turns: f64) -> usize {
+    let (mut order, mut term) = (1, turns);
+    while term > REST {
+        order += 1;
+        term *= turns / order as f64;
+    }
+    order
+}
