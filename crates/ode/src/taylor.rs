@@ -318,4 +318,4 @@ pub(crate) fn forced(system: &dyn System) -> Vec<Range<usize>> {
 /// So many components at a time.
 const LANES: usize = 16;
 /// And so many of a sum over all orders.
-const WIDE: usize = 32;
+const WIDE: usize = 40;
