@@ -209,7 +209,7 @@ impl Kernel for Largest<'_> {
         for (lane, value) in rest.iter().enumerate() {
             take(lane, *value);
         }
-        // the sums tell a number that is none, which no comparison finds
+        // a sum shows NaN, which no comparison finds
         let [a, b, c, d, e, f, g, h] = sum;
         if (((a + b) + (c + d)) + ((e + f) + (g + h))).is_nan() {
             return f64::NAN;
@@ -218,8 +218,8 @@ impl Kernel for Largest<'_> {
     }
 }
 
-/// So many components at a time where sums over stages stay in registers.
+/// Components per iteration where sums over stages stay in registers.
 const WIDE: usize = 16;
 
-/// So many components at a time where several numbers are gathered.
+/// Components per iteration where several numbers are gathered.
 const LANES: usize = 8;

@@ -1,4 +1,4 @@
-//! `test` and `ci`: run the checks in order and list those that could not be tried.
+//! `test` and `ci`: run the checks in order and list those that could not be run.
 
 use super::{figures, publish, verify};
 use crate::cli::{BundleArgs, CiArgs, FiguresArgs, Selection};

@@ -30,7 +30,7 @@ pub struct Motion<'a> {
     pub coefficients: &'a mut [f64],
 }
 
-/// So many pedestrians at a time.
+/// Pedestrians per iteration.
 const W: usize = 24;
 
 /// As many operations that are not linear as a compiled formula has at most.

@@ -263,7 +263,7 @@ impl Model {
         each!(self, law => contact_of(law), formula => formula.contact())
     }
 
-    /// Whether the force is infinite where the room ends (see [`Law::SINGULAR`]).
+    /// Whether the force is infinite at contact (see [`Law::SINGULAR`]).
     pub fn is_singular(&self) -> bool {
         each!(self, law => is_singular(law), formula => formula.is_singular())
     }

@@ -161,7 +161,7 @@ fn wrapping(all: &mut Quantities) {
     }
 }
 
-/// The paper's scheme word for word: the stable run of figure 4 beside the solution, and distances of every curve.
+/// The paper's scheme taken literally: the stable run of figure 4 beside the solution, and distances of every curve.
 fn verbatim(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
     let sheet = table(source, "verbatim_fig04_stable")?;
     for t in ["500", "1000", "2000"] {

@@ -11,7 +11,7 @@ use math::series::recurrences::{self as next, History};
 use math::simd::Kernel;
 use std::cell::Cell;
 
-/// So many pedestrians at a time.
+/// Pedestrians per iteration.
 pub const W: usize = 16;
 
 /// A row of a block for each order.
