@@ -213,7 +213,7 @@ impl Largest<'_> {
             // the last block begins earlier rather than be cut: what is seen twice is no larger
             sizes.take(&self.0[from.min(n - LANES)..]);
         }
-        // the sums tell a number that is none, which no comparison finds
+        // a sum shows NaN, which no comparison finds
         if sizes.sum.iter().sum::<f64>().is_nan() {
             return f64::NAN;
         }
@@ -236,8 +236,8 @@ impl Kernel for Largest<'_> {
     }
 }
 
-/// So many components at a time where sums over stages stay in registers.
+/// Components per iteration where sums over stages stay in registers.
 const WIDE: usize = 16;
 
-/// So many components at a time where several numbers are gathered.
+/// Components per iteration where several numbers are gathered.
 const LANES: usize = 8;

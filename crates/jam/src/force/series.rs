@@ -35,7 +35,7 @@ pub struct Motion<'a> {
     pub coefficients: &'a mut [f64],
 }
 
-/// So many pedestrians at a time; more than there are orders, so that what spoils a pedestrian an order does not come through.
+/// Pedestrians per iteration; more than there are orders, so that what spoils a pedestrian an order does not come through.
 const W: usize = 24;
 
 /// As many operations that are not linear as a compiled formula has at most.

@@ -308,7 +308,7 @@ impl Model {
         each!(self, law => contact_of(law), formula => formula.contact(), own => own.contact())
     }
 
-    /// Whether the force is infinite where the room ends (see [`Law::SINGULAR`]).
+    /// Whether the force is infinite at contact (see [`Law::SINGULAR`]).
     pub fn is_singular(&self) -> bool {
         each!(self, law => is_singular(law), formula => formula.is_singular(), own => own.is_singular())
     }

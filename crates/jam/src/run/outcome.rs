@@ -78,7 +78,10 @@ impl std::fmt::Display for Broken {
         write!(f, "{}", self.failure)?;
         self.advice.map_or(Ok(()), |advice| write!(f, "; {advice}"))?;
         self.narrowest.map_or(Ok(()), |Narrowest { pedestrian, gap, room, speed }| {
-            write!(f, "; least room then: pedestrian {pedestrian}, gap {gap:?}, room {room:?}, speed {speed:?}")
+            write!(
+                f,
+                "; smallest effective gap then: {room:?}, of pedestrian {pedestrian}, spacing {gap:?}, speed {speed:?}"
+            )
         })
     }
 }

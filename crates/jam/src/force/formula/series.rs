@@ -10,7 +10,7 @@ use math::series::recurrences::{self as next, History};
 use math::series::{Block, ROWS};
 use math::simd::Kernel;
 
-/// So many pedestrians at a time.
+/// Pedestrians per iteration.
 pub const W: usize = 16;
 
 /// A row of a block for each order.
