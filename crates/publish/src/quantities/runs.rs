@@ -56,7 +56,10 @@ fn events(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
     for row in table(source.paths, EVENTS)?.rows() {
         let [Cell::Word(scene), Cell::Word(event), Cell::Number(time), Cell::Number(n), Cell::Number(spread)] = row
         else {
-            return Err(Failure::Usage(format!("{EVENTS}: a row of {} cells that is no event", row.len())));
+            return Err(Failure::Usage(format!(
+                "{EVENTS}: expected scene,event,t,n,uncertainty, found a row of {} other cells",
+                row.len()
+            )));
         };
         let (start, from) = (format!("{scene}.{event}"), format!("{EVENTS}: {scene}, {event}"));
         if all.by_name.contains_key(&format!("{start}.t")) {
