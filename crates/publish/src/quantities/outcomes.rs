@@ -34,7 +34,8 @@ pub fn collect(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure>
     how_sure(source, all)?;
     bands(source, all)?;
     begin(source, all)?;
-    waves(source, all)
+    waves(source, all)?;
+    irregular(source, all)
 }
 
 /// The planes of each supplement.
@@ -148,6 +149,10 @@ fn waves(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
         let rows = varied.only(&[("varied", what)])?;
         Ok(rows.largest(column)? - rows.least(column)?)
     };
+    // with a desired speed larger by as much as the slowest is slow, nobody in the plane walks backwards
+    let plane = Sheet::read(source.paths, "data/s18/relative.csv")?;
+    let backwards = plane.only(&[("outcome", "waves_backwards")])?;
+    all.rounded("waves.slowest-of-plane", backwards.least("least_speed")?, 2, &plane.name);
     for what in ["method", "shift"] {
         all.rounded(&format!("waves.{what}.std-differs"), spread(what, "std")?, 1, name);
         all.rounded(&format!("waves.{what}.speed-differs"), spread(what, "wave_speed")?, 1, name);
@@ -169,3 +174,33 @@ fn waves(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
     }
     Ok(())
 }
+
+/// The irregular waves of supplement 26, and the regular ones that they become.
+fn irregular(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
+    let runs = Sheet::read(source.paths, "data/s26/runs.csv")?;
+    let name = &runs.name;
+    let [first, error] = ["irregular_std", "irregular_std_error"].map(|column| runs.first(column));
+    all.uncertain("irregular.std", first?, error?, name);
+    all.uncertain("irregular.exponent", runs.first("exponent")?, runs.first("exponent_error")?, name);
+    all.rounded("irregular.slowest", runs.least("irregular_least_speed")?, 1, name);
+    all.exact("irregular.until.first", runs.least("irregular_until")?, name);
+    all.exact("irregular.until.last", runs.largest("irregular_until")?, name);
+    // all runs end in one and the same train: how far they are from it shows in how far they are from each other
+    for (label, column) in
+        [("std", "std"), ("gap", "least_gap"), ("slowest", "least_speed"), ("fastest", "largest_speed")]
+    {
+        let [least, largest] = [runs.least(column)?, runs.largest(column)?];
+        all.uncertain(&format!("regular.{label}"), 0.5 * (least + largest), largest - least, name);
+    }
+    all.exact("regular.waves", runs.first("waves")?, name);
+    let steepest = runs.numbers("late_exponent")?.into_iter().map(f64::abs).fold(0.0, |a, b| if b > a { b } else { a });
+    all.rounded("regular.exponent", steepest, 1, name);
+    let parting = Sheet::read(source.paths, "data/s26/parting.csv")?;
+    let (times, apart) = (parting.numbers("t")?, parting.numbers("methods")?);
+    let together = times.iter().zip(&apart).take_while(|(_, apart)| **apart < TOGETHER).map(|(t, _)| *t).last();
+    all.exact("irregular.together", together.unwrap_or(0.0), &parting.name);
+    Ok(())
+}
+
+/// Runs are together as long as no speed differs by as much.
+const TOGETHER: f64 = 1e-3;
