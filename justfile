@@ -24,7 +24,7 @@ list *args:
 bless *args:
     cargo xtask bless {{args}}
 
-# make the tables of accuracy again, compare them, say which method buys which error
+# compute the tables of error against work again and compare them
 accuracy *args:
     cargo xtask accuracy {{args}}
 
@@ -32,15 +32,15 @@ accuracy *args:
 report *args:
     cargo xtask report {{args}}
 
-# run a scene of one's own
+# run a scene of yours
 simulate *args:
     cargo xtask simulate {{args}}
 
-# compute a stability map of one's own
+# compute the stability map of a scene of yours
 map *args:
     cargo xtask map {{args}}
 
-# what became of the runs of a plane
+# classify the runs of a plane by outcome
 sweep *args:
     cargo xtask sweep {{args}}
 

@@ -33,5 +33,8 @@ if [ "$(id -u)" != 0 ] || ! command -v apt-get >/dev/null 2>&1; then
 fi
 echo "installing ${packages[*]}" >&2
 export DEBIAN_FRONTEND=noninteractive
+# one installation at a time, of scripts that run at once
+exec 9<"$0"
+flock 9
 apt-get update -qq
 apt-get install -y -qq --no-install-recommends "${packages[@]}" >&2

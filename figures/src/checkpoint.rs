@@ -1,8 +1,8 @@
-//! A long run in the eyes of its user: how far it is, and a file from which it goes on after it was killed.
+//! A long run: its progress, and a checkpoint from which it is resumed after a kill.
 //!
 //! The file: a line `checkpoint 3 RUN SUM`, then the seconds of CPU so far and the run, as 64-bit words. `RUN` is the
 //! SHA-256 of the program and of the scene, `SUM` that of everything behind the line: what is damaged, cut off or of
-//! another run or program is not believed, and the run begins anew.
+//! another run or program is not used, and the run starts over.
 
 use crate::failure::Failure;
 use cpu_time::{ProcessTime, ThreadTime};
@@ -137,7 +137,7 @@ impl<'a> CheckpointWriter<'a> {
             .flatten()
             .and_then(|(seconds, words)| Some((Checkpoint::parse(words, scene)?, f64::from_le_bytes(*seconds))));
         if found.is_none() {
-            say(&format!("{}: damaged, or of another run or program; the run begins anew", file.display()));
+            say(&format!("{}: damaged, or of another run or program; the run starts over", file.display()));
         }
         found
     }

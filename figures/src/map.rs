@@ -1,4 +1,4 @@
-//! A stability map of one's own: table and picture.
+//! The stability map of a user's scene: table and picture.
 
 use crate::failure::{Failure, print};
 use crate::panels::{Labels, map_panel};

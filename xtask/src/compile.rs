@@ -157,7 +157,7 @@ pub fn check_fonts(paths: &Paths) -> Result<(), Failure> {
     for ((file, hash), (_, expected)) in files.iter().zip(hashing::hash_all(&files)?).zip(FONT_SUMS) {
         let problem = match hash {
             None => "no such font".to_owned(),
-            Some(hash) if hash != expected => format!("damaged font: its SHA-256 is {hash} in place of {expected}"),
+            Some(hash) if hash != expected => format!("damaged font: expected the SHA-256 {expected}, found {hash}"),
             Some(_) => continue,
         };
         let file = file.display();

@@ -1,4 +1,5 @@
-//! What the module imports from the page: ears for a run as it goes. Elsewhere than in WebAssembly nobody listens.
+//! Functions that the module imports from the page, which follows a run with them. Outside of WebAssembly they do
+//! nothing.
 #![allow(unsafe_code, reason = "a foreign function is declared in an `unsafe` block; these are safe to call")]
 
 use crate::simulate::Hearer;

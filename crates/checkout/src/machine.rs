@@ -7,27 +7,9 @@ use std::env::consts;
 use std::path::Path;
 use std::process::Command;
 
-/// Dependencies whose version may show in an output.
-const KEY_CRATES: [&str; 7] = ["base64", "csv", "plotters", "png", "tiny-skia", "toml", "ttf-parser"];
-
 /// What tells machines and toolchains apart.
 pub fn facts() -> [(&'static str, String); 3] {
     [("processor", processor()), ("system", system()), ("rustc", rustc())]
-}
-
-/// The versions of the crates that results depend on in a lock file.
-pub fn crate_versions(lock: &str) -> BTreeMap<String, String> {
-    let mut versions = BTreeMap::new();
-    let mut name = "";
-    for line in lock.lines() {
-        let value = |key: &str| line.strip_prefix(key).and_then(|rest| rest.strip_prefix(" = \"")?.strip_suffix('"'));
-        if let Some(found) = value("name") {
-            name = found;
-        } else if let Some(version) = value("version").filter(|_| KEY_CRATES.contains(&name)) {
-            versions.insert(name.to_owned(), version.to_owned());
-        }
-    }
-    versions
 }
 
 /// The model of the processor.

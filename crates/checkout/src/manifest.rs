@@ -81,7 +81,7 @@ pub fn parse(text: &str) -> Result<BTreeMap<String, Entry>, String> {
     let manifest: Manifest = serde_json::from_str(text).map_err(|error| error.to_string())?;
     match manifest.schema_version {
         SCHEMA_VERSION => Ok(manifest.outputs),
-        other => Err(format!("schema_version {other} in place of {SCHEMA_VERSION}")),
+        other => Err(format!("expected schema_version {SCHEMA_VERSION}, found {other}")),
     }
 }
 

@@ -12,7 +12,7 @@ pub enum Scheme {
     /// The method and tolerance that the scene names.
     #[default]
     Adaptive,
-    /// Word for word as the paper says; tables and pictures go to a folder of their own.
+    /// Literally that of the paper; tables and pictures go to a folder of their own.
     Paper,
 }
 

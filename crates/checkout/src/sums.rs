@@ -71,7 +71,7 @@ impl Sums {
                 return Err(fail("not a name relative to the root"));
             }
             if by_name.insert(name.to_owned(), hash.to_owned()).is_some() {
-                return Err(fail("this name stands twice"));
+                return Err(fail("this name appears twice"));
             }
         }
         Ok(Sums { by_name })

@@ -188,7 +188,7 @@ impl Condition {
             Relation::Unequal => false,
             _ => {
                 return Err(format!(
-                    "{word} is no column, and words are not ordered; {}",
+                    "{word} is not a column, and words have no order; {}",
                     binding.sheet.no_column(word)
                 ));
             }
@@ -196,7 +196,7 @@ impl Condition {
         let wanted = if word == EMPTY { Cell::Empty } else { Cell::Word(word.into()) };
         if wanted != Cell::Empty && !binding.sheet.column(place).any(|cell| *cell == wanted) {
             let words = words(binding.sheet.column(place));
-            return Err(format!("{word} is no column and stands nowhere in column {name}{words}"));
+            return Err(format!("{word} is not a column and does not occur in column {name}{words}"));
         }
         Ok(BoundCondition::Word(place, is_equal, wanted))
     }

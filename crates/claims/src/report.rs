@@ -270,7 +270,7 @@ fn tested(tests: &Tests<'_>, id: &str, tables: &Tables<'_>, place: &Place) -> Re
     let mut names: Vec<&String> = done.iter().filter_map(|test| test.name.as_ref()).collect();
     names.sort();
     match names.windows(2).find(|pair| pair[0] == pair[1]) {
-        Some(pair) => Err(place.fail("name", format!("{} stands twice", pair[0]))),
+        Some(pair) => Err(place.fail("name", format!("{} appears twice", pair[0]))),
         None => Ok(done),
     }
 }

@@ -98,7 +98,7 @@ impl Sources {
                 return Err(place.fail("id", "must be small letters, digits and hyphens"));
             }
             if !ids.insert(id) {
-                return Err(place.fail("id", "stands twice; an id is one of claims, errata and parameters together"));
+                return Err(place.fail("id", "appears twice; claims, errata and parameters share their ids"));
             }
         }
         self.claims.iter().try_for_each(|claim| claim.check())?;

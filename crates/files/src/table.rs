@@ -372,10 +372,10 @@ fn names(header: &csv::StringRecord) -> Result<Vec<String>, String> {
             return Err("the first column has no name: row names of R? write.csv(..., row.names = FALSE)".to_owned());
         }
         if name.is_empty() || !name.bytes().all(is_good) {
-            return Err(format!("{name:?} is no name of a column; small letters, digits and _ make one"));
+            return Err(format!("{name:?} is not a name of a column; valid: small letters, digits and _"));
         }
         if names.iter().any(|other| other == name) {
-            return Err(format!("the column {name} stands twice"));
+            return Err(format!("the column {name} appears twice"));
         }
         names.push(name.to_owned());
     }
@@ -392,5 +392,5 @@ fn other_length(record: &csv::StringRecord, expected: usize) -> String {
         () if found == expected + 1 => ": row names of R (row.names = FALSE leaves them out), or a decimal comma?",
         () => "",
     };
-    format!("{found} cells in place of {expected}{why}")
+    format!("expected {expected} cells, found {found}{why}")
 }

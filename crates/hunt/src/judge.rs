@@ -131,7 +131,7 @@ fn refused(verdict: &mut Verdict, problem: &str, question: &Question) {
         ("closes a gap", "refused: shift closes a gap"),
         ("gaps are closed", "refused: closed gaps"),
         ("give either dt or tolerance", "refused: dt and tolerance"),
-        ("no run goes on from there", "refused: no run goes on from an overlap"),
+        ("a run cannot continue", "refused: no run continues from an overlap"),
         ("several steady speeds", "refused: several steady speeds"),
     ];
     let class = known.iter().find(|(words, _)| problem.contains(words));

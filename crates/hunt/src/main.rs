@@ -1,4 +1,4 @@
-//! `hunt`: judges random scenes, or a scene of one's own, by a second integration.
+//! `hunt`: judges random scenes, or a scene of yours, by a second integration.
 
 use clap::Parser;
 use hunt::{case, draw, judge, report};

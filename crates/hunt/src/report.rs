@@ -1,4 +1,4 @@
-//! Many scenes, and what came of them.
+//! The verdicts over many scenes.
 
 use crate::judge::{Ratio, Verdict, scene};
 use std::collections::BTreeMap;

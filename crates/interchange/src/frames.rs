@@ -55,7 +55,7 @@ impl<R: Read> Frames<R> {
         let columns = reader.headers().map_err(|error| Failure::Usage(format!("{file}: {error}")))?;
         if columns != COLUMNS[..] {
             let found: Vec<&str> = columns.iter().collect();
-            let problem = format!("columns {} in place of {}", found.join(","), COLUMNS.join(","));
+            let problem = format!("expected the columns {}, found {}", COLUMNS.join(","), found.join(","));
             return Err(Failure::Usage(format!("{file}:1: {problem}")));
         }
         let (record, file) = (ByteRecord::new(), file.to_owned());
@@ -67,7 +67,7 @@ impl<R: Read> Frames<R> {
         let (t, n, x, _) = (t?, n?, x?, v?);
         let expected = f64::from(self.frame) * self.interval;
         if n != f64::from(self.n) || (t - expected).abs() > SAME_TIME * self.interval {
-            return Err(format!("pedestrian {n:?} at t = {t:?} in place of {} at {expected:?}", self.n));
+            return Err(format!("expected pedestrian {} at t = {expected:?}, found {n:?} at {t:?}", self.n));
         }
         let row = Row { frame: self.frame, n: self.n, x };
         self.n += 1;

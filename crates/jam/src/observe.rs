@@ -34,7 +34,7 @@ const TINY: f64 = 1e-130;
 /// The square of more may be too large.
 const HUGE: f64 = 1e130;
 
-/// So many sums run at a time.
+/// Number of running sums.
 const LANES: usize = 8;
 
 /// The sum of `map` over the values.

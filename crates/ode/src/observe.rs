@@ -28,8 +28,8 @@ pub trait Observer {
     fn between(&mut self, _mark: &ResumePoint<'_>) {}
 }
 
-/// A thousand times the longest run by adaptive steps that anybody has had a use for here: more are a sign that the
-/// equations are too stiff for the method, and would look like a hang.
+/// Default limit on steps: 1000 times the longest adaptive run of this repository. More steps mean that the equations
+/// are too stiff for the method, and would look like a hang.
 pub const MOST_STEPS: u64 = 1_000_000_000;
 
 /// Where an integration by steps of fixed length is.

@@ -315,7 +315,7 @@ pub(crate) fn forced(system: &dyn System) -> Vec<Range<usize>> {
     starts.zip(ends).map(|(start, end)| start..end).filter(|range| !range.is_empty()).collect()
 }
 
-/// So many components at a time.
+/// Components per iteration.
 const LANES: usize = 16;
-/// And so many of a sum over all orders.
-const WIDE: usize = 32;
+/// Components per iteration of a sum over all orders.
+const WIDE: usize = 40;

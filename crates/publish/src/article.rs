@@ -50,9 +50,11 @@ fn numbers(paths: &Paths, all: &[Figure], bless: bool) -> Result<(), Failure> {
         match first {
             _ if old == text => {}
             Some((line, (new, _))) => differing.push(format!("{name}:{}: the tables say {}", line + 1, new.trim())),
-            None => {
-                differing.push(format!("{name}: {} lines in place of {}", old.lines().count(), text.lines().count()))
-            }
+            None => differing.push(format!(
+                "{name}: expected {} lines, found {}",
+                text.lines().count(),
+                old.lines().count()
+            )),
         }
     }
     match differing.is_empty() {

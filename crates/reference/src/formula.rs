@@ -116,7 +116,7 @@ impl Formula {
         }
     }
 
-    /// Whether the force is infinite where the room ends.
+    /// Whether the force is infinite at contact.
     pub fn is_singular(&self) -> bool {
         match self {
             Formula::Algebraic { .. } => true,

@@ -70,7 +70,7 @@ fn read_for(file: &str, tables: &Section, purpose: Purpose) -> Result<Scene, Sce
     let form = fitting(wanted, &model, ring, steady_speed, method);
     if let Some((pedestrian, value)) = without_value(&*form.build(&model, ring), start, ring) {
         let problem = format!(
-            "the formula has no value at the start: the acceleration of pedestrian {pedestrian} is {value:?}; must leave one to everybody"
+            "the formula has no value at the start: the acceleration of pedestrian {pedestrian} is {value:?}; it must be finite for every pedestrian"
         );
         return Err(Reader::new(file, "start", top_start).complaint("shift", &problem));
     }
@@ -129,7 +129,7 @@ pub(crate) fn at_overlap(run: &mut Reader<'_>, model: &Model) -> Result<AtOverla
     let choice = run.one_of("at_overlap", &[("stop", AtOverlap::Stop), ("continue", AtOverlap::Continue)])?;
     if choice == AtOverlap::Continue && model.is_singular() {
         let problem = format!(
-            "the force of the {} law is infinite where the room ends: no run goes on from there; must be \"stop\"",
+            "the force of the {} law is infinite at contact, where a run cannot continue; must be \"stop\"",
             model.name()
         );
         return Err(run.complaint("at_overlap", &problem));
@@ -152,7 +152,7 @@ fn ring(file: &str, ring: &Section, start: &Section, model: &Model) -> Result<(R
     let room = model.effective_gap(ring.headway(), 0.0, 0.0);
     if room <= 0.0 {
         let problem = format!(
-            "the gaps are closed at the start: L/N = {:?} leaves {room:?}; the length must be above {:?}",
+            "the effective gaps are closed at the start: L/N = {:?} leaves {room:?}; the length must be above {:?}",
             ring.headway(),
             (ring.headway() - room) * ring.pedestrians as f64
         );

@@ -76,7 +76,7 @@ pub fn compare(
     tolerance: &dyn Fn(&str) -> Tolerance,
 ) -> Result<Distance, String> {
     if committed.columns != fresh.columns {
-        return Err(format!("columns {} in place of {}", fresh.columns.join(","), committed.columns.join(",")));
+        return Err(format!("expected the columns {}, found {}", committed.columns.join(","), fresh.columns.join(",")));
     }
     let (pairs, unmatched) = pairs(committed, fresh);
     let mut distance = Distance { unmatched, ..Distance::default() };

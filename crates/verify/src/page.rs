@@ -81,7 +81,7 @@ fn machines(attested: &[Attestation], sums: &str) -> String {
         let Attestation { processor, system, rustc, processors, .. } = one;
         rows.push(vec![processor.clone(), system.clone(), rustc.clone(), processors.to_string(), bits.to_owned()]);
     }
-    if attested.is_empty() { "<p>Nobody has attested yet.</p>\n".to_owned() } else { table(&rows) }
+    if attested.is_empty() { "<p>No attestations yet.</p>\n".to_owned() } else { table(&rows) }
 }
 
 fn table(rows: &[Vec<String>]) -> String {

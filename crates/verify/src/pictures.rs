@@ -71,7 +71,7 @@ pub fn judge(
         }
         let actual = disk::read_bytes(&made.output(&name))?.unwrap_or_default();
         let picture = match reference.bytes(paths, figure, &name)? {
-            None => Picture::Problem("the committed picture is not at hand: git restore it".to_owned()),
+            None => Picture::Problem("the committed picture is missing: git restore it".to_owned()),
             Some(expected) if name.ends_with(".png") => compare(&expected, &actual, &figure.id, folder)?,
             Some(expected) => text(&expected, &actual),
         };

@@ -83,7 +83,7 @@ impl Image {
 pub fn compare(expected: &Image, actual: &Image) -> Result<Pixels, String> {
     let size = |image: &Image| format!("{} x {}", image.width, image.height);
     if (expected.width, expected.height) != (actual.width, actual.height) {
-        return Err(format!("{} pixels in place of {}", size(actual), size(expected)));
+        return Err(format!("expected {} pixels, found {}", size(expected), size(actual)));
     }
     let width = expected.width as usize;
     let mut found = Pixels { pixels: width * expected.height as usize, ..Pixels::default() };

@@ -66,7 +66,7 @@ pub fn of(trajectories: &str) -> Result<Vec<Checkpoint>, String> {
     for (index, sample) in samples.iter().enumerate() {
         let t = time(sample[0]);
         if *count.get_or_insert(sample.len()) != sample.len() {
-            return Err(format!("{} pedestrians at t = {t} in place of {}", sample.len(), samples[0].len()));
+            return Err(format!("expected {} pedestrians at t = {t}, found {}", samples[0].len(), sample.len()));
         }
         since.extend(sample.iter().flat_map(|line| [line, "\n"]));
         if is_checkpoint(&t) || index + 1 == samples.len() {

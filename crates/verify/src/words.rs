@@ -78,7 +78,7 @@ pub fn event(moved: &Moved) -> String {
         (Some(committed), Some(found), Some(absolute), Some(ulp)) => {
             let tolerance = if *within { "within" } else { "beyond" };
             format!(
-                "{place}: t = {found} in place of {committed}; absolute {absolute:.2e}, ulp {ulp}, {tolerance} tolerance"
+                "{place}: expected t = {committed}, found {found}; absolute {absolute:.2e}, ulp {ulp}, {tolerance} tolerance"
             )
         }
         (Some(committed), ..) => format!("{place}: did not occur at t = {committed}"),
@@ -95,7 +95,7 @@ pub fn picture(picture: &Picture) -> String {
             format!("{}{last}", pixel_words(pixels))
         }
         Picture::Text { first, committed, made } => {
-            format!("other text from byte {first} on; {made} bytes in place of {committed}")
+            format!("text differs from byte {first} on; expected {committed} bytes, found {made}")
         }
         Picture::Problem(problem) => problem.clone(),
     }

@@ -1,4 +1,4 @@
-//! Says what became of the runs of a plane: `sweep SCENE.toml --out DIR`.
+//! Classifies the runs of a plane by outcome: `sweep SCENE.toml --out DIR`.
 
 use clap::Parser;
 use figures::failure::exit;

@@ -142,7 +142,7 @@ fn bytes(path: &Path) -> Result<Option<String>, Failure> {
     match std::fs::read(path) {
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
         Err(error) => Err(with_path(error, path).into()),
-        // a byte that is no text is found as a word that is none
+        // bytes that are not UTF-8 become an unknown word, which is found below
         Ok(bytes) => {
             Ok(Some(String::from_utf8(bytes).unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into())))
         }

@@ -1,4 +1,4 @@
-//! What became of the runs of a plane, from the command line: all of it, a shard, or the table and picture of all shards.
+//! Outcomes of the runs of a plane, from the command line: all of it, a shard, or the table and picture of all shards.
 
 mod gather;
 mod journal;

@@ -142,7 +142,7 @@ fn a_damaged_or_foreign_checkpoint_is_not_believed() {
         let output = simulate(folder, end).output().expect("it starts");
         let summary: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
         assert_eq!(summary["resumed_steps"], 0);
-        assert!(bytes.is_empty() || String::from_utf8_lossy(&output.stderr).contains("the run begins anew"));
+        assert!(bytes.is_empty() || String::from_utf8_lossy(&output.stderr).contains("the run starts over"));
         assert_eq!(sums(folder) == expected, end == END);
     }
 }

@@ -1,4 +1,4 @@
-//! `test` and `ci`: run the checks in order and list those that could not be tried.
+//! `test` and `ci`: run the checks in order and list those that could not be run.
 
 use super::{figures, publish, verify};
 use crate::cli::{BundleArgs, CiArgs, FiguresArgs, Selection};
@@ -8,10 +8,12 @@ use checkout::paths::Paths;
 use checkout::print;
 use checkout::process;
 use std::io::{BufRead, BufReader};
+use std::panic::resume_unwind;
 use std::process::{Command, Stdio};
 
 /// A script below the root that needs more than Rust. It ends with 0 when all is well, with 5 when it cannot be tried
 /// here (the last line on stderr says why), else with another code.
+#[derive(Clone, Copy)]
 struct Script {
     /// What it looks at.
     what: &'static str,
@@ -19,16 +21,19 @@ struct Script {
     command: &'static [&'static str],
 }
 
-/// Tried by `test`, where their tools are there; `ci` installs these.
-const SCRIPTS: [Script; 5] = [
-    Script { what: "values by NumPy", command: &["checks/spot.sh"] },
-    Script { what: "trajectories as PedPy reads them", command: &["checks/pedpy/run.sh"] },
-    Script { what: "the package for Python", command: &["checks/python-door.sh"] },
-    Script { what: "the article and its PDF", command: &["checks/article.sh"] },
-    Script { what: "the page in a browser", command: &["checks/browser/run.sh"] },
+/// Run by `test`, where their tools are there; `ci` installs these. Those of a stage run at the same time: most of them keep
+/// one processor busy. The page has a stage of its own, since it is timed.
+const STAGES: [&[Script]; 3] = [
+    &[Script { what: "values by NumPy", command: &["checks/spot.sh"] }],
+    &[
+        Script { what: "trajectories as PedPy reads them", command: &["checks/pedpy/run.sh"] },
+        Script { what: "the package for Python", command: &["checks/python-door.sh"] },
+        Script { what: "the article and its PDF", command: &["checks/article.sh"] },
+    ],
+    &[Script { what: "the page in a browser", command: &["checks/browser/run.sh"] }],
 ];
 
-/// Tried by `ci --full` alone.
+/// Run by `ci --full` alone.
 const SLOW: [Script; 8] = [
     Script { what: "random scenes by SciPy", command: &["checks/hunt.sh"] },
     Script { what: "a plane of outcomes", command: &["checks/outcomes.sh"] },
@@ -59,7 +64,8 @@ pub fn test(paths: &Paths) -> Result<(), Failure> {
 /// Differs: a step fails, or, on a machine that says it is one for CI (`CI` is set), could not be tried.
 pub fn ci(paths: &Paths, arguments: &CiArgs) -> Result<(), Failure> {
     cargo(paths, &["fmt", "--all", "--check"])?;
-    cargo(paths, &["clippy", "--locked", "--workspace", "--all-targets", "--", "-D", "warnings"])?;
+    // in release mode, so that what macros and build scripts need is compiled once
+    cargo(paths, &["clippy", "--release", "--locked", "--workspace", "--all-targets", "--", "-D", "warnings"])?;
     // the tables first, those of the supplements among them: the scripts and the article read them
     every_figure(paths, true)?;
     let mut untried = tests(paths, true)?;
@@ -76,7 +82,7 @@ pub fn ci(paths: &Paths, arguments: &CiArgs) -> Result<(), Failure> {
     }
     tell(&untried)?;
     let is_ci = std::env::var_os("CI").is_some();
-    match untried.iter().find(|(what, _)| is_ci && SCRIPTS.iter().any(|script| script.what == *what)) {
+    match untried.iter().find(|(what, _)| is_ci && STAGES.concat().iter().any(|script| script.what == *what)) {
         Some((what, why)) => Err(Failure::Differs(format!("not tried: {what}: {why}"))),
         None => Ok(()),
     }
@@ -85,8 +91,8 @@ pub fn ci(paths: &Paths, arguments: &CiArgs) -> Result<(), Failure> {
 fn tests(paths: &Paths, install: bool) -> Result<Vec<Untried>, Failure> {
     cargo(paths, &["test", "--release", "--locked", "--workspace"])?;
     let mut untried = Vec::new();
-    for script in &SCRIPTS {
-        untried.extend(attempt(paths, script, install)?);
+    for stage in STAGES {
+        untried.extend(at_once(paths, stage, install)?);
     }
     Ok(untried)
 }
@@ -97,6 +103,17 @@ fn tell(untried: &[Untried]) -> Result<(), Failure> {
         0 => print::out("everything was tried\n"),
         count => print::out(&format!("{count} not tried here:\n{lines}")),
     }
+}
+
+/// Runs scripts at the same time; those that could not be tried.
+fn at_once(paths: &Paths, scripts: &[Script], install: bool) -> Result<Vec<Untried>, Failure> {
+    std::thread::scope(|scope| {
+        let threads: Vec<_> =
+            scripts.iter().map(|script| scope.spawn(move || attempt(paths, script, install))).collect();
+        let ended = threads.into_iter().map(|thread| thread.join().unwrap_or_else(|panic| resume_unwind(panic)));
+        let ended = ended.collect::<Result<Vec<_>, _>>()?;
+        Ok(ended.into_iter().flatten().collect())
+    })
 }
 
 /// Runs a script; why it could not be tried, if so.

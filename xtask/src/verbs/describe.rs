@@ -1,23 +1,27 @@
 //! `describe`: the machine and the toolchain, for a report of a difference.
 
 use crate::cli::JsonArgs;
-use checkout::disk;
+use crate::pins::{self, CRATE};
 use checkout::failure::Failure;
-use checkout::machine::{crate_versions, facts, features, memory};
-use checkout::paths::{LOCK_FILE, Paths};
+use checkout::machine::{facts, features, memory};
+use checkout::paths::Paths;
 use checkout::print;
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::env::consts;
+
+/// Dependencies whose version may show in an output.
+const KEY_CRATES: [&str; 7] = ["base64", "csv", "plotters", "png", "tiny-skia", "toml", "ttf-parser"];
 
 /// Runs the verb.
 ///
 /// # Errors
 /// The lock file cannot be read.
 pub fn run(paths: &Paths, arguments: &JsonArgs) -> Result<(), Failure> {
-    let lock = disk::read_text(&paths.root.join(LOCK_FILE))?.unwrap_or_default();
-    let facts = facts();
-    let (features, crates) = (features(), crate_versions(&lock));
+    let (facts, features, pins) = (facts(), features(), pins::read(paths)?);
+    let version = |text: &str| text.split(' ').next().unwrap_or("").to_owned();
+    let named = pins.iter().filter_map(|(name, text)| Some((name.strip_prefix(CRATE)?, version(text))));
+    let crates: BTreeMap<&str, String> = named.filter(|(name, _)| KEY_CRATES.contains(name)).collect();
     let processors = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     if arguments.json {
         let facts: BTreeMap<&str, String> = facts.into_iter().collect();

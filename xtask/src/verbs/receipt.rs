@@ -24,7 +24,9 @@ pub fn check(paths: &Paths, file: &Path) -> Result<(), Failure> {
     let name = file.display().to_string();
     let receipt = Receipt::parse(&name, &text)?;
     let committed = Committed::read(paths)?;
-    let known = committed.list(false).ok_or_else(|| Failure::Differs("there are no committed sums".to_owned()))?;
+    let known = committed.list(false).ok_or_else(|| {
+        Failure::Differs("data/SHA256SUMS does not exist: nothing to compare a receipt with".to_owned())
+    })?;
     print::out(&format!("{}\n", receipt.judge(&name, known)?))
 }
 
@@ -67,7 +69,7 @@ impl Receipt {
         let tables = known.by_name.keys().filter(|name| name.ends_with(".csv")).count();
         if let Some(name) = self.sums.keys().find(|name| !name.ends_with(".csv") || !known.by_name.contains_key(*name))
         {
-            return Err(Failure::Usage(format!("{file}: {name}: no table of data/SHA256SUMS")));
+            return Err(Failure::Usage(format!("{file}: {name} is not a table of data/SHA256SUMS")));
         }
         let other = |(name, sum): (&String, &String)| {
             let expected = &known.by_name[name];

@@ -25,7 +25,7 @@ fn what_changes_is_shown_on_each_level_before_anything_is_written() {
         "fig04: other physics: beyond tolerance\n  differs: data/fig04/stable.csv",
         "  stable.csv: 1 cells differ",
         "(row 3999, t = 3999, std), relative",
-        "  data/events.csv: fig04-stable, overlap at pedestrian 7: t = 12.500000000000002 in place of 12.5",
+        "  data/events.csv: fig04-stable, overlap at pedestrian 7: expected t = 12.5, found 12.500000000000002",
         "  run fig04-stable parts after t = 10; at t = 20 1 of 3 pedestrians differ: 1",
         "fig05: same data, other rendering\n",
         "fig05.png: 16 pixels changed within x 0 to 15, y 3 to 3, by at most 180 of 255",

@@ -111,13 +111,6 @@ fn json_goes_alone_to_stdout_and_has_a_version() {
 }
 
 #[test]
-fn versions_are_read_from_the_lock_file() {
-    let lock = "[[package]]\nname = \"png\"\nversion = \"0.18.1\"\n\n[[package]]\nname = \"other\"\nversion = \"1\"\n";
-    let versions = checkout::machine::crate_versions(lock);
-    assert_eq!(versions.into_iter().collect::<Vec<_>>(), [("png".to_owned(), "0.18.1".to_owned())]);
-}
-
-#[test]
 fn a_build_that_fails_is_a_failure() {
     let shop = Shop::new("cli-build");
     shop.edit("crates/math/src/lib.rs", "Numbers", "broken");

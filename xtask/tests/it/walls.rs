@@ -120,3 +120,20 @@ fn transcendental_functions_of_the_standard_library_are_forbidden_by_lints() {
     let manifest: toml::Table = read("Cargo.toml").parse().expect("TOML");
     assert_eq!(manifest["workspace"]["lints"]["clippy"]["disallowed_methods"].as_str(), Some("deny"));
 }
+
+#[test]
+fn a_library_whose_tests_are_not_built_has_none() {
+    let mut asked = 0;
+    for (name, manifest) in manifests() {
+        let folder = if ["figures", "xtask"].contains(&name.as_str()) { name } else { format!("crates/{name}") };
+        let is_off = |key| manifest.get("lib").and_then(|lib| lib.get(key)) == Some(&toml::Value::Boolean(false));
+        let is_example = |line: &str| line.trim_start().strip_prefix("//").is_some_and(|doc| doc.contains("```"));
+        for (file, text) in sources(&format!("{folder}/src")) {
+            for (key, has) in [("test", text.contains("#[test]")), ("doctest", text.lines().any(is_example))] {
+                asked += usize::from(is_off(key));
+                assert!(!is_off(key) || !has, "{file}: {key} = false in the manifest of {folder}");
+            }
+        }
+    }
+    assert!(asked > 0, "no library to look at");
+}

@@ -1,4 +1,8 @@
 //! Measures, verdicts, and every kind of bad input.
 
+mod committed;
 mod corpus;
-mod ledger;
+mod desk;
+mod entries;
+mod measures;
+mod uncertain;

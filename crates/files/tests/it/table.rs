@@ -107,7 +107,7 @@ fn malformed_lines_are_named() {
         (b"t,v\n1,-1e999\n", 2, "\"-1e999\" is not a finite number"),
         (b"t,v\n1, 2\n", 2, "\" 2\" is not a finite number"),
         (b"t,v\n1,\xff\n", 2, "0xff is not UTF-8"),
-        (b"t,v\n1,2\n3,4,5\n", 3, "3 cells in place of 2"),
+        (b"t,v\n1,2\n3,4,5\n", 3, "expected 2 cells, found 3"),
     ];
     for (text, line, words) in cases {
         let error = Table::parse(text).expect_err("malformed");
@@ -117,11 +117,11 @@ fn malformed_lines_are_named() {
     }
     let headers: [(&[u8], &str); 6] = [
         (b"", "there is no header"),
-        (b"t,\"v\n1\"\n", "\"v\\n1\" is no name of a column; small letters, digits and _ make one"),
+        (b"t,\"v\n1\"\n", "\"v\\n1\" is not a name of a column; valid: small letters, digits and _"),
         (b"t,\xff\n", "0xff is not UTF-8"),
-        (b"t,,v\n", "\"\" is no name"),
-        (b"t,V\n", "\"V\" is no name"),
-        (b"t,v,t\n1,2,3\n", "the column t stands twice"),
+        (b"t,,v\n", "\"\" is not a name"),
+        (b"t,V\n", "\"V\" is not a name"),
+        (b"t,v,t\n1,2,3\n", "the column t appears twice"),
     ];
     for (text, words) in headers {
         let error = Table::parse(text).expect_err("malformed");

@@ -49,9 +49,9 @@ fn frames_are_whole_and_in_order() {
     let frames: Vec<(u32, u32, f64)> = rows(TABLE).expect("rows").iter().map(|row| (row.frame, row.n, row.x)).collect();
     assert_eq!(frames, [(0, 0, -0.125), (0, 1, 5.0), (1, 0, 0.3), (1, 1, 5.1)]);
     for (from, to, problem) in [
-        ("t,n,x,v", "t,n,v,x", "run.csv:1: columns t,n,v,x in place of t,n,x,v"),
-        ("0.25,0,", "0.26,0,", "run.csv:4: pedestrian 0.0 at t = 0.26 in place of 0 at 0.25"),
-        ("0,1,5,0\n", "", "run.csv:3: pedestrian 0.0 at t = 0.25 in place of 1 at 0.0"),
+        ("t,n,x,v", "t,n,v,x", "run.csv:1: expected the columns t,n,x,v, found t,n,v,x"),
+        ("0.25,0,", "0.26,0,", "run.csv:4: expected pedestrian 0 at t = 0.25, found 0.0 at 0.26"),
+        ("0,1,5,0\n", "", "run.csv:3: expected pedestrian 1 at t = 0.0, found 0.0 at 0.25"),
         ("0.25,1,5.1,0.2\n", "", "the last frame has 1 of 2 pedestrians"),
         ("0.3", "NaN", "run.csv:4: \"NaN\" is not a finite number"),
         ("0.3,0.1", "0.3", "run.csv:4: "),

@@ -46,7 +46,7 @@ impl Watch<'_> {
 /// What rounding may add to a bound.
 const ROUNDING: f64 = 1e-9;
 
-/// The bounds of [`super::may_be_negative`], for the largest deviations; false where one is no number.
+/// The bounds of [`super::may_be_negative`], for the largest deviations; false where one is NaN.
 fn are_clear(before: &Near, after: &Near, h: f64, blow_up: f64) -> bool {
     let third = h / 3.0;
     let [start, end] = [before.flow, after.flow];

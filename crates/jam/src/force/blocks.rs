@@ -17,7 +17,7 @@ pub trait Block {
 
 /// The doubles of the widest registers.
 const NARROW: usize = 8;
-/// So many pedestrians keep the units of a processor busy.
+/// Pedestrians per iteration: enough to keep the units of a processor busy.
 const WIDE: usize = 64;
 /// A wide block that takes another register along.
 const WIDER: usize = WIDE + NARROW;

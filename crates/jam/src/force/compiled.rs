@@ -4,7 +4,7 @@ use super::blocks::{Block, Pace, around};
 use super::heun::{self, Cut};
 use super::series::{Memory, Motion};
 use super::{Flow, Force, Rows, Steps};
-use crate::laws::Law;
+use crate::laws::{Chosen, Law};
 use crate::ramp::Bend;
 use math::affine::Affine;
 use math::change::{Player, Recorder, Tape};
@@ -111,7 +111,8 @@ impl<L: Law> Force for Compiled<L> {
     }
 
     fn series(&self, motion: Motion<'_>) {
-        super::series::compiled(self.law, motion, &mut self.memory.borrow_mut());
+        let operations = self.reference.borrow().tape.operations();
+        super::series::compiled(self.law, operations, motion, &mut self.memory.borrow_mut());
     }
 
     fn heun(&self, steps: Steps, cut: Option<Cut>, state: &mut [f64]) -> Batch {
@@ -188,16 +189,33 @@ impl<L: Law> Block for Changes<'_, L> {
     }
 }
 
+impl<L: Law> Deviations<'_, L> {
+    #[inline(always)]
+    fn around(self, law: L, pace: Pace) {
+        let Deviations { tape, spacings, speeds, accelerations, .. } = self;
+        around(&Changes { law, tape }, pace, spacings, speeds, accelerations);
+    }
+}
+
 impl<L: Law> Kernel for Deviations<'_, L> {
     type Output = ();
 
     #[inline(always)]
     fn run(self) {
-        let Deviations { law, tape, spacings, speeds, accelerations } = self;
-        match law.plain() {
-            Some(law) => around(&Changes { law, tape }, pace(&law), spacings, speeds, accelerations),
-            None => around(&Changes { law, tape }, pace(&law), spacings, speeds, accelerations),
-        }
+        let law = self.law;
+        law.choose(self);
+    }
+}
+
+impl<L: Law> Chosen<L> for Deviations<'_, L> {
+    #[inline(always)]
+    fn law(self, law: L) {
+        self.around(law, pace(&law));
+    }
+
+    #[inline(always)]
+    fn straight(self, law: L) {
+        self.around(law, Pace::Single);
     }
 }
 

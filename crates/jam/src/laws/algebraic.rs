@@ -1,6 +1,6 @@
 //! The algebraically decaying force, Eq. (8), eq:invd.
 
-use super::{Law, Parameter, RAMP_WIDTH, Range};
+use super::{Chosen, Law, Parameter, RAMP_WIDTH, Range};
 use crate::ramp::Bend;
 use crate::stability::Linear;
 use math::number::Number;
@@ -69,6 +69,20 @@ impl Law for Algebraic {
     fn plain(&self) -> Option<Algebraic> {
         let is_plain = self.relative == 0.0 && self.widening == 0.0 && self.power == 2.0;
         is_plain.then_some(Algebraic { relative: 0.0, widening: 0.0, power: 2.0, ..*self })
+    }
+
+    /// Powers are products, which as constants need no choice for every pedestrian.
+    #[inline(always)]
+    fn choose<C: Chosen<Algebraic>>(self, chosen: C) {
+        let without = |power: f64| Algebraic { relative: 0.0, widening: 0.0, power, ..self };
+        let alone = |power: f64| Algebraic { relative: 0.0, power, ..self };
+        match (self.relative == 0.0, self.widening == 0.0, self.power) {
+            (true, true, 1.0) => chosen.straight(without(1.0)),
+            (true, true, 2.0) => chosen.straight(without(2.0)),
+            (true, true, 3.0) => chosen.straight(without(3.0)),
+            (true, false, 2.0) => chosen.straight(alone(2.0)),
+            _ => chosen.law(self),
+        }
     }
 }
 

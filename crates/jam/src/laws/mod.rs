@@ -122,6 +122,16 @@ pub trait Law: Copy + Default + Send + Sync + std::fmt::Debug + 'static {
         None
     }
 
+    /// Goes on with the law, in which parameters that choose terms or powers are constants where a loop is compiled for
+    /// these: those of [`Law::plain`], and more where the loop is short.
+    #[inline(always)]
+    fn choose<C: Chosen<Self>>(self, chosen: C) {
+        match self.plain() {
+            Some(law) => chosen.law(law),
+            None => chosen.law(self),
+        }
+    }
+
     /// Where the smooth ramp bends, if the law has one; where its argument is a quotient, its numerator. Steps of adaptive
     /// length are short there. By default there is none.
     fn bend(&self) -> Option<Bend> {
@@ -137,6 +147,15 @@ pub trait Law: Copy + Default + Send + Sync + std::fmt::Debug + 'static {
         };
         Response { spacings: vec![(0, slope(0))], speeds: vec![(0, slope(1)), (1, slope(2))] }
     }
+}
+
+/// What goes on with a law (see [`Law::choose`]).
+pub trait Chosen<L> {
+    /// With any.
+    fn law(self, law: L);
+
+    /// With one whose formula has no function and, its constants known, no choice to be made.
+    fn straight(self, law: L);
 }
 
 /// A law with its parameters, as data.
@@ -290,7 +309,7 @@ impl Model {
         each!(self, law => contact_of(law), formula => formula.contact(), own => own.contact())
     }
 
-    /// Whether the force is infinite where the room ends (see [`Law::SINGULAR`]).
+    /// Whether the force is infinite at contact (see [`Law::SINGULAR`]).
     pub fn is_singular(&self) -> bool {
         each!(self, law => is_singular(law), formula => formula.is_singular(), own => own.is_singular())
     }

@@ -24,7 +24,7 @@ pub(super) fn highest(numbers: &[f64]) -> f64 {
     dispatch(Highest(numbers))
 }
 
-/// So many at a time: one after another, each would wait for the one before.
+/// Numbers per iteration: one after another, each would wait for the one before.
 const LANES: usize = 16;
 
 struct Lowest<'a>(&'a [f64]);

@@ -6,7 +6,7 @@ use ode::Step;
 /// A state is compared with one at least so much earlier, in units of `tau`: what changes at a rate of 1e-4 differs by 1 %.
 const APART: f64 = 100.0;
 
-/// So many times in a row.
+/// Repetitions in a row.
 const TIMES: u32 = 2;
 
 /// States that differ by no more than this part of the desired speed are the same.

@@ -80,7 +80,7 @@ impl std::fmt::Display for Broken {
         self.narrowest.map_or(Ok(()), |Narrowest { pedestrian, spacing, effective_gap, speed }| {
             write!(
                 f,
-                "; least room then: pedestrian {pedestrian}, gap {spacing:?}, room {effective_gap:?}, speed {speed:?}"
+                "; smallest effective gap then: {effective_gap:?}, of pedestrian {pedestrian}, spacing {spacing:?}, speed {speed:?}"
             )
         })
     }

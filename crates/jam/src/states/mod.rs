@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | [`Deviations`] | gaps and speeds minus those of the uniform flow | the default: errors are relative to the perturbation |
 //! | [`Spacings`] | gaps and speeds | the textbook form |
-//! | [`Positions`] | unwrapped positions and speeds | the scheme of the paper, word for word |
+//! | [`Positions`] | unwrapped positions and speeds | the scheme of the paper, literally |
 
 mod deviations;
 mod positions;

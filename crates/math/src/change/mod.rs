@@ -29,6 +29,13 @@ impl Default for Tape {
     }
 }
 
+impl Tape {
+    /// How many operations the formula has that are not linear.
+    pub fn operations(&self) -> usize {
+        self.length
+    }
+}
+
 /// A tape being written.
 #[derive(Debug)]
 pub struct Recorder(RefCell<Tape>);
@@ -243,10 +250,14 @@ impl<const W: usize> Div for Change<'_, W> {
     }
 }
 
-/// The functions, each with what it keeps and its rule.
+/// The functions, each with what it keeps and its rule; those marked with a rule for many at once.
 macro_rules! functions {
-    ($($name:ident, $kept:ident, $rule:ident;)*) => {
+    ($(@ $long:ident, $long_kept:ident, $rows:ident;)* $($name:ident, $kept:ident, $rule:ident;)*) => {
         impl Number for Reference<'_> {
+            $(fn $long(self) -> Self {
+                self.map(Kept::$long_kept(self.value), Number::$long(self.value))
+            })*
+
             $(fn $name(self) -> Self {
                 self.map(Kept::$kept(self.value), Number::$name(self.value))
             })*
@@ -277,6 +288,12 @@ macro_rules! functions {
         }
 
         impl<const W: usize> Number for Change<'_, W> {
+            $(#[inline(always)]
+            fn $long(self) -> Self {
+                let kept = *self.player.kept();
+                Change { change: rules::$rows(&kept, self.change), ..self }
+            })*
+
             $(#[inline(always)]
             fn $name(self) -> Self {
                 changed!(self, kept, a => rules::$rule(&kept, a))
@@ -330,11 +347,11 @@ macro_rules! functions {
 }
 
 functions! {
+    @ ln, of_ln, ln_of;
+    @ ln_1p, of_ln_1p, ln_of;
+    @ softplus, of_softplus, softplus_of;
     recip, of_recip, recip;
-    ln, of_ln, ln;
-    ln_1p, of_ln_1p, ln;
     sqrt, of_sqrt, sqrt;
     tanh, of_tanh, tanh;
-    softplus, of_softplus, softplus;
     abs, of_abs, abs;
 }

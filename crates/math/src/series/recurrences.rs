@@ -38,13 +38,13 @@ impl<'t, const W: usize> History<'t, W> {
     /// Writes the coefficient of this order.
     #[inline(always)]
     fn write(self, index: usize, value: Lanes<W>) {
-        self.row(index)[self.order].set(value.0);
+        self.row(index)[self.order].set(value);
     }
 
     /// A coefficient of order 0.
     #[inline(always)]
     fn first(self, index: usize) -> Lanes<W> {
-        Lanes(self.row(index)[0].get())
+        self.row(index)[0].get()
     }
 
     /// `a_1 b_{k-1} + ... + a_{k-1} b_1`: the coefficient of this order of a product, less its ends.
@@ -56,7 +56,7 @@ impl<'t, const W: usize> History<'t, W> {
             // by index: iterators that run against each other cost several times the sum
             #[allow(clippy::needless_range_loop)]
             for i in 0..a.len() {
-                sum = sum + Lanes(a[i].get()) * Lanes(b[a.len() - 1 - i].get());
+                sum = sum + a[i].get() * b[a.len() - 1 - i].get();
             }
         }
         sum
@@ -131,7 +131,7 @@ fn next_power<const W: usize>(h: History<'_, W>, a: Lanes<W>, q: f64) -> Lanes<W
         let mut j = 1.0;
         #[allow(clippy::needless_range_loop)]
         for i in 0..powers.len() {
-            let (f, a) = (Lanes(powers[i].get()), Lanes(numbers[powers.len() - 1 - i].get()));
+            let (f, a) = (powers[i].get(), numbers[powers.len() - 1 - i].get());
             sum = sum + (f * a) * (q * (k - j) - j);
             j += 1.0;
         }
@@ -300,6 +300,6 @@ fn sign_of(a: f64) -> f64 {
 fn side<const W: usize, const START: bool>(h: History<'_, W>, a: Lanes<W>) -> Lanes<W> {
     let known = if START { Lanes::default() } else { h.first(0) };
     let sign = lane_by_lane!(known of known, a of a => if known == 0.0 { sign_of(a) } else { known });
-    h.row(0)[0].set(sign.0);
+    h.row(0)[0].set(sign);
     sign
 }

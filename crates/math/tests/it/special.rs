@@ -1,4 +1,4 @@
-//! Zeros, infinities, values that are no numbers, and the edges of the domains.
+//! Zeros, infinities, NaN, and the edges of the domains.
 
 use math::lane;
 use std::f64::consts::LN_2;

@@ -2,11 +2,12 @@
 
 use super::html::escape;
 
-/// Names of letters.
-const GREEK: [(&str, &str); 13] = [
+/// Names of Greek letters, in plain text and, behind a backslash, in LaTeX.
+pub const GREEK: [(&str, &str); 14] = [
     ("mu", "μ"),
-    ("eps", "ε"),
+    ("varepsilon", "ε"),
     ("epsilon", "ε"),
+    ("eps", "ε"),
     ("delta", "δ"),
     ("Delta", "Δ"),
     ("Phi", "Φ"),

@@ -1,5 +1,6 @@
 //! Pieces of HTML: escaped text, numbers, symbols, tables.
 
+use super::formula::GREEK;
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use checkout::failure::Failure;
@@ -79,18 +80,9 @@ pub fn symbol(name: &str) -> &str {
 
 /// The few symbols of the paper that LaTeX writes by commands, as text.
 pub fn latex(symbol: &str) -> String {
-    const WORDS: [(&str, &str); 25] = [
-        ("\\varepsilon", "ε"),
-        ("\\epsilon", "ε"),
-        ("\\Delta", "Δ"),
-        ("\\delta", "δ"),
-        ("\\mu", "μ"),
-        ("\\tau", "τ"),
-        ("\\theta", "θ"),
-        ("\\sigma", "σ"),
-        ("\\tilde\\Phi", "Φ̃"),
-        ("\\hat\\Phi", "Φ̂"),
-        ("\\Phi", "Φ"),
+    const WORDS: [(&str, &str); 16] = [
+        ("\\tildeΦ", "Φ̃"),
+        ("\\hatΦ", "Φ̂"),
         ("\\tilde a", "ã"),
         ("\\tilde{a}", "ã"),
         ("\\mathrm", ""),
@@ -106,7 +98,8 @@ pub fn latex(symbol: &str) -> String {
         ("}", ""),
         ("\\", ""),
     ];
-    WORDS.iter().fold(symbol.to_owned(), |text, (from, to)| text.replace(from, to))
+    let letters = GREEK.iter().fold(symbol.to_owned(), |text, (name, to)| text.replace(&format!("\\{name}"), to));
+    WORDS.iter().fold(letters, |text, (from, to)| text.replace(from, to))
 }
 
 /// The same as HTML, with subscripts.

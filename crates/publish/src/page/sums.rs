@@ -14,7 +14,8 @@ use serde_json::{Value, json};
 /// The committed sums or costs are malformed, or there are none.
 pub fn recomputed(source: &Source<'_>) -> Result<Value, Failure> {
     let committed = Committed::read(source.paths)?;
-    let sums = committed.list(false).ok_or_else(|| Failure::failed("there are no committed sums to show"))?;
+    let sums =
+        committed.list(false).ok_or_else(|| Failure::failed("data/SHA256SUMS does not exist: no sums to show"))?;
     let costs = costs::read(source.paths)?;
     let cost = |figure: &Figure| {
         let nodes = costs.iter().filter(|(node, _)| node.starts_with(&figure.id));

@@ -1,7 +1,6 @@
 //! What the tables of accuracy say of error against work, and the fastest growing waves.
 
-use super::sheet::Sheet;
-use super::{Quantities, Source};
+use super::{Quantities, Source, table};
 use checkout::failure::Failure;
 use checkout::paths::ACCURACY;
 use verify::precision::{COARSE_TARGETS, COSTS, FIXED, SCENES, Scene, TARGETS};
@@ -90,12 +89,15 @@ fn savings(all: &mut Quantities) {
 /// The fastest wave of each law by the linear theory.
 fn fastest(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
     for law in ["algebraic", "exponential", "logarithmic"] {
-        let sheet = Sheet::read(source.paths, &format!("{ACCURACY}/mode_growth_{law}.csv"))?;
-        let unstable = sheet.only(&[("flow", "unstable")])?;
-        let rates = unstable.numbers("exact")?;
-        let fastest = (0..rates.len()).fold(0, |best, at| if rates[at] > rates[best] { at } else { best });
-        all.rounded(&format!("growth.{law}.fastest"), rates[fastest], 3, &sheet.name);
-        all.exact(&format!("growth.{law}.fastest-l"), unstable.numbers("l")?[fastest], &sheet.name);
+        let name = format!("{ACCURACY}/mode_growth_{law}.csv");
+        let unstable = table(source.paths, &name)?.select(&[("flow", "unstable")], &["exact", "l"]);
+        let unstable = unstable.map_err(Failure::failed)?;
+        // of equal ones the first
+        let Some(fastest) = unstable.rows().reduce(|best, row| if row[0] > best[0] { row } else { best }) else {
+            continue;
+        };
+        all.rounded(&format!("growth.{law}.fastest"), fastest[0], 3, &name);
+        all.exact(&format!("growth.{law}.fastest-l"), fastest[1], &name);
     }
     Ok(())
 }

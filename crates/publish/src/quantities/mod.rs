@@ -8,12 +8,12 @@ mod measured;
 mod published;
 mod runs;
 mod scenes;
-pub mod sheet;
 
 use checkout::failure::Failure;
 use checkout::figure::Figure;
 use checkout::manifest;
 use checkout::paths::Paths;
+use files::table::{Cell, Sheet};
 use form::Form;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
@@ -46,6 +46,37 @@ pub struct Source<'a> {
     pub figures: &'a [Figure],
     /// What is known of each output.
     pub manifest: BTreeMap<String, manifest::Entry>,
+}
+
+/// A table of the checkout.
+///
+/// # Errors
+/// Stale: there is no such table. Failed: it cannot be read.
+fn table(paths: &Paths, name: &str) -> Result<Sheet, Failure> {
+    let path = paths.root.join(name);
+    match path.is_file() {
+        true => Sheet::read(&path).map_err(Failure::failed),
+        false => Err(Failure::Stale(format!("{name}: no such table; cargo xtask figures --all"))),
+    }
+}
+
+/// The numbers of a column, from top to bottom.
+///
+/// # Errors
+/// Failed: there is no such column.
+fn numbers(sheet: &Sheet, column: &str) -> Result<Vec<f64>, Failure> {
+    let cells = sheet.column(column).map_err(Failure::failed)?;
+    Ok(cells.iter().filter_map(Cell::number).collect())
+}
+
+/// The largest of numbers, of which there must be one.
+fn largest(numbers: &[f64]) -> f64 {
+    numbers.iter().copied().max_by(f64::total_cmp).unwrap_or(f64::NAN)
+}
+
+/// The least of numbers, of which there must be one.
+fn least(numbers: &[f64]) -> f64 {
+    numbers.iter().copied().min_by(f64::total_cmp).unwrap_or(f64::NAN)
 }
 
 impl Quantities {

@@ -1,7 +1,6 @@
 //! How far the regenerated curves are from the published ones, and how well those can be read.
 
-use super::sheet::Sheet;
-use super::{Quantities, Source};
+use super::{Quantities, Source, largest, numbers, table};
 use checkout::disk;
 use checkout::failure::Failure;
 
@@ -18,10 +17,10 @@ const PAIRS: [(&str, &str, &str, &str, &str); 2] = [
 pub fn collect(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
     for (short, points, ours, column, key) in PAIRS {
         let (usual, largest_reading) = reading_errors(source, all, short, points)?;
-        let published = Sheet::read(source.paths, &format!("data/reference/{points}.csv"))?;
-        let made = Sheet::read(source.paths, ours)?;
-        let (keys, values) = (made.numbers(key)?, made.numbers(column)?);
-        let read = published.numbers(key)?.into_iter().zip(published.numbers(column)?);
+        let published = table(source.paths, &format!("data/reference/{points}.csv"))?;
+        let made = table(source.paths, ours)?;
+        let (keys, values) = (numbers(&made, key)?, numbers(&made, column)?);
+        let read = numbers(&published, key)?.into_iter().zip(numbers(&published, column)?);
         // read off a drawing, so keys are whole numbers only nearly
         let at = |wanted: f64| keys.iter().position(|&key| key == wanted.round()).map(|place| values[place]);
         let (places, distances): (Vec<f64>, Vec<f64>) =
@@ -29,14 +28,13 @@ pub fn collect(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure>
         let from = format!("{ours} against data/reference/{points}.csv");
         let squares: f64 = distances.iter().map(|distance| distance * distance).sum();
         all.exact(&format!("published.{short}.points"), distances.len() as f64, &from);
-        let largest = distances.iter().fold(0.0, |a: f64, &b| if b > a { b } else { a });
-        all.rounded(&format!("published.{short}.largest"), largest, 2, &from);
-        let scale = values.iter().fold(0.0, |a: f64, &b| if b > a { b } else { a });
-        all.rounded(&format!("published.{short}.percent"), 100.0 * largest / scale, 1, &from);
+        let furthest = largest(&distances);
+        all.rounded(&format!("published.{short}.largest"), furthest, 2, &from);
+        all.rounded(&format!("published.{short}.percent"), 100.0 * furthest / largest(&values), 1, &from);
         all.rounded(&format!("published.{short}.rms"), (squares / distances.len() as f64).sqrt(), 2, &from);
         // a curve is read the worse the steeper it is: from the usual error on, in proportion to the slope, to the largest
         let slopes: Vec<f64> = places.iter().map(|&place| slope(&keys, &values, place)).collect();
-        let steepest = slopes.iter().fold(0.0, |a: f64, &b| if b > a { b } else { a });
+        let steepest = largest(&slopes);
         let reading = slopes.iter().map(|slope| {
             let steep = largest_reading * slope / steepest;
             if steep > usual { steep } else { usual }
@@ -44,11 +42,7 @@ pub fn collect(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure>
         let shares: Vec<f64> = distances.iter().zip(reading).map(|(distance, reading)| distance / reading).collect();
         let outside = shares.iter().filter(|share| **share > 1.0).count();
         all.exact(&format!("published.{short}.outside"), outside as f64, &from);
-        let largest = shares.iter().fold(0.0, |a: f64, &b| if b > a { b } else { a });
-        all.rounded(&format!("published.{short}.outside-times"), largest, 2, &from);
-        let mut sorted = distances;
-        sorted.sort_by(f64::total_cmp);
-        all.rounded(&format!("published.{short}.median"), sorted[sorted.len() / 2], 2, &from);
+        all.rounded(&format!("published.{short}.outside-times"), largest(&shares), 2, &from);
     }
     Ok(())
 }

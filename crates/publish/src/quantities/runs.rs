@@ -1,10 +1,10 @@
 //! What the runs of the figures say: events, errors, and single values of their curves.
 
-use super::sheet::Sheet;
-use super::{Quantities, Source};
+use super::{Quantities, Source, largest, least, numbers, table};
 use checkout::disk;
 use checkout::failure::Failure;
 use checkout::paths::EVENTS;
+use files::table::Cell;
 
 /// Adds all of it.
 ///
@@ -53,14 +53,23 @@ const REFERENCES: [(&str, &str); 2] =
 fn events(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
     let text = disk::read_text(&source.paths.root.join(REFERENCE_EVENTS))?.unwrap_or_default();
     let references = checkout::events::parse_all(REFERENCE_EVENTS, &text)?;
-    let sheet = Sheet::read(source.paths, EVENTS)?;
-    for (scene, event) in sheet.words("scene")?.into_iter().zip(sheet.words("event")?) {
-        let row = sheet.only(&[("scene", &*scene), ("event", &*event)])?;
+    for row in table(source.paths, EVENTS)?.rows() {
+        let [Cell::Word(scene), Cell::Word(event), Cell::Number(time), Cell::Number(n), Cell::Number(spread)] = row
+        else {
+            return Err(Failure::Usage(format!(
+                "{EVENTS}: expected scene,event,t,n,uncertainty, found a row of {} other cells",
+                row.len()
+            )));
+        };
         let (start, from) = (format!("{scene}.{event}"), format!("{EVENTS}: {scene}, {event}"));
-        let (time, mut error) = (row.first("t")?, row.first("uncertainty")?);
+        if all.by_name.contains_key(&format!("{start}.t")) {
+            // the first of its kind is the one that is said
+            continue;
+        }
+        let (time, mut error) = (*time, *spread);
         all.rounded(&format!("{start}.spread"), error, 1, &from);
-        let named = REFERENCES.iter().find(|(figure, _)| *figure == scene).and_then(|(_, name)| references.get(*name));
-        if let Some(reference) = named.and_then(|events| events.iter().find(|one| one.event == event)) {
+        let named = REFERENCES.iter().find(|(figure, _)| figure == scene).and_then(|(_, name)| references.get(*name));
+        if let Some(reference) = named.and_then(|events| events.iter().find(|one| one.event == *event)) {
             let digits = written_out(&reference.t_text)
                 .ok_or_else(|| Failure::Usage(format!("{REFERENCE_EVENTS}: t of {event} is not of the form 1.2e3")))?;
             // more digits than a double has: the table's own text
@@ -71,7 +80,7 @@ fn events(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
         }
         all.uncertain(&format!("{start}.t"), time, error, &from);
         all.rounded(&format!("{start}.short"), time, 5, &from);
-        all.exact(&format!("{start}.n"), row.first("n")?, &from);
+        all.exact(&format!("{start}.n"), *n, &from);
     }
     Ok(())
 }
@@ -88,9 +97,8 @@ fn written_out(text: &str) -> Option<String> {
 /// least and the largest speed; and the least speed of the whole run once all have started.
 fn jams(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
     let name = "data/fig12/t2000.csv";
-    let sheet = Sheet::read(source.paths, name)?;
-    let speeds = sheet.numbers("v")?;
-    let threshold = 0.5 * (sheet.least("v")? + sheet.largest("v")?);
+    let speeds = numbers(&table(source.paths, name)?, "v")?;
+    let threshold = 0.5 * (least(&speeds) + largest(&speeds));
     let is_slow: Vec<bool> = speeds.iter().map(|&speed| speed < threshold).collect();
     let begins = (0..speeds.len()).filter(|&n| is_slow[n] && !is_slow[(n + speeds.len() - 1) % speeds.len()]);
     all.exact(
@@ -106,10 +114,15 @@ fn jams(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
 /// From which desired speed on pedestrians collide under the logarithmic force at several headways: rounded outwards.
 fn collisions(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
     let name = "data/s14/collision_by_headway.csv";
-    let sheet = Sheet::read(source.paths, name)?;
+    let sheet = table(source.paths, name)?;
     let down = |value: f64| (value * 1e4).floor() / 1e4;
-    all.rounded("collision.headways.none", down(sheet.least("none_at")?), 5, &format!("{name}: least of none_at"));
-    let highest = -down(-sheet.largest("contact_at")?);
+    all.rounded(
+        "collision.headways.none",
+        down(least(&numbers(&sheet, "none_at")?)),
+        5,
+        &format!("{name}: least of none_at"),
+    );
+    let highest = -down(-largest(&numbers(&sheet, "contact_at")?));
     all.rounded("collision.headways.contact", highest, 5, &format!("{name}: largest of contact_at"));
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! Every complaint about a scene file, word for word: file, line, key, value, and what would be valid.
+//! Every error message about a scene file, verbatim: file, line, key, value, and what would be valid.
 
 use files::scene_file::{self, Kind};
 use ode::Method;
@@ -205,12 +205,12 @@ fn complaints_about_closed_gaps_and_flows_that_do_not_exist() {
             (
                 "= 64",
                 "= 100",
-                ":9: ring.length = 200: the gaps are closed at the start: L/N = 2.0 leaves 0.0; the length must be above 200.0",
+                ":9: ring.length = 200: the effective gaps are closed at the start: L/N = 2.0 leaves 0.0; the length must be above 200.0",
             ),
             (
                 "= 64",
                 "= 128",
-                ":9: ring.length = 200: the gaps are closed at the start: L/N = 1.5625 leaves -0.4375; the length must be above 256.0",
+                ":9: ring.length = 200: the effective gaps are closed at the start: L/N = 1.5625 leaves -0.4375; the length must be above 256.0",
             ),
             (
                 "shift = 0.1",

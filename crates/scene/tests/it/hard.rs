@@ -58,7 +58,7 @@ fn runs_through_a_wall_fill_tables_with_finite_numbers_or_say_where_they_broke()
     assert!(stopped > 100 && broken > 10, "{stopped} {broken}");
 }
 
-/// The message of a broken run: time, step, pedestrian and gap of the least room, all in the order of the words.
+/// The message of a broken run: time, step, smallest effective gap and its pedestrian, in the order of the words.
 fn assert_named(broken: &Broken, label: &str) {
     let ode::Failure::NotFinite { time, step } = broken.failure else { panic!("{label}: {broken:?}") };
     let Some(Narrowest { pedestrian, spacing: gap, effective_gap: room, speed }) = broken.narrowest else {
@@ -66,7 +66,8 @@ fn assert_named(broken: &Broken, label: &str) {
     };
     assert!(pedestrian < 10 && [time, gap, room, speed].iter().all(|x| x.is_finite()), "{label}: {broken:?}");
     let words = "the state is no longer finite; a smaller step may help";
-    let place = format!("least room then: pedestrian {pedestrian}, gap {gap:?}, room {room:?}, speed {speed:?}");
+    let place =
+        format!("smallest effective gap then: {room:?}, of pedestrian {pedestrian}, spacing {gap:?}, speed {speed:?}");
     assert_eq!(broken.to_string(), format!("in the step of {step:e} from t = {time:?} {words}; {place}"), "{label}");
 }
 

@@ -1,5 +1,5 @@
 //! Tests of scenes: every complaint, the figures' own scenes, maps, curves, overrides, and runs against published curves
-//! and against a second method; checkpoints, and prints of steps.
+//! and against a second method; checkpoints.
 
 mod cases;
 mod checkpoint;

@@ -1,4 +1,4 @@
-//! The hard cases: what happens there and what each scheme does, as tables (the numerical supplement of the report tells what they say).
+//! The hard cases as tables: what happens there, and what each scheme does (discussed in the numerical supplement).
 //! A number is computed in two independent ways wherever one is printed; the table has their difference.
 
 mod blow_up;

@@ -28,7 +28,7 @@ fn malformed_lines_are_named() {
         (format!("{ONE}  ../a\n"), "list:1: not a name relative"),
         (format!("{ONE}  a\r"), "list:1: a control character in the name"),
         (format!("{ONE}  /a\n"), "list:1: not a name relative"),
-        (format!("{ONE}  a\n{TWO}  a\n"), "list:2: this name stands twice"),
+        (format!("{ONE}  a\n{TWO}  a\n"), "list:2: this name appears twice"),
     ] {
         let failure = Sums::parse("list", &text).expect_err(problem);
         assert_eq!(failure.code(), 2);
@@ -86,7 +86,7 @@ fn the_place_of_the_largest_distance_is_named() {
 fn tables_of_another_shape_are_not_compared() {
     let table = |text: &str| Sheet::parse(text.as_bytes()).expect("a table");
     let columns = numbers::compare(&table("t,std\n0,1\n"), &table("t,x\n0,1\n"), 1, &exact).expect_err("columns");
-    assert_eq!(columns, "columns t,x in place of t,std");
+    assert_eq!(columns, "expected the columns t,std, found t,x");
     let rows = numbers::compare(&table("t\n0\n1\n"), &table("t\n0\n"), 1, &exact).expect("the rows of both");
     assert_eq!((rows.cells, rows.unmatched), (0, 1));
 }

@@ -61,7 +61,7 @@ impl Prepared {
     }
 }
 
-/// So many uniform flows are looked at together.
+/// Uniform flows per iteration.
 const AT_ONCE: usize = 512;
 
 /// Whether speeds occur in no operation but linear ones with constants, so that a steady relaxation of the uniform flow

@@ -6,12 +6,11 @@ use super::rows::{Neighbours, Reach};
 use crate::force::Motion;
 use formula::Unary;
 use math::lanes::Lanes;
-use math::series::ROWS;
 use math::series::recurrences::{self as next, History};
+use math::series::{Block, ROWS};
 use math::simd::Kernel;
-use std::cell::Cell;
 
-/// So many pedestrians at a time.
+/// Pedestrians per iteration.
 pub const W: usize = 16;
 
 /// A row of a block for each order.
@@ -21,7 +20,7 @@ type Blocks = [[f64; W]];
 #[derive(Clone, Debug, Default)]
 pub struct Memory {
     /// What the operations keep: for each of them, for each block, [`ROWS`] rows of coefficients.
-    histories: Vec<Cell<[f64; W]>>,
+    histories: Vec<Block<W>>,
     registers: Vec<Vec<[f64; W]>>,
     neighbours: Neighbours,
     spacings: Vec<f64>,
@@ -55,7 +54,7 @@ impl Kernel for Coefficients<'_, '_> {
         let Memory { histories, registers, neighbours, spacings, speeds } = memory;
         let needed = operations * blocks * ROWS * order;
         if histories.len() < needed {
-            histories.resize(needed, Cell::new([0.0; W]));
+            histories.resize(needed, Block::default());
         }
         registers.resize(program.registers, Vec::new());
         registers.iter_mut().for_each(|register| register.resize(blocks, [0.0; W]));
@@ -96,7 +95,7 @@ impl Kernel for Coefficients<'_, '_> {
 struct Order<'a> {
     program: &'a Program,
     registers: &'a mut Vec<Vec<[f64; W]>>,
-    histories: &'a [Cell<[f64; W]>],
+    histories: &'a [Block<W>],
     /// Coefficients of a series.
     length: usize,
     /// The order.
@@ -134,7 +133,7 @@ impl Order<'_> {
 /// The histories of operations.
 #[derive(Clone, Copy)]
 struct Histories<'a> {
-    memory: &'a [Cell<[f64; W]>],
+    memory: &'a [Block<W>],
     blocks: usize,
     length: usize,
     order: usize,
