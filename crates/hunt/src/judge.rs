@@ -239,7 +239,7 @@ fn reason(verdict: &mut Verdict, scene: &Scene, broken: &Broken, answer: &Answer
     // positions tell no room below their rounding; before a blow-up that rounding throws pedestrians about
     let (room, when) = solution.least[0];
     let is_rounding = |room: f64| room < 1e-10 * scene.ring.length;
-    let own = broken.narrowest.is_some_and(|place| is_rounding(place.room));
+    let own = broken.narrowest.is_some_and(|place| is_rounding(place.effective_gap));
     let blows_up = matches!(solution.end, End::Singular | End::BlownUp);
     let sees_none = when <= time && is_rounding(room) || own && blows_up;
     let is_blind = scene.form == StateVariables::Positions && sees_none;

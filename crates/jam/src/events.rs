@@ -62,25 +62,25 @@ impl EventKind {
 pub struct Event {
     /// What.
     pub kind: EventKind,
-    /// When.
+    /// When, in units of `tau`: to the last bit of the step's interpolant.
     pub time: f64,
     /// To whom, counted from 0.
     pub pedestrian: usize,
-    /// The gap `s_n` to the pedestrian ahead then.
+    /// The spacing `s_n` to the pedestrian ahead then, in units of `a_0`.
     pub gap: f64,
-    /// The length of the step in which it lies.
+    /// The length of the step in which it lies, in units of `tau`; 0 at the start.
     pub step: f64,
 }
 
-/// Spacings, speeds and rooms with their rates at one instant.
+/// Spacings, speeds and effective gaps with their rates at one instant.
 #[derive(Clone, Debug)]
 pub(crate) struct Instant {
     pub(crate) gaps: Vec<f64>,
     pub(crate) speeds: Vec<f64>,
-    pub(crate) rooms: Vec<f64>,
+    pub(crate) effective_gaps: Vec<f64>,
     gap_rates: Vec<f64>,
     pub(crate) speed_rates: Vec<f64>,
-    pub(crate) room_rates: Vec<f64>,
+    pub(crate) effective_gap_rates: Vec<f64>,
     net_gaps: Vec<f64>,
 }
 
@@ -90,10 +90,10 @@ impl Instant {
         Instant {
             gaps: zeros(),
             speeds: zeros(),
-            rooms: zeros(),
+            effective_gaps: zeros(),
             gap_rates: zeros(),
             speed_rates: zeros(),
-            room_rates: zeros(),
+            effective_gap_rates: zeros(),
             net_gaps: zeros(),
         }
     }
@@ -103,7 +103,7 @@ impl Instant {
         form.read_rates(rates, &mut self.gap_rates, &mut self.speed_rates);
         let now = Rows { spacings: &self.net_gaps, speeds: &self.speeds };
         let rates = Rows { spacings: &self.gap_rates, speeds: &self.speed_rates };
-        force.effective_gap_rates(now, rates, &mut self.room_rates);
+        force.effective_gap_rates(now, rates, &mut self.effective_gap_rates);
     }
 
     /// All but the rates.
@@ -111,7 +111,7 @@ impl Instant {
         form.read(state, &mut self.gaps, &mut self.speeds);
         self.net_gaps.clear();
         self.net_gaps.extend(self.gaps.iter().map(|gap| gap - force.contact()));
-        force.effective_gaps(&self.net_gaps, &self.speeds, &mut self.rooms);
+        force.effective_gaps(&self.net_gaps, &self.speeds, &mut self.effective_gaps);
     }
 }
 
@@ -128,8 +128,8 @@ pub struct Watch<'a> {
     state: Vec<f64>,
     /// The time that `after` shows.
     seen: Option<f64>,
-    /// Whether rooms are gaps less a constant.
-    has_plain_rooms: bool,
+    /// Whether effective gaps are spacings less a constant.
+    has_plain_gaps: bool,
     /// The end of the step looked at last, as sizes of deviations.
     near: Option<Near>,
     /// Whether that step was passed over.
@@ -148,10 +148,10 @@ impl<'a> Watch<'a> {
         let instant = Instant::new(pedestrians);
         let force = model.force();
         let [before, after, within] = [instant.clone(), instant.clone(), instant];
-        let has_plain_rooms = model.has_plain_gaps();
+        let has_plain_gaps = model.has_plain_gaps();
         let (found, state) = (Vec::new(), Vec::new());
         let (seen, near, is_quiet) = (None, None, false);
-        Watch { model, force, form, found, before, after, within, state, seen, has_plain_rooms, near, is_quiet }
+        Watch { model, force, form, found, before, after, within, state, seen, has_plain_gaps, near, is_quiet }
     }
 
     /// Goes on with the same ring in another form.
@@ -165,17 +165,17 @@ impl<'a> Watch<'a> {
         self.after.read(self.form, &*self.force, state, rates);
         self.seen = Some(t);
         let now = &self.after;
-        for event in EventKind::WITHIN_STEPS {
+        for kind in EventKind::WITHIN_STEPS {
             for pedestrian in 0..now.gaps.len() {
-                let (value, rate) = match event {
-                    EventKind::Overlap => (now.rooms[pedestrian], now.room_rates[pedestrian]),
+                let (value, rate) = match kind {
+                    EventKind::Overlap => (now.effective_gaps[pedestrian], now.effective_gap_rates[pedestrian]),
                     EventKind::NegativeSpeed => (now.speeds[pedestrian], now.speed_rates[pedestrian]),
                     EventKind::Exchange => (now.gaps[pedestrian], now.gap_rates[pedestrian]),
                     EventKind::BlowUp => (self.bound() - now.speeds[pedestrian].abs(), 0.0),
                     EventKind::Undefined => continue,
                 };
                 if value < 0.0 || value == 0.0 && rate < 0.0 {
-                    self.found.push(Event { kind: event, time: t, pedestrian, gap: now.gaps[pedestrian], step: 0.0 });
+                    self.found.push(Event { kind, time: t, pedestrian, gap: now.gaps[pedestrian], step: 0.0 });
                 }
             }
         }
@@ -205,7 +205,7 @@ impl<'a> Watch<'a> {
         &self.within
     }
 
-    /// The spacings and speeds at a time within a step.
+    /// The `N` spacings and the `N` speeds at a time within a step, from its start to its end.
     pub fn everybody_at(&self, step: &mut Step<'_>, time: f64) -> [Vec<f64>; 2] {
         let count = self.after.gaps.len();
         let (mut state, mut spacings, mut speeds) =
@@ -215,32 +215,32 @@ impl<'a> Watch<'a> {
         [spacings, speeds]
     }
 
-    /// The speeds at the end of the step looked at last.
+    /// The `N` speeds at the end of the step looked at last, in units of `a_0 / tau`.
     pub fn speeds(&self) -> &[f64] {
         &self.after.speeds
     }
 
-    /// The rooms at the end of the step looked at last.
-    pub fn rooms(&self) -> &[f64] {
-        &self.after.rooms
+    /// The `N` effective gaps at the end of the step looked at last, in units of `a_0`.
+    pub fn effective_gaps(&self) -> &[f64] {
+        &self.after.effective_gaps
     }
 
-    /// The rooms in any state of the form.
-    pub fn rooms_of(&self, state: &[f64]) -> Vec<f64> {
+    /// The `N` effective gaps in any state of the form, in units of `a_0`.
+    pub fn effective_gaps_in(&self, state: &[f64]) -> Vec<f64> {
         let mut instant = self.before.clone();
         instant.read(self.form, &*self.force, state, &vec![0.0; state.len()]);
-        instant.rooms
+        instant.effective_gaps
     }
 
     /// How fast what falls through 0 in an event changes, for a pedestrian in this state, if the state changes like this:
     /// its rates, or an error.
-    pub fn change(&mut self, event: EventKind, pedestrian: usize, state: &[f64], direction: &[f64]) -> f64 {
+    pub fn change(&mut self, kind: EventKind, pedestrian: usize, state: &[f64], direction: &[f64]) -> f64 {
         self.before.read(self.form, &*self.force, state, direction);
         // what the next step begins with is read anew
         self.seen = None;
-        let Instant { room_rates, speed_rates, gap_rates, .. } = &self.before;
-        match event {
-            EventKind::Overlap => room_rates[pedestrian],
+        let Instant { effective_gap_rates, speed_rates, gap_rates, .. } = &self.before;
+        match kind {
+            EventKind::Overlap => effective_gap_rates[pedestrian],
             EventKind::NegativeSpeed | EventKind::BlowUp => speed_rates[pedestrian],
             EventKind::Exchange => gap_rates[pedestrian],
             EventKind::Undefined => f64::NAN,
@@ -248,8 +248,8 @@ impl<'a> Watch<'a> {
     }
 
     /// Adds an event that the steps do not show.
-    pub fn add(&mut self, happening: Event) {
-        self.found.push(happening);
+    pub fn add(&mut self, event: Event) {
+        self.found.push(event);
     }
 
     /// The first event of each kind so far, of everybody to whom it happened at once, in order of time.
@@ -279,16 +279,16 @@ impl<'a> Watch<'a> {
         self.seen = Some(step.end);
         self.after.read(self.form, &*self.force, step.after(), step.rates_after());
         let mut new = Vec::new();
-        for event in EventKind::WITHIN_STEPS {
-            let mut known = self.found.iter().filter(|happening| happening.kind == event).peekable();
-            let first = known.peek().map(|happening| happening.time);
-            if first.is_none_or(|time| step.start <= time + AT_ONCE) && self.may_lie_within(event, step.length()) {
-                let known: Vec<usize> = known.map(|happening| happening.pedestrian).collect();
-                new.extend(self.locate(event, first, &known, step));
+        for kind in EventKind::WITHIN_STEPS {
+            let mut known = self.found.iter().filter(|event| event.kind == kind).peekable();
+            let first = known.peek().map(|event| event.time);
+            if first.is_none_or(|time| step.start <= time + AT_ONCE) && self.may_lie_within(kind, step.length()) {
+                let known: Vec<usize> = known.map(|event| event.pedestrian).collect();
+                new.extend(self.locate(kind, first, &known, step));
             }
         }
         let mut overlaps = self.found.iter().chain(&new);
-        if step.is_beyond() && overlaps.all(|happening| happening.kind != EventKind::Overlap) {
+        if step.is_beyond() && overlaps.all(|event| event.kind != EventKind::Overlap) {
             new.push(self.back_from_beyond(step));
         }
         new.sort_by(|a, b| a.time.total_cmp(&b.time));
@@ -297,12 +297,14 @@ impl<'a> Watch<'a> {
     }
 
     /// Whether the event's value can be negative within the step.
-    fn may_lie_within(&self, event: EventKind, h: f64) -> bool {
+    fn may_lie_within(&self, kind: EventKind, h: f64) -> bool {
         let (before, after) = (&self.before, &self.after);
-        match event {
-            EventKind::Overlap => {
-                may_be_negative((&before.rooms, &before.room_rates), (&after.rooms, &after.room_rates), h)
-            }
+        match kind {
+            EventKind::Overlap => may_be_negative(
+                (&before.effective_gaps, &before.effective_gap_rates),
+                (&after.effective_gaps, &after.effective_gap_rates),
+                h,
+            ),
             EventKind::NegativeSpeed => {
                 may_be_negative((&before.speeds, &before.speed_rates), (&after.speeds, &after.speed_rates), h)
             }
@@ -319,12 +321,12 @@ impl<'a> Watch<'a> {
 
     /// The first event of this kind in the step, of everybody but those `known` to whom it happens at once; none that is
     /// not at once with the `first` of all.
-    fn locate(&self, event: EventKind, first: Option<f64>, known: &[usize], step: &mut Step<'_>) -> Vec<Event> {
+    fn locate(&self, kind: EventKind, first: Option<f64>, known: &[usize], step: &mut Step<'_>) -> Vec<Event> {
         let count = self.before.gaps.len();
         let (mut gaps, mut speeds) = (vec![0.0; count], vec![0.0; count]);
         let mut values = |state: &[f64], values: &mut [f64]| {
             self.form.read(state, &mut gaps, &mut speeds);
-            self.values(event, &mut gaps, &speeds, values);
+            self.values(kind, &mut gaps, &speeds, values);
             known.iter().for_each(|&n| values[n] = f64::INFINITY);
         };
         let mut all = vec![0.0; count];
@@ -353,24 +355,24 @@ impl<'a> Watch<'a> {
             step.at_fraction(place, &mut state);
             self.form.read(&state, &mut all, &mut spare);
             let (time, gap) = (start + place * length, all[pedestrian]);
-            found.push(Event { kind: event, time, pedestrian, gap, step: length });
+            found.push(Event { kind, time, pedestrian, gap, step: length });
         }
         found
     }
 
     /// The overlap in a step that was beyond a wall at none but its stages: at its end, of the pedestrian with the least
-    /// room at its start.
+    /// effective gap at its start.
     fn back_from_beyond(&self, step: &Step<'_>) -> Event {
-        let rooms = self.before.rooms.iter().enumerate();
+        let effective_gaps = self.before.effective_gaps.iter().enumerate();
         let (pedestrian, _) =
-            rooms.fold((0, f64::INFINITY), |least, (n, &room)| if room < least.1 { (n, room) } else { least });
+            effective_gaps.fold((0, f64::INFINITY), |least, (n, &gap)| if gap < least.1 { (n, gap) } else { least });
         let gap = self.before.gaps[pedestrian];
         Event { kind: EventKind::Overlap, time: step.end, pedestrian, gap, step: step.length() }
     }
 
     /// Negative once the event has happened; the gaps are spoilt.
-    fn values(&self, event: EventKind, gaps: &mut [f64], speeds: &[f64], values: &mut [f64]) {
-        match event {
+    fn values(&self, kind: EventKind, gaps: &mut [f64], speeds: &[f64], values: &mut [f64]) {
+        match kind {
             EventKind::Overlap => {
                 gaps.iter_mut().for_each(|gap| *gap -= self.force.contact());
                 self.force.effective_gaps(gaps, speeds, values);

@@ -5,11 +5,11 @@
 pub struct Jam {
     /// The last of its pedestrians, counted from 0; the others have the next numbers.
     pub first: usize,
-    /// How many are in it.
+    /// How many are in it, 1 to `N - 1`.
     pub pedestrians: usize,
-    /// Distance between its two ends: where the speed, linear between neighbours, crosses the threshold.
+    /// Distance between its two ends, in units of `a_0`: where the speed, linear between neighbours, crosses the threshold.
     pub extent: f64,
-    /// The middle between its ends, unwrapped like the positions.
+    /// The middle between its ends, in units of `a_0`, unwrapped like the positions.
     pub centre: f64,
 }
 
@@ -17,7 +17,7 @@ pub struct Jam {
 const CONTRAST: f64 = 0.1;
 
 /// The threshold that tells a jam from free flow in a snapshot: half way between the lowest and the highest speed.
-/// `None` while they differ by no more than a tenth of the desired speed.
+/// `None` while they differ by no more than a tenth of the desired speed. Speeds and threshold have one unit.
 pub fn threshold(speeds: &[f64], desired_speed: f64) -> Option<f64> {
     let low = speeds.iter().copied().fold(f64::INFINITY, |a, b| if b < a { b } else { a });
     let high = speeds.iter().copied().fold(f64::NEG_INFINITY, |a, b| if b > a { b } else { a });
@@ -25,7 +25,7 @@ pub fn threshold(speeds: &[f64], desired_speed: f64) -> Option<f64> {
 }
 
 /// The jams of a snapshot on a ring of the given length; positions unwrapped, growing with the number of the
-/// pedestrian. Empty when everybody is slower than the threshold, or nobody.
+/// pedestrian, as many as speeds. Empty when everybody is slower than the threshold, or nobody.
 pub fn find(positions: &[f64], speeds: &[f64], length: f64, threshold: f64) -> Vec<Jam> {
     let count = speeds.len();
     let speed = |n: usize| speeds[n % count];
@@ -59,14 +59,15 @@ pub fn find(positions: &[f64], speeds: &[f64], length: f64, threshold: f64) -> V
 pub struct Drift {
     /// The jams of the last snapshot.
     pub before: Vec<Jam>,
-    /// How far they have travelled since their number changed, on the average.
+    /// How far they have travelled since their number changed, on the average, in units of `a_0`; negative backwards.
     pub distance: f64,
-    /// The time this took.
+    /// The time this took, in units of `tau`.
     pub time: f64,
 }
 
 impl Drift {
-    /// Takes the jams of the next snapshot, `interval` after the one before, on a ring of the given length.
+    /// Takes the jams of the next snapshot, `interval` after the one before, on a ring of the given length. A jam that moves
+    /// by half the ring or more in that time is not told from one that moves the other way.
     pub fn follow(&mut self, jams: &[Jam], length: f64, interval: f64) {
         let around = |distance: f64| distance - length * (distance / length).round();
         if jams.len() != self.before.len() || jams.is_empty() {
@@ -88,7 +89,8 @@ impl Drift {
         &self.before
     }
 
-    /// The mean speed of the jams, negative when they travel backwards, and the time it was measured over. `None`
+    /// The mean speed of the jams on the ground, in units of `a_0 / tau`, negative when they travel backwards, and the time it was
+    /// measured over. `None`
     /// while there are none, or right after their number changed.
     pub fn speed(&self) -> Option<(f64, f64)> {
         (self.time > 0.0).then(|| (self.distance / self.time, self.time))

@@ -2,7 +2,7 @@
 
 use math::simd::{Kernel, dispatch};
 
-/// The standard deviation over the pedestrians, divided by `N` (not `N - 1`): the mean first, then the squares of what
+/// The standard deviation over the pedestrians (at least one), in the unit of the values, divided by `N` (not `N - 1`): the mean first, then the squares of what
 /// is left; 0 of numbers that are all equal. Sums run in eight lanes, `n` modulo 8, which are then added in pairs: one fixed order for any vector width.
 pub fn spread(values: &[f64]) -> f64 {
     // the mean of equal numbers is rounded

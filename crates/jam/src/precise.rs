@@ -23,7 +23,7 @@ pub struct Precise {
 const PART: f64 = 1e-13;
 
 impl Precise {
-    /// In the uniform flow with this headway, whose speed is next to this one.
+    /// In the uniform flow with this headway (in units of `a_0`), whose speed is next to this one; found by Newton's method.
     pub fn new(model: &Model, headway: f64, speed: f64) -> Precise {
         let at = |spacing: DoubleDouble, speed: DoubleDouble| accelerate(model, &|_| spacing, &|_| speed);
         let (spacing, mut v) = (DoubleDouble::from(headway) - model.contact(), DoubleDouble::from(speed));
@@ -63,7 +63,7 @@ impl Precise {
         Precise { spacings: slopes(true), speeds: slopes(false) }
     }
 
-    /// The same in doubles.
+    /// The same, rounded to doubles.
     pub fn rounded(&self) -> Response {
         let rounded = |slopes: &Slopes| slopes.iter().map(|(j, slope)| (*j, f64::from(*slope))).collect();
         Response { spacings: rounded(&self.spacings), speeds: rounded(&self.speeds) }

@@ -3,7 +3,7 @@
 use math::lane;
 use math::simd::{Kernel, dispatch};
 
-/// `r(x)`: `-x` for negative `x`, else 0.
+/// `r(x)`: `-x` for negative `x`, else 0; the limit of [`smooth_ramp`] for a width of 0.
 pub fn ramp(x: f64) -> f64 {
     if x < 0.0 { -x } else { 0.0 }
 }
@@ -18,13 +18,13 @@ pub fn smooth_ramp(x: f64, epsilon: f64) -> f64 {
 /// own speed and speed ahead.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bend {
-    /// Weight of the clearance.
+    /// Weight of the clearance, the net gap, per `a_0`.
     pub clearance: f64,
-    /// Weight of the own speed.
+    /// Weight of the own speed, per `a_0 / tau`.
     pub speed: f64,
-    /// Weight of the speed ahead.
+    /// Weight of the speed ahead, per `a_0 / tau`.
     pub ahead: f64,
-    /// What is added.
+    /// What is added; the bend lies where the sum is 0.
     pub offset: f64,
 }
 

@@ -5,12 +5,12 @@
 pub struct Ring {
     /// `N >= 2`.
     pub pedestrians: usize,
-    /// `L > 0`.
+    /// `L > 0`, in units of `a_0`.
     pub length: f64,
 }
 
 impl Ring {
-    /// `Delta y = L / N`: the distance of neighbours in the uniform flow.
+    /// `Delta y = L / N`, in units of `a_0`: the spacing of the uniform flow. Its inverse is the density.
     pub fn headway(&self) -> f64 {
         self.length / self.pedestrians as f64
     }
@@ -19,6 +19,7 @@ impl Ring {
 /// The initial state: equal distances, all speeds 0, pedestrian 0 moved forward by `shift` (`eps_1` of the paper).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Start {
-    /// Any size that leaves both gaps of pedestrian 0 open.
+    /// In units of `a_0`, of either sign; smaller in size than the effective gap at rest, so that both gaps of pedestrian 0 are
+    /// open.
     pub shift: f64,
 }

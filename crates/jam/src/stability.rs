@@ -11,11 +11,12 @@ use std::f64::consts::PI;
 /// The coefficients of the linearised law; all >= 0 for the laws of the paper.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Linear {
-    /// Response to the gap.
+    /// `phi`: the slope of the acceleration in the spacing, in units of `1 / tau^2` (eq:epsf).
     pub phi: f64,
-    /// Response to the speeds through the space requirement.
+    /// `-(1 + 2 beta)` is its slope in a speed that all share, in units of `1 / tau`; 0 without widening.
     pub beta: f64,
-    /// Response to the relative speed.
+    /// `1 + 2 kappa` is the slope in the speed ahead less that in the own speed, in units of `1 / tau`; 0 where relative speeds
+    /// have no influence.
     pub kappa: f64,
 }
 
@@ -27,9 +28,9 @@ pub struct Linear {
 /// `D = (Re b)^2 Re c + Re b Im b Im c - (Im c)^2 > 0` (the criterion of Routh and Hurwitz for complex coefficients).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Response {
-    /// `(j, f_{s_j})`.
+    /// `(j, f_{s_j})`, in units of `1 / tau^2`: to the spacing of pedestrian n + j.
     pub spacings: Vec<(i32, f64)>,
-    /// `(j, f_{v_j})`.
+    /// `(j, f_{v_j})`, in units of `1 / tau`: to the speed of pedestrian n + j.
     pub speeds: Vec<(i32, f64)>,
 }
 
@@ -71,7 +72,8 @@ impl Response {
         (b, c)
     }
 
-    /// The root `z^+` with the larger real part, for `k` in (0, pi].
+    /// The root `z^+` with the larger real part, in units of `1 / tau`, for `k` in (0, pi]; minus its imaginary part is the
+    /// frequency of the wave.
     pub fn root(&self, k: f64) -> Complex {
         Response::root_of(self.polynomial(k))
     }
@@ -91,7 +93,7 @@ impl Response {
         if near.0 >= far.0 { near } else { far }
     }
 
-    /// `Re z^+`: the growth rate of the wave.
+    /// `Re z^+`: the growth rate of the wave, in units of `1 / tau`, for `k` in (0, pi]; negative where it decays.
     pub fn growth_rate(&self, k: f64) -> f64 {
         self.root(k).0
     }

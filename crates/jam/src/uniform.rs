@@ -5,9 +5,9 @@ use crate::laws::{Formula, Model};
 /// Why there is no uniform flow with open gaps.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NoUniformFlow {
-    /// The headway `Delta y` asked for.
+    /// The headway `Delta y` asked for, in units of `a_0`.
     pub headway: f64,
-    /// All steady speeds, where a formula has several.
+    /// All steady speeds from 0 on, where a law has several; empty where it has none.
     pub speeds: Vec<f64>,
 }
 
@@ -42,10 +42,10 @@ pub fn steady_speed(model: &Model, headway: f64) -> Result<f64, NoUniformFlow> {
         return nearest(model, headway, None);
     }
     let pushes = |speed: f64| {
-        let has_room = !model.is_singular() || model.room(headway, speed, speed) > 0.0;
+        let has_room = !model.is_singular() || model.effective_gap(headway, speed, speed) > 0.0;
         has_room && model.acceleration(headway, speed, speed) > 0.0
     };
-    let has_room = |speed: f64| model.room(headway, speed, speed) > 0.0;
+    let has_room = |speed: f64| model.effective_gap(headway, speed, speed) > 0.0;
     let desired = model.desired_speed();
     let mut slow = -desired;
     // a strong force asks for a negative speed: go down until it is found, or the doubling runs away
@@ -87,7 +87,7 @@ pub fn nearest(model: &Model, headway: f64, wanted: Option<f64>) -> Result<f64, 
         return of_formula(formula, headway, wanted);
     }
     let value = |&speed: &f64| {
-        let is_open = !model.is_singular() || model.room(headway, speed, speed) > 0.0;
+        let is_open = !model.is_singular() || model.effective_gap(headway, speed, speed) > 0.0;
         if is_open { model.acceleration(headway, speed, speed) } else { f64::NAN }
     };
     fallen(&|speeds| speeds.iter().map(value).collect(), model.speed_scale(), headway, wanted)
@@ -150,13 +150,13 @@ fn bisected(mut low: f64, mut high: f64, value: impl Fn(f64) -> f64) -> f64 {
     }
 }
 
-/// The headway at which the uniform flow has this effective gap `d'`: the gap grows with the headway, as the steady speed's
+/// The headway at which the uniform flow has this effective gap `d'` (above 0), both in units of `a_0`: the gap grows with the headway, as the steady speed's
 /// share of it does not outrun it; found by bisection to the last bit.
 ///
 /// # Errors
 /// [`NoUniformFlow`] where no headway up to a million gaps has one.
 pub fn headway_of_gap(model: &Model, gap: f64) -> Result<f64, NoUniformFlow> {
-    let room = |headway: f64| steady_speed(model, headway).map(|speed| model.room(headway, speed, speed));
+    let room = |headway: f64| steady_speed(model, headway).map(|speed| model.effective_gap(headway, speed, speed));
     let (mut low, mut high) = (model.contact(), model.contact() + gap);
     let is_enough = |headway: f64| room(headway).is_ok_and(|room| room >= gap);
     while !is_enough(high) {

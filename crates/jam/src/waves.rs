@@ -6,7 +6,7 @@ use crate::stability::Complex;
 /// `speed` that carries one wave: places `A exp(i k n)`, gaps their differences, speeds `z` times them (the eigenvector
 /// of the root `z` of [`Linear::root`](crate::stability::Linear::root)), of all the real parts.
 ///
-/// `k` is a whole multiple of `2 pi / N`; `amplitude` is `A`, in units of `a_0`.
+/// `k` is a whole multiple of `2 pi / N`; `amplitude` is `A`, in units of `a_0`, small beside the net gap.
 pub fn start(pedestrians: usize, speed: f64, z: Complex, k: f64, amplitude: f64) -> Vec<f64> {
     let mut start = vec![0.0; 2 * pedestrians + 3];
     let place = |n: usize| (amplitude * math::cos(k * n as f64), amplitude * math::sin(k * n as f64));

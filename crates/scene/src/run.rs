@@ -149,7 +149,7 @@ fn ring(file: &str, ring: &Section, start: &Section, model: &Model) -> Result<(R
     let mut reader = Reader::new(file, "ring", ring);
     let ring =
         Ring { pedestrians: reader.count("pedestrians", 2, 10_000_000)?, length: reader.number("length", POSITIVE)? };
-    let room = model.room(ring.headway(), 0.0, 0.0);
+    let room = model.effective_gap(ring.headway(), 0.0, 0.0);
     if room <= 0.0 {
         let problem = format!(
             "the effective gaps are closed at the start: L/N = {:?} leaves {room:?}; the length must be above {:?}",

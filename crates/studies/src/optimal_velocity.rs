@@ -140,7 +140,7 @@ fn follow(model: &Model, (method, control): (Method, Control)) -> Result<Followe
     let mut following = Following { watch, negative: None, stop: None, goes_on };
     let problem = Problem { system: &*form, start: &start, begin: 0.0, end: END, method, control };
     let ended = integrate(&problem, &mut following);
-    let least = following.watch.rooms().iter().copied().fold(f64::INFINITY, math::smaller);
+    let least = following.watch.effective_gaps().iter().copied().fold(f64::INFINITY, math::smaller);
     let stop = match (following.stop, ended) {
         (Some(stop), _) => stop,
         // a square root of the room: the steps end where the room does

@@ -31,7 +31,7 @@ impl Watch<'_> {
 
     fn near(&self, time: f64, state: &[f64], rates: &[f64]) -> Option<Near> {
         // effective gaps that are gaps less a constant
-        if !self.has_plain_rooms {
+        if !self.has_plain_gaps {
             return None;
         }
         let flow = self.form.flow_along(state, rates)?;

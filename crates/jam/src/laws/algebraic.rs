@@ -15,11 +15,11 @@ pub struct Algebraic {
     pub relative: f64,
     /// `q > 0`: power of the distance.
     pub power: f64,
-    /// `a_v >= 0` (with tilde in the paper): growth of the space requirement with speed.
+    /// `a_v >= 0` (with tilde in the paper): growth of the space requirement with speed, in units of `tau`.
     pub widening: f64,
     /// `eps > 0`: width of the smooth ramp; without effect when `delta = 0`.
     pub epsilon: f64,
-    /// `v_0' > 0`: desired speed.
+    /// `v_0' > 0`: desired speed, in units of `a_0 / tau`.
     pub desired_speed: f64,
 }
 
@@ -92,7 +92,7 @@ impl Algebraic {
         self.strength + self.relative * self.epsilon * LN_2
     }
 
-    /// `d'` of the uniform flow.
+    /// `d' = Delta y - 2 - 2 a_v v'`, the effective gap of the uniform flow, in units of `a_0`.
     pub fn gap(&self, headway: f64, speed: f64) -> f64 {
         headway - 2.0 * self.widening * speed - 2.0
     }

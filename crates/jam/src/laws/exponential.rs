@@ -9,17 +9,17 @@ use math::number::Number;
 /// Parameters `<a, b, c, a_v>` and `v_0'`, `eps`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Exponential {
-    /// `a >= 0`: strength of the force.
+    /// `a >= 0`: strength of the force, in units of `a_0 / tau^2`.
     pub strength: f64,
-    /// `b > 0`: its range.
+    /// `b > 0`: its range, in units of `a_0`.
     pub range: f64,
-    /// `c >= 0`: stiffness of the contact.
+    /// `c >= 0`: stiffness of the contact, in units of `1 / tau^2`.
     pub contact: f64,
-    /// `a_v >= 0` (with tilde in the paper): growth of the space requirement with speed.
+    /// `a_v >= 0` (with tilde in the paper): growth of the space requirement with speed, in units of `tau`.
     pub widening: f64,
-    /// `eps > 0`: width of the smooth ramp; without effect when `c = 0`.
+    /// `eps > 0`: width of the smooth ramp, in units of `a_0`; without effect when `c = 0`.
     pub epsilon: f64,
-    /// `v_0' > 0`: desired speed.
+    /// `v_0' > 0`: desired speed, in units of `a_0 / tau`.
     pub desired_speed: f64,
 }
 
@@ -70,7 +70,7 @@ impl Law for Exponential {
 }
 
 impl Exponential {
-    /// `d'` of the uniform flow.
+    /// `d' = Delta y - 2 - 2 a_v v'`, the effective gap of the uniform flow, in units of `a_0`.
     pub fn gap(&self, headway: f64, speed: f64) -> f64 {
         headway - 2.0 * self.widening * speed - 2.0
     }

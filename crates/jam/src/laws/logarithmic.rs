@@ -13,11 +13,11 @@ pub const C: f64 = E - 1.0;
 /// Parameters `(v_0', a_v)` and `eps`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Logarithmic {
-    /// `v_0' > 0`: desired speed.
+    /// `v_0' > 0`: desired speed, in units of `a_0 / tau`.
     pub desired_speed: f64,
-    /// `a_v >= 0` (with tilde in the paper): growth of the safety distance with speed.
+    /// `a_v >= 0` (with tilde in the paper): growth of the safety distance with speed, in units of `tau`.
     pub widening: f64,
-    /// `eps > 0`: width of the smooth ramp.
+    /// `eps > 0`: width of the smooth ramp, a part of the critical distance.
     pub epsilon: f64,
 }
 
@@ -59,7 +59,7 @@ impl Law for Logarithmic {
 }
 
 impl Logarithmic {
-    /// `a' = 2 (1 + a_v v')`: the critical distance at the speed `v'`.
+    /// `a' = 2 (1 + a_v v')`: the critical distance at the speed `v'`, in units of `a_0`; nobody is slowed down beyond it.
     pub fn critical_distance(&self, speed: f64) -> f64 {
         2.0 + 2.0 * self.widening * speed
     }

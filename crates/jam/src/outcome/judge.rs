@@ -38,7 +38,7 @@ struct Flow {
     headway: f64,
     speed: f64,
     /// The least of headway and effective gap.
-    room: f64,
+    clearance: f64,
     /// The margin of stability of the waves of the ring.
     margin: f64,
     growth_rate: f64,
@@ -104,7 +104,7 @@ impl Judge {
     /// Looks at what happens at the start.
     pub fn start(&mut self, watch: &Watch<'_>, found: &[Event]) {
         let now = watch.after();
-        (self.least_gap, self.least_of_all) = (lowest(&now.rooms), lowest(&now.speeds));
+        (self.least_gap, self.least_of_all) = (lowest(&now.effective_gaps), lowest(&now.speeds));
         self.std = spread(&now.speeds);
         self.happened(watch, found);
     }
@@ -169,17 +169,21 @@ impl Judge {
         // steps of fixed length between two samples are not all shown: this one stands for them
         let since = step.end - self.seen;
         self.seen = step.end;
-        let (mut gap, mut speed) = (lowest(&watch.after().rooms), lowest(&watch.after().speeds));
+        let (mut gap, mut speed) = (lowest(&watch.after().effective_gaps), lowest(&watch.after().speeds));
         let contrast = highest(&watch.after().speeds) - speed;
         let (before, after) = (watch.before(), watch.after());
-        let gaps = Ends { before: (&before.rooms, &before.room_rates), after: (&after.rooms, &after.room_rates), h };
+        let gaps = Ends {
+            before: (&before.effective_gaps, &before.effective_gap_rates),
+            after: (&after.effective_gaps, &after.effective_gap_rates),
+            h,
+        };
         let speeds =
             Ends { before: (&before.speeds, &before.speed_rates), after: (&after.speeds, &after.speed_rates), h };
         let dips =
             [gaps.dip(lowest(&[gap, self.block.least_gap])), speeds.dip(lowest(&[speed, self.block.least_speed]))];
         for theta in dips.into_iter().flatten() {
             let within = watch.within(step, theta);
-            (gap, speed) = (lowest(&[gap, lowest(&within.rooms)]), lowest(&[speed, lowest(&within.speeds)]));
+            (gap, speed) = (lowest(&[gap, lowest(&within.effective_gaps)]), lowest(&[speed, lowest(&within.speeds)]));
         }
         let now = watch.after();
         (self.std, self.contrast) = (spread(&now.speeds), contrast);
@@ -207,14 +211,14 @@ impl Judge {
 
     /// Decides by the first event that ends a run.
     fn happened(&mut self, watch: &Watch<'_>, new: &[Event]) {
-        if let Some(stop) = new.iter().find(|happening| happening.kind.is_stop()) {
-            self.stopped(new, watch.after().room_rates[stop.pedestrian].abs() / self.scale);
+        if let Some(stop) = new.iter().find(|event| event.kind.is_stop()) {
+            self.stopped(new, watch.after().effective_gap_rates[stop.pedestrian].abs() / self.scale);
         }
     }
 
     /// The same, of a gap that closes at this speed, in units of the desired one.
     fn stopped(&mut self, found: &[Event], closing: f64) {
-        let Some(stop) = found.iter().find(|happening| happening.kind.is_stop()) else { return };
+        let Some(stop) = found.iter().find(|event| event.kind.is_stop()) else { return };
         let (class, distance) = match stop.kind {
             EventKind::Undefined => (Class::Undefined, f64::INFINITY),
             EventKind::BlowUp => (Class::BlowUp, f64::INFINITY),
@@ -229,10 +233,10 @@ impl Judge {
 
     /// Whether the state is back at the uniform flow, and stays there.
     fn is_back(&self, watch: &Watch<'_>) -> bool {
-        let Some(Flow { headway, speed, room, .. }) = self.flow.filter(Flow::decays) else { return false };
+        let Some(Flow { headway, speed, clearance, .. }) = self.flow.filter(Flow::decays) else { return false };
         let now = watch.after();
         let near = |numbers: &[f64], flow: f64, bound: f64| numbers.iter().all(|number| (number - flow).abs() < bound);
-        near(&now.speeds, speed, NEAR_FLOW * self.scale) && near(&now.gaps, headway, NEAR_FLOW * room)
+        near(&now.speeds, speed, NEAR_FLOW * self.scale) && near(&now.gaps, headway, NEAR_FLOW * clearance)
     }
 
     /// The length of the windows that waves are judged by; `None` if nothing travels.
@@ -311,10 +315,10 @@ impl Judge {
     /// Decides for lasting waves, by what they are in this window.
     fn lasting(&mut self, time: f64, decision: Decision, window: &Stretch, label_speed: f64) {
         let class = if window.least_speed < 0.0 { Class::WavesBackwards } else { Class::Waves };
-        let room = self.flow.map_or(self.ring.headway(), |flow| flow.room);
+        let clearance = self.flow.map_or(self.ring.headway(), |flow| flow.clearance);
         let distances = [
             window.contrast / (CONTRAST * self.scale) - 1.0,
-            window.least_gap / room,
+            window.least_gap / clearance,
             window.least_speed.abs() / self.scale,
         ];
         self.std = window.mean_std();
@@ -374,9 +378,9 @@ impl Flow {
     fn of(model: &Model, ring: Ring, speed: f64) -> Option<Flow> {
         let headway = ring.headway();
         let response = model.response(headway, speed)?;
-        let gap = model.room(headway, speed, speed);
-        let room = if gap < headway { gap } else { headway };
+        let gap = model.effective_gap(headway, speed, speed);
+        let clearance = if gap < headway { gap } else { headway };
         let (margin, growth_rate) = response.of_ring(ring.pedestrians);
-        Some(Flow { headway, speed, room, margin, growth_rate })
+        Some(Flow { headway, speed, clearance, margin, growth_rate })
     }
 }

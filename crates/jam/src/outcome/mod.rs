@@ -132,13 +132,14 @@ pub struct Verdict {
     pub backward_flow: bool,
     /// The least effective gap of the run, of the logarithmic law the least spacing, in units of `a_0`.
     pub least_gap: f64,
-    /// The least speed of the run, the start from rest ([`START`]) left out; of a shorter run, of all of it.
+    /// The least speed of the run, in units of `a_0 / tau`, the start from rest ([`START`]) left out; of a shorter run, of all of it.
     pub least_speed: f64,
-    /// The standard deviation of the speeds: of waves the mean over the last window, else that at the end.
+    /// The standard deviation of the speeds, in units of `a_0 / tau`: of waves the mean over the last window, else that at the end.
     pub std: f64,
     /// The least speed in the windows by which waves were judged; only of waves. That of the run may lie in their growth.
     pub lasting_least_speed: Option<f64>,
-    /// The speed at which waves travel along the ring, against the direction of walking if negative; only of waves.
+    /// The speed at which waves travel along the ring, on the ground, in units of `a_0 / tau`, against the direction of walking if
+    /// negative; only of waves.
     pub wave_speed: Option<f64>,
     /// How far the deciding numbers are from another verdict, in the unit of each: of waves the least of the contrast above
     /// its threshold, the least gap (both relative) and the distance of the least speed from 0; of a decay the margin of
@@ -164,7 +165,7 @@ impl Verdict {
     }
 }
 
-/// How long the start from rest lasts: `e^-20` of it is left, 2e-9, after 20 relaxation times.
+/// How long the start from rest lasts, in units of `tau`: `e^-20` of it is left, 2e-9, after 20 relaxation times.
 pub const START: f64 = 20.0;
 
 /// A state is back at the uniform flow where deviations are below this part of headway, effective gap and desired speed. The

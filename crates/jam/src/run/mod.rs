@@ -88,10 +88,10 @@ impl Run {
         if let Some(problem) = too_wide(&model, ring) {
             return Err(problem);
         }
-        let room = model.room(ring.headway(), 0.0, 0.0);
-        if !(room > 0.0 && start.shift.abs() < room) {
+        let gap = model.effective_gap(ring.headway(), 0.0, 0.0);
+        if !(gap > 0.0 && start.shift.abs() < gap) {
             return Err(format!(
-                "a shift of {:?} at a headway of {:?} closes a gap at the start; the effective gap at rest is {room:?}, the shift must be smaller in size",
+                "a shift of {:?} at a headway of {:?} closes a gap at the start; the effective gap at rest is {gap:?}, the shift must be smaller in size",
                 start.shift,
                 ring.headway()
             ));
@@ -127,14 +127,14 @@ impl Run {
     }
 
     /// Whether an event ends the samples.
-    pub(crate) fn stops(&self, event: EventKind) -> bool {
-        stops(event, self.at_overlap)
+    pub(crate) fn stops(&self, kind: EventKind) -> bool {
+        stops(kind, self.at_overlap)
     }
 }
 
 /// Whether an event ends the samples of a run.
-fn stops(event: EventKind, at_overlap: AtOverlap) -> bool {
-    event.is_stop() && (event != EventKind::Overlap || at_overlap == AtOverlap::Stop)
+fn stops(kind: EventKind, at_overlap: AtOverlap) -> bool {
+    kind.is_stop() && (kind != EventKind::Overlap || at_overlap == AtOverlap::Stop)
 }
 
 /// The speed of the uniform flow of a ring; of a formula or a law of your own the one next to `wanted`, `None` if it has

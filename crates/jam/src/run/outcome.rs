@@ -66,9 +66,9 @@ pub struct Narrowest {
     /// Who, counted from 0.
     pub pedestrian: usize,
     /// The spacing `s_n`.
-    pub gap: f64,
+    pub spacing: f64,
     /// The effective gap, which must stay positive (see [`Law::effective_gap`](crate::laws::Law::effective_gap)).
-    pub room: f64,
+    pub effective_gap: f64,
     /// The speed `v_n`.
     pub speed: f64,
 }
@@ -77,10 +77,10 @@ impl std::fmt::Display for Broken {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{}", self.failure)?;
         self.advice.map_or(Ok(()), |advice| write!(f, "; {advice}"))?;
-        self.narrowest.map_or(Ok(()), |Narrowest { pedestrian, gap, room, speed }| {
+        self.narrowest.map_or(Ok(()), |Narrowest { pedestrian, spacing, effective_gap, speed }| {
             write!(
                 f,
-                "; smallest effective gap then: {room:?}, of pedestrian {pedestrian}, spacing {gap:?}, speed {speed:?}"
+                "; smallest effective gap then: {effective_gap:?}, of pedestrian {pedestrian}, spacing {spacing:?}, speed {speed:?}"
             )
         })
     }

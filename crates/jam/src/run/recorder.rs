@@ -272,9 +272,13 @@ impl Observer for Recorder<'_> {
         let gaps = self.effective_gaps(&reached.state);
         let Record { form, spacings, speeds, .. } = &mut self.record;
         form.read(&reached.state, spacings, speeds);
-        let all =
-            (0..gaps.len()).map(|n| Narrowest { pedestrian: n, gap: spacings[n], room: gaps[n], speed: speeds[n] });
-        self.narrowest = all.min_by(|a, b| a.room.total_cmp(&b.room));
+        let all = (0..gaps.len()).map(|n| Narrowest {
+            pedestrian: n,
+            spacing: spacings[n],
+            effective_gap: gaps[n],
+            speed: speeds[n],
+        });
+        self.narrowest = all.min_by(|a, b| a.effective_gap.total_cmp(&b.effective_gap));
         self.reached = reached.clone();
     }
 

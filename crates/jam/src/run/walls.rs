@@ -23,7 +23,7 @@ impl Recorder<'_> {
         let left = self.effective_gaps(state)[narrowest.pedestrian];
         let is_at_wall = is_singular && is_stuck && left < NO_GAP;
         if is_at_wall {
-            let (pedestrian, gap) = (narrowest.pedestrian, narrowest.gap);
+            let (pedestrian, gap) = (narrowest.pedestrian, narrowest.spacing);
             self.watch.add(Event { kind: EventKind::BlowUp, time, pedestrian, gap, step: 0.0 });
         }
         is_at_wall
@@ -55,8 +55,8 @@ impl Recorder<'_> {
 
     /// The effective gaps, with all the digits that the form has.
     pub(super) fn effective_gaps(&self, state: &[f64]) -> Vec<f64> {
-        let mut gaps = self.watch.rooms_of(state);
-        if self.is_in_spacings() && self.run.model.room_per_speed() == 0.0 {
+        let mut gaps = self.watch.effective_gaps_in(state);
+        if self.is_in_spacings() && self.run.model.gap_per_speed() == 0.0 {
             gaps.copy_from_slice(&state[..self.run.ring.pedestrians]);
         }
         gaps
@@ -76,9 +76,9 @@ impl Recorder<'_> {
     pub(super) fn comes_near_walls(&self) -> bool {
         let run = self.run;
         let Some(speed) = run.steady_speed else { return false };
-        let least = NEAR_WALLS * run.model.room(run.ring.headway(), speed, speed);
+        let least = NEAR_WALLS * run.model.effective_gap(run.ring.headway(), speed, speed);
         let is_near = !self.watch.is_quiet() && run.model.is_singular() && self.can_turn();
-        is_near && self.watch.rooms().iter().any(|&gap| gap < least)
+        is_near && self.watch.effective_gaps().iter().any(|&gap| gap < least)
     }
 }
 

@@ -10,7 +10,7 @@ use math::double_double::DoubleDouble;
 fn flow(model: &Model, random: &mut Random) -> (f64, f64, f64) {
     let speed = random.uniform(-0.3, 1.0) * model.desired_speed();
     let room = random.uniform(0.3, 3.0);
-    (room + 2.0 * model.room_per_speed() * speed + model.contact(), speed, room)
+    (room + 2.0 * model.gap_per_speed() * speed + model.contact(), speed, room)
 }
 
 /// How much the acceleration moves when each of its arguments is off by half a unit, by central differences.
@@ -35,7 +35,7 @@ fn rounding(model: &Model, arguments: [f64; 3]) -> f64 {
     let drive = model.desired_speed() + speed.abs();
     let force = (model.desired_speed() - speed - model.acceleration(gap, speed, ahead)).abs();
     let power = match model {
-        Model::Algebraic(law) => 2.5 * law.power * math::ln(model.room(gap, speed, ahead)).abs(),
+        Model::Algebraic(law) => 2.5 * law.power * math::ln(model.effective_gap(gap, speed, ahead)).abs(),
         _ => 0.0,
     };
     // the logarithm's own scale is the desired speed, for each unit of force
@@ -68,7 +68,7 @@ fn deviations_are_differences_of_the_printed_law() {
             let scale = room * random.magnitude(-6.0, 0.0);
             let from = [(); 3].map(|()| scale * random.uniform(-0.7, 1.0));
             let there = [gap + from[0], speed + from[1], speed + from[2]];
-            if model.room(there[0], there[1], there[2]) < 0.1 * room {
+            if model.effective_gap(there[0], there[1], there[2]) < 0.1 * room {
                 continue;
             }
             let printed = model.acceleration(there[0], there[1], there[2]) - model.acceleration(gap, speed, speed);
@@ -175,7 +175,7 @@ fn a_ring_is_open_while_everybody_has_room() {
         let form = StateVariables::Deviations.build(&model, ring);
         let gaps: Vec<f64> = (0..5).map(|_| model.contact() + random.uniform(-0.1, 0.9)).collect();
         let speeds: Vec<f64> = (0..5).map(|_| random.uniform(0.0, 0.6)).collect();
-        let rooms = (0..5).map(|n| model.room(gaps[n], speeds[n], speeds[(n + 1) % 5]));
+        let rooms = (0..5).map(|n| model.effective_gap(gaps[n], speeds[n], speeds[(n + 1) % 5]));
         let least = rooms.fold(f64::INFINITY, math::smaller);
         let expected = !model.is_singular() || least > 0.0;
         let positions: Vec<f64> = (0..5).map(|n| gaps[..n].iter().sum()).collect();

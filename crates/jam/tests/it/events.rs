@@ -297,7 +297,7 @@ fn a_watch_goes_on_in_another_form() {
 #[test]
 fn for_the_logarithmic_law_an_overlap_is_an_exchange() {
     let model = Model::Logarithmic(jam::laws::Logarithmic { desired_speed: 1.0, widening: 0.0, epsilon: 0.01 });
-    assert_eq!((model.contact(), model.room(0.5, 1.0, 1.0)), (0.0, 0.5));
+    assert_eq!((model.contact(), model.effective_gap(0.5, 1.0, 1.0)), (0.0, 0.5));
     let swing = Swing::new([(0.5, 1.0), (5.0, 0.0), (5.0, 0.0)], [(1.0, 0.0); 3]);
     let found = watched(&swing, model, &[1.0, 0.0], 3, 6.0, ADAPTIVE);
     assert_events(&found, &[(EventKind::Overlap, 0, -0.5), (EventKind::Exchange, 0, -0.5)]);

@@ -183,12 +183,12 @@ fn the_domain_ends_where_a_gap_of_a_singular_law_closes() {
 fn widening_takes_room_from_both_speeds() {
     let mut random = Random(8);
     for model in laws(&mut random) {
-        let a_v = model.room_per_speed();
+        let a_v = model.gap_per_speed();
         let expected = match model {
             Model::Logarithmic(_) => 3.0,
             _ => (3.0 - 2.0) - a_v * (0.5 + 0.25),
         };
-        assert_eq!(model.room(3.0, 0.5, 0.25), expected);
+        assert_eq!(model.effective_gap(3.0, 0.5, 0.25), expected);
     }
 }
 

@@ -19,16 +19,16 @@ fn steady_speed_balances_drive_and_force() {
             let Ok(speed) = steady_speed(&model, headway) else {
                 // the force of the exponential law is finite: it need not stop pedestrians whose room is used up
                 assert!(matches!(model, Model::Exponential(_)));
-                assert!(acceleration((headway - 2.0) / (2.0 * model.room_per_speed())) > 0.0);
+                assert!(acceleration((headway - 2.0) / (2.0 * model.gap_per_speed())) > 0.0);
                 without += 1;
                 continue;
             };
             // the last speed that is still pushed forward
             assert!(acceleration(speed) > 0.0, "{model:?} at {headway}");
             let next = speed.next_up();
-            let closed = matches!(model, Model::Algebraic(_)) && model.room(headway, next, next) <= 0.0;
+            let closed = matches!(model, Model::Algebraic(_)) && model.effective_gap(headway, next, next) <= 0.0;
             assert!(closed || acceleration(next) <= 0.0, "{model:?} at {headway}");
-            assert!(speed < model.desired_speed() && model.room(headway, speed, speed) > 0.0);
+            assert!(speed < model.desired_speed() && model.effective_gap(headway, speed, speed) > 0.0);
             found += 1;
         }
     }

@@ -78,7 +78,7 @@ fn run(
         let was_beyond = guarded.is_beyond.get();
         let new = watch.look(taken);
         form.read(taken.after(), &mut gaps, &mut speeds);
-        let rooms = (0..count).map(|n| model.room(gaps[n], speeds[n], speeds[(n + 1) % count]));
+        let rooms = (0..count).map(|n| model.effective_gap(gaps[n], speeds[n], speeds[(n + 1) % count]));
         let narrowest = rooms.fold(f64::INFINITY, math::smaller);
         let overlap = new.iter().find(|happening| happening.kind == EventKind::Overlap);
         if narrowest < 0.0 {
@@ -90,7 +90,7 @@ fn run(
             let found =
                 overlap.unwrap_or_else(|| panic!("{model:?} {kind:?} {}: a stage beyond the wall", method.name()));
             form.read(taken.before(), &mut gaps, &mut speeds);
-            let room = |n: usize| model.room(gaps[n], speeds[n], speeds[(n + 1) % count]);
+            let room = |n: usize| model.effective_gap(gaps[n], speeds[n], speeds[(n + 1) % count]);
             // where no value within the step is negative, the event is at its end, of who had the least room
             if found.time == taken.end {
                 counts.back += 1;
@@ -121,7 +121,7 @@ fn no_step_that_ends_beyond_a_wall_goes_unreported() {
         let mut counts = Counts::default();
         for _ in 0..60 {
             for model in laws(&mut random) {
-                let headway = model.contact() + random.uniform(0.5, 1.5) + 4.0 * model.room_per_speed();
+                let headway = model.contact() + random.uniform(0.5, 1.5) + 4.0 * model.gap_per_speed();
                 let ring = Ring { pedestrians: 5, length: 5.0 * headway };
                 for kind in [StateVariables::Deviations, StateVariables::Spacings, StateVariables::Positions] {
                     run(model.clone(), ring, kind, method, random.magnitude(-2.0, -0.3), &mut random, &mut counts);

@@ -92,7 +92,7 @@ impl SoftplusBase {
 ///
 /// The softplus function is max(y, 0) + h(|y|), h(p) = ln(1 + e^-p). The difference of
 /// the first terms is d, 0 or one of the points, by the signs. That of the second is
-/// ln(1 + u), with u from [`Change`].
+/// ln(1 + u), with u from `Change`.
 #[inline(always)]
 pub fn softplus_difference(base: &SoftplusBase, d: f64) -> f64 {
     let change = Change::new(base, d).value(base);

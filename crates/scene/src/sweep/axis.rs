@@ -5,7 +5,7 @@ use files::reader::{FINITE, Reader, SceneError, Section};
 /// An axis: cells of equal width, or of equal ratio, with the values at their centres.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// The parameter it runs over: of the law, or one of [`OF_THE_RUN`].
+    /// The parameter it runs over: of the law, or one of the run.
     pub parameter: String,
     /// Its lower end.
     pub from: f64,

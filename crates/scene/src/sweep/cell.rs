@@ -123,7 +123,7 @@ impl Sweep {
             ring.length = headway * ring.pedestrians as f64;
         }
         let start = Start { shift: value("shift").unwrap_or(self.start.shift) };
-        let room = model.room(ring.headway(), 0.0, 0.0);
+        let room = model.effective_gap(ring.headway(), 0.0, 0.0);
         if room <= 0.0 || start.shift.abs() >= room {
             return Ok(Err(Class::Closed));
         }

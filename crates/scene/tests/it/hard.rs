@@ -61,7 +61,9 @@ fn runs_through_a_wall_fill_tables_with_finite_numbers_or_say_where_they_broke()
 /// The message of a broken run: time, step, smallest effective gap and its pedestrian, in the order of the words.
 fn assert_named(broken: &Broken, label: &str) {
     let ode::Failure::NotFinite { time, step } = broken.failure else { panic!("{label}: {broken:?}") };
-    let Some(Narrowest { pedestrian, gap, room, speed }) = broken.narrowest else { panic!("{label}: {broken:?}") };
+    let Some(Narrowest { pedestrian, spacing: gap, effective_gap: room, speed }) = broken.narrowest else {
+        panic!("{label}: {broken:?}")
+    };
     assert!(pedestrian < 10 && [time, gap, room, speed].iter().all(|x| x.is_finite()), "{label}: {broken:?}");
     let words = "the state is no longer finite; a smaller step may help";
     let place =

@@ -116,7 +116,8 @@ fn a_run_that_breaks_off_names_who_had_the_least_room() {
         let scene = scene::run::read("my.toml", &recipe.panels[0].tables).expect("a run");
         let mut seen = Ends::default();
         let Err(broken) = run_from(&scene, None, &mut seen) else { panic!("{most} steps are enough") };
-        let Narrowest { pedestrian, gap, room, speed } = broken.narrowest.expect("a state was reached");
+        let Narrowest { pedestrian, spacing: gap, effective_gap: room, speed } =
+            broken.narrowest.expect("a state was reached");
         let (mut gaps, mut speeds) = ([0.0; 9], [0.0; 9]);
         let form = StateVariables::Deviations.build(&scene.model, scene.ring);
         form.read(seen.0.last().expect("a step was made"), &mut gaps, &mut speeds);

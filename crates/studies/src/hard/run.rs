@@ -142,7 +142,7 @@ impl Case {
             ode::Failure::NoSeries => ("no_series", 0.0, 0.0),
             ode::Failure::NotResumable => ("not_resumable", 0.0, 0.0),
         };
-        let room = |n: usize| self.model.room(gaps[n], speeds[n], speeds[(n + 1) % speeds.len()]);
+        let room = |n: usize| self.model.effective_gap(gaps[n], speeds[n], speeds[(n + 1) % speeds.len()]);
         let pedestrian = (0..gaps.len()).min_by(|&a, &b| room(a).total_cmp(&room(b))).unwrap_or(0);
         Stop { name, time, pedestrian, gap: gaps[pedestrian], step }
     }

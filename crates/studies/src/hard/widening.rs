@@ -76,7 +76,7 @@ fn negative() -> Rows {
             let space = 2.0 + 2.0 * a_v * v;
             let acceleration = model.acceleration(2.5, v, v);
             let finite = acceleration.is_finite().then_some(acceleration);
-            rows.push(row![model.name(), v, space, model.room(2.5, v, v), finite]);
+            rows.push(row![model.name(), v, space, model.effective_gap(2.5, v, v), finite]);
         }
     }
     rows

@@ -53,7 +53,7 @@ pub(super) fn windows(
             };
             let mut moments = 0.0;
             state = watched(case, &state, scheme, length, MOMENT, &mut |_, gaps, speeds, _| {
-                let room = |n: usize| case.model.room(gaps[n], speeds[n], speeds[(n + 1) % speeds.len()]);
+                let room = |n: usize| case.model.effective_gap(gaps[n], speeds[n], speeds[(n + 1) % speeds.len()]);
                 window.least_gap = (0..gaps.len()).map(room).fold(window.least_gap, math::smaller);
                 window.least_speed = speeds.iter().copied().fold(window.least_speed, math::smaller);
                 window.largest_speed = speeds.iter().copied().fold(window.largest_speed, math::larger);

@@ -43,7 +43,7 @@ pub fn table() -> Result<Rows, Failure> {
                 let error = (rate - refined).abs();
                 rows.push(row![name, fixed, a_v, speed, gap, linear.phi, linear.long_wave_margin(), rate, error]);
             };
-            push("density", model.room(headway, speed, speed), &at_density);
+            push("density", model.effective_gap(headway, speed, speed), &at_density);
             // the effective distance of the flow without widening
             let gap = headway - 2.0;
             match model {

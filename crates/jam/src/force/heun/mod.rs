@@ -35,7 +35,7 @@ pub(super) fn batch<L: Law>(law: &L, steps: Steps, cut: Option<Cut>, state: &mut
 
 /// Makes `count` steps of length `h` of the state `[x_0 .. x_{N-1}, v_0 .. v_{N-1}]` of a ring in one piece or cut, with
 /// registers no wider than `limit`. For tests and measurements: neither changes a bit, and
-/// [`Positions`](super::Positions) chooses the best by itself.
+/// [`Positions`](crate::states::Positions) chooses the best by itself.
 pub fn heun_steps(
     model: &Model,
     ring: Ring,
