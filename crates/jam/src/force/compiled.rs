@@ -91,8 +91,7 @@ impl<L: Law> Force for Compiled<L> {
     }
 
     fn series(&self, motion: Motion<'_>) {
-        let operations = self.reference.borrow().tape.operations();
-        super::series::compiled(self.law, operations, motion, &mut self.memory.borrow_mut());
+        super::series::compiled(self.law, motion, &mut self.memory.borrow_mut());
     }
 
     fn heun(&self, steps: Steps, cut: Option<Cut>, state: &mut [f64]) -> Batch {

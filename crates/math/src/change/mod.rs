@@ -29,13 +29,6 @@ impl Default for Tape {
     }
 }
 
-impl Tape {
-    /// How many operations the formula has that are not linear.
-    pub fn operations(&self) -> usize {
-        self.length
-    }
-}
-
 /// A tape being written.
 #[derive(Debug)]
 pub struct Recorder(RefCell<Tape>);
