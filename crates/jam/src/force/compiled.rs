@@ -91,7 +91,8 @@ impl<L: Law> Force for Compiled<L> {
     }
 
     fn series(&self, motion: Motion<'_>) {
-        super::series::compiled(self.law, motion, &mut self.memory.borrow_mut());
+        let operations = self.reference.borrow().tape.histories();
+        super::series::compiled(self.law, operations, motion, &mut self.memory.borrow_mut());
     }
 
     fn heun(&self, steps: Steps, cut: Option<Cut>, state: &mut [f64]) -> Batch {

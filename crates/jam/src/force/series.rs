@@ -32,9 +32,6 @@ pub struct Motion<'a> {
 /// So many pedestrians at a time.
 const W: usize = 24;
 
-/// As many operations that are not linear as a compiled formula has at most.
-const OPERATIONS: usize = 4;
-
 /// Memory that is kept from step to step. Rows are whole blocks: behind the last pedestrian the first follows, as the
 /// neighbour ahead, and numbers without meaning that nothing reads but others of their kind.
 #[derive(Clone, Debug, Default)]
@@ -48,21 +45,36 @@ pub struct Memory {
 }
 
 impl Memory {
-    /// Takes row 1 of the coefficients.
-    fn start(&mut self, order: usize, spacings: &[f64], speeds: &[f64]) {
-        let n = spacings.len();
-        let blocks = n.div_ceil(W);
-        let histories = blocks * OPERATIONS * ROWS * order;
-        if self.histories.len() < histories {
-            self.histories.resize(histories, Block::default());
+    /// Makes room for so many blocks, with histories of this size.
+    fn reserve(&mut self, blocks: usize, size: usize) {
+        if self.histories.len() < blocks * size {
+            self.histories.resize(blocks * size, Block::default());
         }
         self.spacings.resize(blocks * W, 0.0);
         // one more, for the neighbour ahead of the last lane
         self.speeds.resize(blocks * W + 1, 0.0);
         self.next_speeds.resize(blocks * W + 1, 0.0);
-        self.spacings[..n].copy_from_slice(spacings);
-        self.speeds[..n].copy_from_slice(speeds);
-        self.speeds[n] = speeds[0];
+    }
+
+    /// Takes a row of the coefficients, to which something is added; behind the last pedestrian, once more the last.
+    #[inline(always)]
+    fn take(&mut self, spacings: &[f64], speeds: &[f64], flow: Flow) {
+        let n = spacings.len();
+        for (own, spacing) in self.spacings.iter_mut().zip(spacings) {
+            *own = spacing + flow.net_gap;
+        }
+        for (own, speed) in self.speeds.iter_mut().zip(speeds) {
+            *own = speed + flow.speed;
+        }
+        let last = self.spacings[n - 1];
+        self.spacings[n..].fill(last);
+        self.speeds[n..].fill(speeds[0] + flow.speed);
+    }
+
+    /// Spacings, speeds and speeds ahead of a block.
+    #[inline(always)]
+    fn variables(&self, from: usize) -> [Lanes<W>; 3] {
+        [&self.spacings[from..], &self.speeds[from..], &self.speeds[from + 1..]].map(Lanes::of)
     }
 
     /// Goes on to the next order, whose speeds are there; writes its spacings to `row`, too.
@@ -83,13 +95,14 @@ impl Memory {
     }
 }
 
-/// The coefficients under a law that is compiled.
-pub(super) fn compiled<L: Law>(law: L, motion: Motion<'_>, memory: &mut Memory) {
-    dispatch(Coefficients { law, motion, memory });
+/// The coefficients under a law that is compiled, of which so many operations keep something.
+pub(super) fn compiled<L: Law>(law: L, operations: usize, motion: Motion<'_>, memory: &mut Memory) {
+    dispatch(Coefficients { law, operations, motion, memory });
 }
 
 struct Coefficients<'a, 'b, L> {
     law: L,
+    operations: usize,
     motion: Motion<'a>,
     memory: &'b mut Memory,
 }
@@ -111,52 +124,31 @@ impl<L: Law> Coefficients<'_, '_, L> {
     #[inline(always)]
     fn of(self, law: &L) {
         let Motion { flow, pedestrians: n, order, unit, dimension, coefficients } = self.motion;
-        let memory = self.memory;
-        let size = OPERATIONS * ROWS * order;
+        let (memory, blocks, size) = (self.memory, n.div_ceil(W), self.operations * ROWS * order);
         let (states, rates) = coefficients.split_at_mut(dimension);
-        memory.start(order, &rates[..n], &rates[n..2 * n]);
-        let blocks = n.div_ceil(W);
-        for (block, histories) in memory.histories.chunks_exact(size).take(blocks).enumerate() {
-            let (spacing, speed, ahead) = start(&states[..n], &states[n..2 * n], block * W);
-            let place = Place::new(histories, order, 0);
-            let [s, v, w] = [spacing + flow.net_gap, speed + flow.speed, ahead + flow.speed];
+        memory.reserve(blocks, size);
+        memory.take(&states[..n], &states[n..2 * n], flow);
+        for block in 0..blocks {
+            let place = Place::new(&memory.histories[block * size..(block + 1) * size], order, 0);
+            let [s, v, w] = memory.variables(block * W);
             law.acceleration::<Jet<W, true>>(place.variable(s), place.variable(v), place.variable(w));
         }
+        memory.take(&rates[..n], &rates[n..2 * n], NOTHING);
         for k in 1..order {
             let share = unit / (k + 1) as f64;
-            let (spacings, row) = coefficients[(k + 1) * dimension..].split_at_mut(n);
-            for (block, histories) in memory.histories.chunks_exact(size).take(blocks).enumerate() {
-                let from = block * W;
-                let place = Place::new(histories, order, k);
-                let s = place.variable::<false>(Lanes::of(&memory.spacings[from..]));
-                let v = place.variable(Lanes::of(&memory.speeds[from..]));
-                let w = place.variable(Lanes::of(&memory.speeds[from + 1..]));
-                let acceleration = law.acceleration(s, v, w).coefficient();
-                let speeds = acceleration * share;
-                memory.next_speeds[from..from + W].copy_from_slice(&speeds.0);
-                if let Some(written) = row[..n].get_mut(from..from + W) {
-                    written.copy_from_slice(&speeds.0);
-                }
+            let (spacings, speeds) = coefficients[(k + 1) * dimension..].split_at_mut(n);
+            for block in 0..blocks {
+                let place = Place::new(&memory.histories[block * size..(block + 1) * size], order, k);
+                let [s, v, w] = memory.variables(block * W);
+                let (s, v, w) = (place.variable::<false>(s), place.variable(v), place.variable(w));
+                let next = law.acceleration(s, v, w).coefficient() * share;
+                memory.next_speeds[block * W..(block + 1) * W].copy_from_slice(&next.0);
             }
-            let last = n - n % W;
-            row[last..n].copy_from_slice(&memory.next_speeds[last..n]);
+            speeds[..n].copy_from_slice(&memory.next_speeds[..n]);
             memory.advance(share, spacings);
         }
     }
 }
 
-/// Spacings, speeds and speeds ahead of a block; behind the last pedestrian, once more the last.
-#[inline(always)]
-fn start(spacings: &[f64], speeds: &[f64], from: usize) -> (Lanes<W>, Lanes<W>, Lanes<W>) {
-    let n = spacings.len();
-    if from + W < n {
-        return (Lanes::of(&spacings[from..]), Lanes::of(&speeds[from..]), Lanes::of(&speeds[from + 1..]));
-    }
-    let place = |lane: usize| if from + lane < n { from + lane } else { n - 1 };
-    let next = |own: usize| if own + 1 < n { own + 1 } else { 0 };
-    (
-        Lanes(std::array::from_fn(|lane| spacings[place(lane)])),
-        Lanes(std::array::from_fn(|lane| speeds[place(lane)])),
-        Lanes(std::array::from_fn(|lane| speeds[next(place(lane))])),
-    )
-}
+/// What leaves any number as it is, a zero with its sign.
+const NOTHING: Flow = Flow { net_gap: -0.0, speed: -0.0 };
