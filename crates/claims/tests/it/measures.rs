@@ -129,7 +129,7 @@ fn words_and_empty_cells() {
         &format!("{count}\nwhere = [\"event = overlp\"]"),
         &["where", "does not occur in column event", "overlap, blow_up"],
     );
-    desk.problem(&format!("{count}\nwhere = [\"event < overlap\"]"), &["words are not ordered"]);
+    desk.problem(&format!("{count}\nwhere = [\"event < overlap\"]"), &["words have no order"]);
     desk.problem(&format!("{count}\nwhere = [\"event > 1\"]"), &["where a number is needed"]);
     // a word that is the name of a column stands in quotes
     let desk = Desk::new("quoted", &[("events", "kind,t\nt,1\nn,2\n")]);
