@@ -25,8 +25,7 @@ pub fn evaluate(measure: &Measure, tables: &Tables<'_>, place: &Place) -> Result
     Ok(match key {
         "times" => own * other,
         "over" => own / other,
-        "less" => own - other,
-        _ => own + other,
+        _ => own - other,
     })
 }
 

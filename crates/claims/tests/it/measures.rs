@@ -65,7 +65,7 @@ fn every_comparison_and_expression() {
         4.0,
         0.0,
     );
-    desk.value("take = \"last\"\nof = \"w\"\ntable = \"fig90/one\"\nplus = 0.5", 8.5, 0.0);
+    desk.value("take = \"last\"\nof = \"w\"\ntable = \"fig90/one\"\nless = -0.5", 8.5, 0.0);
 }
 
 #[test]
