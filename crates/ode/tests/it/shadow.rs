@@ -78,7 +78,7 @@ fn errors_of_steps_are_those_against_the_exact_solution() {
             follow(friction, tolerance, [0.0; 2], &mut |step, shadow| {
                 let (mut error, mut state) = ([0.0; 2], [0.0; 2]);
                 for place in [0.5, 0.9, 1.0] {
-                    shadow.at(place, &mut error);
+                    shadow.at(step, place, &mut error);
                     step.at_fraction(place, &mut state);
                     let exact = system.exact([1.0, 0.0], step.start + place * step.length());
                     let off = [state[0] - exact[0], state[1] - exact[1]];
@@ -106,7 +106,7 @@ fn an_error_at_the_start_becomes_what_the_exact_solution_makes_of_it() {
         let mut steps = 0;
         follow(friction, 1e-13, start, &mut |step, shadow| {
             let mut error = [0.0; 2];
-            shadow.at(1.0, &mut error);
+            shadow.at_end(&mut error);
             let right = system.exact(start, step.end);
             let size = math::larger(right[0].abs(), right[1].abs());
             let apart = math::larger((right[0] - error[0]).abs(), (right[1] - error[1]).abs());
