@@ -119,8 +119,9 @@ impl Shadow {
             *own += (ROUNDING * (after - before).abs()).copysign(*error);
         }
         self.round(step, rounding);
-        self.added.iter_mut().zip(&self.own).for_each(|(added, own)| *added += own);
-        self.arrive(step);
+        if !self.arrive(step) {
+            self.added.iter_mut().zip(&self.own).for_each(|(added, own)| *added += own);
+        }
         true
     }
 
@@ -153,10 +154,11 @@ impl Shadow {
     }
 
     /// Finds the error at the end of a step, where each step carries it by itself.
-    fn arrive(&mut self, step: &Step<'_>) {
-        let Some(linear) = self.linear.as_ref().filter(|_| self.has_rows) else { return };
+    fn arrive(&mut self, step: &Step<'_>) -> bool {
+        let Some(linear) = self.linear.as_ref().filter(|_| self.has_rows) else { return false };
         linear.end(step, &mut self.after);
-        self.after.iter_mut().zip(&self.added).for_each(|(after, added)| *after += added);
+        self.after.iter_mut().zip(&self.own).for_each(|(after, own)| *after += own);
+        true
     }
 
     fn advance(&mut self, step: &mut Step<'_>) {
@@ -185,7 +187,6 @@ impl Shadow {
         } else {
             self.after.clone_from(&self.error);
         }
-        self.added.fill(0.0);
         if let Some(linear) = &mut self.linear {
             self.has_rows = linear.expand(step, &self.error);
             self.is_sure &= self.has_rows;
@@ -256,7 +257,8 @@ impl Shadow {
             Some(_) if theta == 1.0 => result.copy_from_slice(&self.after),
             Some(linear) => {
                 linear.at(step, theta, result);
-                self.add(theta, result);
+                let share = self.own_share(theta);
+                result.iter_mut().zip(&self.own).for_each(|(result, own)| *result += share * own);
             }
             None => self.sum(theta, result),
         }
@@ -280,25 +282,22 @@ impl Shadow {
         } else {
             result.fill(0.0);
         }
-        result.iter_mut().zip(&self.error).for_each(|(result, error)| *result += error);
-        self.add(theta, result);
-    }
-
-    /// Adds what steps have added up to the fraction `theta` of the last one.
-    fn add(&self, theta: f64, result: &mut [f64]) {
-        if theta == 1.0 {
-            return result.iter_mut().zip(&self.added).for_each(|(result, added)| *result += added);
-        }
-        // of the own error of the step, that of what lies before it is the rest
-        let rest = 1.0 - (0..self.power).fold(1.0, |power, _| power * theta);
-        for (result, (added, own)) in result.iter_mut().zip(self.added.iter().zip(&self.own)) {
-            *result += added - rest * own;
+        // what lies before the own error of the step has been added whole
+        let rest = 1.0 - self.own_share(theta);
+        let errors = self.error.iter().zip(&self.added).zip(&self.own);
+        for (result, ((error, added), own)) in result.iter_mut().zip(errors) {
+            *result += error + (added - rest * own);
         }
     }
 
-    /// The error at the start of the last expansion, that of the step looked at last where the system tells its tangent.
-    pub fn before(&self) -> &[f64] {
-        &self.error
+    /// The part of the own error of a step that is there at the fraction `theta` of it.
+    fn own_share(&self, theta: f64) -> f64 {
+        (0..self.power).fold(1.0, |power, _| power * theta)
+    }
+
+    /// The error at the end of the step looked at last, where each step carries it by itself.
+    pub fn after(&self) -> Option<&[f64]> {
+        self.linear.as_ref().filter(|_| self.has_rows).map(|_| &self.after[..])
     }
 
     /// How many components it has.

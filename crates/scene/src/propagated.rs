@@ -180,8 +180,9 @@ impl Propagated {
 
     /// Whether the error of the standard deviation may be larger in this step than it was.
     fn is_worth_looking(&mut self, step: &Step<'_>, sight: &Sight<'_, '_>) -> bool {
-        let Some(shadow) = self.lost.as_ref().or(self.shadow.as_ref()) else { return true };
-        let now = largest(&shadow.before()[self.pedestrians..2 * self.pedestrians]);
+        let shadow = self.lost.as_ref().or(self.shadow.as_ref());
+        let Some(errors) = shadow.and_then(Shadow::after) else { return true };
+        let now = largest(&errors[self.pedestrians..2 * self.pedestrians]);
         self.since += 1;
         let is_worth =
             now > GROWN * self.looked_at || self.since >= EVERY || step.end >= self.t_end || !sight.new.is_empty();
@@ -194,7 +195,7 @@ impl Propagated {
     /// Keeps what the error tells of the time of a blow-up to come, once somebody has been thrown back: from the moment that
     /// tells it best. Later the error is as large as the state, but then there is hardly any time left for it to matter.
     fn remember(&mut self, step: &Step<'_>) {
-        let (n, state) = (self.pedestrians, step.before());
+        let (n, state) = (self.pedestrians, step.after());
         let Some(shadow) = self.shadow.as_ref().filter(|_| self.is_singular && state.len() == 2 * n + 1) else {
             return;
         };
@@ -202,13 +203,13 @@ impl Propagated {
         if fastest < THROWN * self.desired {
             return;
         }
-        let (error, rates) = (shadow.before(), step.rates_before());
+        let (Some(error), rates) = (shadow.after(), step.rates_after()) else { return };
         let part = largest(&error[n..2 * n]) / fastest;
         let late = largest(&error[..n]) / largest(&rates[..n]);
         // speeds double at every throw: the end is about as near as the ring is long over the largest
         let guess = late + part * (self.headway * n as f64 / fastest);
         if part < SMALL && self.last_known.is_none_or(|known| guess <= known.guess) {
-            self.last_known = Some(LastKnown { time: step.start, late, part, guess });
+            self.last_known = Some(LastKnown { time: step.end, late, part, guess });
         }
     }
 
