@@ -18,5 +18,6 @@ mod ring;
 mod rings;
 mod sample;
 mod series;
+mod tangent;
 mod uniform;
 mod walls;
