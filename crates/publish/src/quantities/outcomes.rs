@@ -39,7 +39,7 @@ pub fn collect(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure>
 }
 
 /// The planes of each supplement.
-const PLANES: [(&str, &[&str]); 3] = [
+const PLANES: [(&str, &[&str]); 4] = [
     ("s18", &["logarithmic", "exponential", "relative", "plain"]),
     ("s21", &["logarithmic_shift", "logarithmic_headway", "logarithmic_wide", "relative_widened"]),
     (
@@ -53,6 +53,7 @@ const PLANES: [(&str, &[&str]); 3] = [
             "exponential_widened_near",
         ],
     ),
+    ("s25", &["widened"]),
 ];
 
 /// Of the samples of the planes of supplement 18: how many filled cells were run, and how many of all samples have another
