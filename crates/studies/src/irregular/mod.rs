@@ -152,3 +152,51 @@ fn mean(values: &[f64]) -> (f64, f64) {
     let squares = values.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>();
     (mean, (squares / (count - 1.0) / count).sqrt())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn means_have_the_standard_error_of_independent_values() {
+        let (value, error) = mean(&[1.0, 2.0, 3.0, 6.0]);
+        assert_eq!(value, 3.0);
+        assert!((error - (14.0_f64 / 12.0).sqrt()).abs() < 1e-15, "{error}");
+    }
+
+    #[test]
+    fn waves_are_counted_around_the_ring() {
+        assert_eq!(maxima(&[3.0, 1.0, 2.0, 1.0, 2.0]), 2);
+        assert_eq!(maxima(&[1.0; 5]), 0);
+    }
+
+    /// The paper's middle class, whose waves go around without changing: each window is like the one before, and like the
+    /// certified run of supplement 19.
+    #[test]
+    fn windows_of_a_regular_wave_agree_with_the_run_of_supplement_19() {
+        let law =
+            Algebraic { strength: 0.32, relative: 1.0, power: 2.0, widening: 0.0, epsilon: 0.1, desired_speed: 3.0 };
+        let ring = Ring { pedestrians: 67, length: 167.5 };
+        let case = Case { model: Model::Algebraic(law), ring, kind: StateVariables::Spacings };
+        let scheme = (Method::Dop853, Control::Adaptive { tolerance: 1e-8 });
+        let leg = Leg { method: scheme.0, control: scheme.1, begin: 0.0, end: 1000.0 };
+        let grown = case.run(0.1, leg).whole().expect("a run").state;
+        let (found, _) = windows(&case, &grown, scheme, 1000.0, (2, 50.0)).expect("windows");
+        for window in &found {
+            assert!((window.std - 0.418_767).abs() < 1e-5, "{}", window.std);
+            assert!((window.least_speed - 1.129_02).abs() < 1e-3, "{}", window.least_speed);
+            assert!((window.least_gap - 0.274_00).abs() < 1e-3, "{}", window.least_gap);
+        }
+        assert_eq!(maxima(&grown[67..134]), 1);
+    }
+
+    #[test]
+    fn runs_that_begin_side_by_side_are_compared_moment_by_moment() {
+        let scheme = two_methods(FINE)[0];
+        let apart = parting(&case(), [(scheme, 1e-4), (scheme, 1e-4 + NUDGE)], 20.0).expect("runs");
+        assert_eq!(apart.iter().map(|(t, _)| *t).collect::<Vec<f64>>(), [5.0, 10.0, 15.0, 20.0]);
+        assert!(apart.iter().all(|(_, apart)| (1e-11..1e-7).contains(apart)), "{apart:?}");
+        let same = parting(&case(), [(scheme, 1e-4), (scheme, 1e-4)], 20.0).expect("runs");
+        assert!(same.iter().all(|(_, apart)| *apart == 0.0), "{same:?}");
+    }
+}
