@@ -44,7 +44,7 @@ fn add(
     let digits = entry.as_table_mut().and_then(|table| table.remove("digits")).and_then(|digits| digits.as_integer());
     let measure: Measure = entry.try_into().map_err(|error: toml::de::Error| place.fail("", error.message()))?;
     measure.check(place)?;
-    for table in measure.tables(place)?.iter().filter(|table| !tables.has(table)) {
+    if let Some(table) = measure.tables(place)?.iter().find(|table| !tables.has(table)) {
         return Err(Failure::Stale(format!("{}: no such table; cargo xtask figures --all", Paths::table(table))));
     }
     let from = words::describe(&measure, place)?;
