@@ -42,32 +42,48 @@ impl Kernel for Spread<'_> {
     fn run(self) -> f64 {
         let Spread { values, scale } = self;
         let count = values.len() as f64;
-        let mean = sum::<false>(values, 0.0, 1.0) / count;
-        (sum::<true>(values, mean, scale) / count).sqrt() / scale
+        let lanes = InLanes::new(values);
+        let mean = lanes.sum(|value| value) / count;
+        let squares = lanes.sum(|value| {
+            let rest = scale * (value - mean);
+            rest * rest
+        });
+        (squares / count).sqrt() / scale
     }
 }
 
-/// The sum of the values, or of the squares of what `scale` makes of them less their mean.
-#[inline(always)]
-fn sum<const SQUARES: bool>(values: &[f64], mean: f64, scale: f64) -> f64 {
-    let map = |value: f64| {
-        let rest = scale * (value - mean);
-        if SQUARES { rest * rest } else { value }
-    };
-    let mut sums = [0.0; LANES];
-    let chunks = values.chunks_exact(LANES);
-    let rest = chunks.remainder();
-    for chunk in chunks {
-        for (sum, value) in sums.iter_mut().zip(chunk) {
-            *sum += map(*value);
+/// Numbers in eight lanes.
+struct InLanes<'a> {
+    whole: std::slice::ChunksExact<'a, f64>,
+    /// What is left of them, filled up.
+    last: [f64; LANES],
+    /// How many are left.
+    left: usize,
+}
+
+impl InLanes<'_> {
+    #[inline(always)]
+    fn new(values: &[f64]) -> InLanes<'_> {
+        let (whole, mut last) = (values.chunks_exact(LANES), [0.0; LANES]);
+        let left = whole.remainder().len();
+        last[..left].copy_from_slice(whole.remainder());
+        InLanes { whole, last, left }
+    }
+
+    /// The sum of `map` over them.
+    #[inline(always)]
+    fn sum(&self, map: impl Fn(f64) -> f64) -> f64 {
+        let mut sums = [0.0; LANES];
+        for chunk in self.whole.clone() {
+            for (sum, value) in sums.iter_mut().zip(chunk) {
+                *sum += map(*value);
+            }
         }
+        for (lane, (sum, value)) in sums.iter_mut().zip(self.last).enumerate() {
+            let next = *sum + map(value);
+            *sum = if lane < self.left { next } else { *sum };
+        }
+        let [a, b, c, d, e, f, g, h] = sums;
+        ((a + b) + (c + d)) + ((e + f) + (g + h))
     }
-    let mut last = [0.0; LANES];
-    last[..rest.len()].copy_from_slice(rest);
-    for (lane, (sum, value)) in sums.iter_mut().zip(last).enumerate() {
-        let next = *sum + map(value);
-        *sum = if lane < rest.len() { next } else { *sum };
-    }
-    let [a, b, c, d, e, f, g, h] = sums;
-    ((a + b) + (c + d)) + ((e + f) + (g + h))
 }

@@ -91,18 +91,12 @@ impl<const STARTED: bool> Kernel for WeightedSum<'_, STARTED> {
     #[inline(always)]
     fn run(mut self) {
         let n = self.result.len();
-        if n < LANES {
+        if n < WIDE {
             (0..n).for_each(|from| self.lanes::<1>(from));
             return;
         }
-        // the last block begins earlier rather than be cut: what is written twice is the same
-        if n < WIDE {
-            for from in (0..n).step_by(LANES) {
-                self.lanes::<LANES>(from.min(n - LANES));
-            }
-            return;
-        }
         for from in (0..n).step_by(WIDE) {
+            // the last block begins earlier rather than be cut: what is written twice is the same
             self.lanes::<WIDE>(from.min(n - WIDE));
         }
     }
@@ -195,56 +189,38 @@ impl Kernel for Nested<'_> {
 
 struct Largest<'a>(&'a [f64]);
 
-/// The largest sizes of several lanes, and their sums.
-struct Sizes<const LANES: usize> {
-    largest: [f64; LANES],
-    sum: [f64; LANES],
-}
-
-impl<const LANES: usize> Sizes<LANES> {
-    #[inline(always)]
-    fn take(&mut self, values: &[f64]) {
-        for (lane, value) in values[..LANES].iter().enumerate() {
-            let size = value.abs();
-            self.largest[lane] = if size > self.largest[lane] { size } else { self.largest[lane] };
-            self.sum[lane] += size;
-        }
-    }
-}
-
-impl Largest<'_> {
-    #[inline(always)]
-    fn lanes<const LANES: usize>(&self) -> f64 {
-        let (n, mut sizes) = (self.0.len(), Sizes { largest: [0.0; LANES], sum: [0.0; LANES] });
-        for from in (0..n).step_by(LANES) {
-            // the last block begins earlier rather than be cut: what is seen twice is no larger
-            sizes.take(&self.0[from.min(n - LANES)..]);
-        }
-        // a sum shows NaN, which no comparison finds
-        if sizes.sum.iter().sum::<f64>().is_nan() {
-            return f64::NAN;
-        }
-        sizes.largest.iter().fold(0.0, |most, &size| if size > most { size } else { most })
-    }
-}
-
 impl Kernel for Largest<'_> {
     type Output = f64;
 
     #[inline(always)]
     fn run(self) -> f64 {
-        match self.0.len() {
-            0 => 0.0,
-            1..LANES => self.lanes::<1>(),
-            LANES..WIDE => self.lanes::<LANES>(),
-            // each maximum waits for itself: several registers at a time
-            _ => self.lanes::<WIDE>(),
+        let (mut largest, mut sum) = ([0.0; LANES], [0.0; LANES]);
+        let chunks = self.0.chunks_exact(LANES);
+        let rest = chunks.remainder();
+        let mut take = |lane: usize, value: f64| {
+            let size = value.abs();
+            largest[lane] = if size > largest[lane] { size } else { largest[lane] };
+            sum[lane] += size;
+        };
+        for chunk in chunks {
+            for (lane, value) in chunk.iter().enumerate() {
+                take(lane, *value);
+            }
         }
+        for (lane, value) in rest.iter().enumerate() {
+            take(lane, *value);
+        }
+        // a sum shows NaN, which no comparison finds
+        let [a, b, c, d, e, f, g, h] = sum;
+        if (((a + b) + (c + d)) + ((e + f) + (g + h))).is_nan() {
+            return f64::NAN;
+        }
+        largest.iter().fold(0.0, |most, &size| if size > most { size } else { most })
     }
 }
 
 /// Components per iteration where sums over stages stay in registers.
-const WIDE: usize = 32;
+const WIDE: usize = 16;
 
 /// Components per iteration where several numbers are gathered.
 const LANES: usize = 8;
