@@ -60,11 +60,17 @@ def system_packages(install, wanted):
     run(["apt-get", "install", "-y", *missing], "apt-get install")
 
 
-def flags():
-    """Flags for C++: the widest vectors of this processor, since ours choose theirs as they start."""
+def widest():
+    """The level of x86-64 with the widest vectors of this processor."""
     words = Path("/proc/cpuinfo").read_text().split()
     wide = all(word in words for word in ["avx512f", "avx512bw", "avx512dq", "avx512vl", "avx512cd"])
-    level, width = ("x86-64-v4", ["-mprefer-vector-width=512"]) if wide else ("x86-64-v3", [])
+    return "x86-64-v4" if wide else "x86-64-v3"
+
+
+def flags(level=None):
+    """Flags for C++, and their level: by default that of the widest vectors, since ours choose theirs as they start."""
+    level = level or widest()
+    width = ["-mprefer-vector-width=512"] if level == "x86-64-v4" else []
     return ["-O3", f"-march={level}", *width, "-ffast-math", "-std=c++17"], level
 
 
@@ -88,9 +94,9 @@ def python_environment(scratch):
     return python
 
 
-def programs(scratch, wanted):
-    """Builds the wanted programs in C++ and Rust: their paths by name."""
-    options, level = flags()
+def programs(scratch, wanted, level=None):
+    """Builds the wanted programs in C++ and Rust, for a level of x86-64 or the widest vectors: their paths by name."""
+    options, level = flags(level)
     library = scratch / "librhs.so"
     source = BENCH / "cpp"
     run(["g++", *options, "-shared", "-fPIC", source / "rhs.cpp", "-o", library], "g++ rhs.cpp")

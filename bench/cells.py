@@ -44,7 +44,7 @@ def main(options):
     scratch = options.scratch.resolve()
     scratch.mkdir(parents=True, exist_ok=True)
     build.system_packages(False, {"odeint"})
-    odeint = build.programs(scratch, {"odeint"})["odeint"]
+    odeint = build.programs(scratch, {"odeint"}, options.march)["odeint"]
     example = ["cargo", "build", "--release", "-p", "scene", "--example", "cells"]
     build.run(example, "cargo build", cwd=ROOT)
     target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
@@ -84,6 +84,7 @@ def total(measured):
 
 
 def header(options, cells, commands):
+    march = f" --march {options.march}" if options.march else ""
     memory = peak(commands["ours", "cell", "taylor"])
     return [
         "# A thousand short runs in one process",
@@ -94,7 +95,7 @@ def header(options, cells, commands):
         f"Peak memory of a process of ours that computes {options.count} cells: {memory:.0f} MB.",
         "",
         f"- {processor()}",
-        f"- `python3 bench/cells.py --rounds {options.rounds} --count {options.count}`; C++ with `{' '.join(build.flags()[0])}`",
+        f"- `python3 bench/cells.py --rounds {options.rounds} --count {options.count}{march}`; C++ with `{' '.join(build.flags(options.march)[0])}`",
         "",
         "| integrator | what it does | a second and core | as fast as Boost.Odeint, times |",
         "|---|---|---|---|",
@@ -106,6 +107,7 @@ if __name__ == "__main__":
     parser.add_argument("--scratch", type=Path, default=ROOT / "target" / "bench-peers", help="where peers are built")
     parser.add_argument("--rounds", type=int, default=15, help="measurements of each")
     parser.add_argument("--count", type=int, default=1000, help="runs in a process")
+    parser.add_argument("--march", choices=["x86-64-v3", "x86-64-v4"], help="of the peer; the widest by default")
     parser.add_argument("--out", type=Path, help="a folder for cells.md")
     try:
         main(parser.parse_args())

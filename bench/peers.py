@@ -179,6 +179,7 @@ def arguments():
     parser.add_argument("--peers", type=names, help=f"of {', '.join(peer.name for peer in PEERS)}; all by default")
     parser.add_argument("--methods", type=names, help="of ours; all by default")
     parser.add_argument("--before", type=Path, help="the program `simulate` of an earlier commit, measured in turn with ours")
+    parser.add_argument("--march", choices=["x86-64-v3", "x86-64-v4"], help="of the peers; the widest by default")
     parser.add_argument("--install", action="store_true", help="install missing system packages (apt-get, as root)")
     options = parser.parse_args()
     for wanted, known in [(options.cases, CASES), (options.peers, PEERS)]:
@@ -211,7 +212,7 @@ def main(options):
     wanted = {peer.program for peer in PEERS if not options.peers or peer.name in options.peers}
     build.system_packages(options.install, wanted)
     python = build.python_environment(scratch) if wanted & build.PYTHON else None
-    programs, simulate = build.programs(scratch, wanted), {OURS: build.simulate()}
+    programs, simulate = build.programs(scratch, wanted, options.march), {OURS: build.simulate()}
     if options.before:
         simulate[BEFORE] = options.before.resolve()
     with tempfile.TemporaryDirectory(dir=scratch) as folder:
@@ -219,7 +220,7 @@ def main(options):
     facts = {
         "processor": processor(),
         "command": shlex.join(["python3", "bench/peers.py", *chosen(options)]),
-        "flags": " ".join(build.flags()[0]),
+        "flags": " ".join(build.flags(options.march)[0]),
         "versions": build.versions(python),
         "references": truths,
     }
@@ -235,7 +236,7 @@ def chosen(options):
     given = ["--quick"] if options.quick else ["--rounds", str(options.rounds)]
     for name, value in [("--cases", options.cases), ("--peers", options.peers), ("--methods", options.methods)]:
         given += [name, ",".join(value)] if value else []
-    return given
+    return given + (["--march", options.march] if options.march else [])
 
 
 def processor():

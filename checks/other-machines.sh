@@ -276,10 +276,26 @@ part_riscv64() {
     qemu-riscv64 -L /usr/riscv64-linux-gnu
 }
 
-# Big-endian. QEMU 7.2 multiplies two f32 to an f64 wrongly there, so pictures need a newer one: QEMU_S390X names it.
+# QEMU from Debian's backports, unpacked below target/ with lists of its own: nothing of the system changes.
+newer_qemu() {
+  local at=$scratch/qemu mirror options
+  [ -x "$at/root/usr/bin/qemu-s390x" ] && return
+  [ -e /etc/debian_version ] || return
+  mkdir -p "$at/lists/partial" "$at/archives/partial"
+  mirror=$(apt-get indextargets --format '$(REPO_URI)' | head -n 1)
+  echo "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] $mirror bookworm-backports main" >"$at/sources.list"
+  options=(-o "Dir::Etc::sourcelist=$at/sources.list" -o Dir::Etc::sourceparts=/dev/null -o "Dir::State::lists=$at/lists"
+    -o "Dir::Cache=$at" -o "Dir::Cache::archives=$at/archives" -o Dir::Cache::pkgcache= -o Dir::Cache::srcpkgcache=)
+  (cd "$at" && apt-get "${options[@]}" update && apt-get "${options[@]}" download qemu-user/bookworm-backports &&
+    dpkg-deb -x qemu-user_*.deb root) >>"$scratch/apt.log" 2>&1
+}
+
+# Big-endian. QEMU 7.2 computes the product of two f32 as an f64 wrongly there (MDEB, MDEBR), which spoils the pictures:
+# QEMU_S390X names a newer one, else that of Debian's backports is fetched.
 part_s390x() {
-  local qemu=${QEMU_S390X:-qemu-s390x}
-  from_source s390x s390x-unknown-linux-gnu s390x-linux-gnu 'gcc-s390x-linux-gnu libc6-dev-s390x-cross qemu-user' \
+  local qemu=${QEMU_S390X:-$scratch/qemu/root/usr/bin/qemu-s390x}
+  [ -n "${QEMU_S390X:-}" ] || newer_qemu || { skip s390x "needs a QEMU newer than 7.2; QEMU_S390X names it"; return; }
+  from_source s390x s390x-unknown-linux-gnu s390x-linux-gnu 'gcc-s390x-linux-gnu libc6-dev-s390x-cross' \
     "$qemu" -L /usr/s390x-linux-gnu
 }
 

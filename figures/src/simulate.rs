@@ -271,7 +271,7 @@ fn in_words(
         let others = if at_once > 0 { format!(" and {at_once} more") } else { String::new() };
         let _ = write!(
             text,
-            "\n{} at t = {}, pedestrian {}{others}, gap {:?}, within a step of {:e}",
+            "\n{} at t = {}, pedestrian {}{others}, spacing {:?}, within a step of {:e}",
             kind.name(),
             sure(time, errors.and_then(|errors| errors.events[index])),
             event.pedestrian,

@@ -87,7 +87,7 @@ impl Measure {
     /// # Errors
     /// Usage: there are several, or it is neither a number nor a measure.
     pub fn operand(&self, place: &Place) -> Result<Option<(&'static str, Operand)>, Failure> {
-        let all = [("times", &self.times), ("over", &self.over), ("less", &self.less), ("plus", &self.plus)];
+        let all = [("times", &self.times), ("over", &self.over), ("less", &self.less)];
         let mut given = all.into_iter().filter_map(|(key, value)| Some((key, value.as_ref()?)));
         let Some((key, value)) = given.next() else { return Ok(None) };
         if let Some((other, _)) = given.next() {

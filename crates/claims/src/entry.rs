@@ -118,8 +118,6 @@ pub struct Measure {
     pub over: Option<toml::Value>,
     /// What is subtracted.
     pub less: Option<toml::Value>,
-    /// What is added.
-    pub plus: Option<toml::Value>,
 }
 
 /// A statement of the source.

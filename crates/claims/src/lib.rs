@@ -17,7 +17,7 @@
 //! next = "t"                    # or puts the next row by this column beside each one; its columns end in _next
 //! on = ["t", "n"]               # the columns that two rows side by side share; else those without a stated error
 //! error_of = "uncertainty"      # the column that holds the errors of what `of` names
-//! times = 2                     # or over, less, plus: a number, or { take.., of.., table.. }
+//! times = 2                     # or over, less: a number, or { take.., of.., table.. }
 //! is = "> 0"                    # what must be true: `op number`, or `1 within 0.02`; without it the test only reports
 //! ```
 //!

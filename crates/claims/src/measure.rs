@@ -25,21 +25,19 @@ pub fn evaluate(measure: &Measure, tables: &Tables<'_>, place: &Place) -> Result
     Ok(match key {
         "times" => own * other,
         "over" => own / other,
-        "less" => own - other,
-        _ => own + other,
+        _ => own - other,
     })
 }
+
+/// Rows of a table, from 0, each with its value.
+pub type Rows = Vec<(usize, Uncertain)>;
 
 /// The rows that are left of the table, each with its value.
 ///
 /// # Errors
 /// As [`evaluate`]; or the measure takes another one than `only`, has a second operand, or a row of which it is open whether
 /// it is left.
-pub fn each(
-    measure: &Measure,
-    tables: &Tables<'_>,
-    place: &Place,
-) -> Result<(Rc<Sheet>, Vec<(usize, Uncertain)>), Failure> {
+pub fn each(measure: &Measure, tables: &Tables<'_>, place: &Place) -> Result<(Rc<Sheet>, Rows), Failure> {
     if measure.take != Take::Only || measure.operand(place)?.is_some() {
         return Err(place.fail("take", "must be `only`, without a second operand, where each row gives a number"));
     }

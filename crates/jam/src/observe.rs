@@ -9,20 +9,12 @@ pub fn spread(values: &[f64]) -> f64 {
     if values.iter().all(|value| *value == values[0]) {
         return 0.0;
     }
-    let count = values.len() as f64;
-    let mean = dispatch(Sum { values, map: |value| value }) / count;
-    let squares = |scale: f64| {
-        let map = |value| {
-            let rest = scale * (value - mean);
-            rest * rest
-        };
-        (dispatch(Sum { values, map }) / count).sqrt() / scale
-    };
-    match squares(1.0) {
+    let spread = |scale: f64| dispatch(Spread { values, scale });
+    match spread(1.0) {
         // squares of tiny or huge numbers are no longer doubles, or not with all digits: powers of 2 cost none
-        spread if spread < TINY => squares(UP),
-        spread if spread > HUGE => squares(DOWN),
-        spread => spread,
+        found if found < TINY => spread(UP),
+        found if found > HUGE => spread(DOWN),
+        found => found,
     }
 }
 
@@ -37,32 +29,45 @@ const HUGE: f64 = 1e130;
 /// Number of running sums.
 const LANES: usize = 8;
 
-/// The sum of `map` over the values.
-struct Sum<'a, F> {
+/// The standard deviation, computed in units of `1 / scale`.
+struct Spread<'a> {
     values: &'a [f64],
-    map: F,
+    scale: f64,
 }
 
-impl<F: Fn(f64) -> f64> Kernel for Sum<'_, F> {
+impl Kernel for Spread<'_> {
     type Output = f64;
 
     #[inline(always)]
     fn run(self) -> f64 {
-        let mut sums = [0.0; LANES];
-        let chunks = self.values.chunks_exact(LANES);
-        let rest = chunks.remainder();
-        for chunk in chunks {
-            for (sum, value) in sums.iter_mut().zip(chunk) {
-                *sum += (self.map)(*value);
-            }
-        }
-        let mut last = [0.0; LANES];
-        last[..rest.len()].copy_from_slice(rest);
-        for (lane, (sum, value)) in sums.iter_mut().zip(last).enumerate() {
-            let next = *sum + (self.map)(value);
-            *sum = if lane < rest.len() { next } else { *sum };
-        }
-        let [a, b, c, d, e, f, g, h] = sums;
-        ((a + b) + (c + d)) + ((e + f) + (g + h))
+        let Spread { values, scale } = self;
+        let count = values.len() as f64;
+        let mean = sum::<false>(values, 0.0, 1.0) / count;
+        (sum::<true>(values, mean, scale) / count).sqrt() / scale
     }
+}
+
+/// The sum of the values, or of the squares of what `scale` makes of them less their mean.
+#[inline(always)]
+fn sum<const SQUARES: bool>(values: &[f64], mean: f64, scale: f64) -> f64 {
+    let map = |value: f64| {
+        let rest = scale * (value - mean);
+        if SQUARES { rest * rest } else { value }
+    };
+    let mut sums = [0.0; LANES];
+    let chunks = values.chunks_exact(LANES);
+    let rest = chunks.remainder();
+    for chunk in chunks {
+        for (sum, value) in sums.iter_mut().zip(chunk) {
+            *sum += map(*value);
+        }
+    }
+    let mut last = [0.0; LANES];
+    last[..rest.len()].copy_from_slice(rest);
+    for (lane, (sum, value)) in sums.iter_mut().zip(last).enumerate() {
+        let next = *sum + map(value);
+        *sum = if lane < rest.len() { next } else { *sum };
+    }
+    let [a, b, c, d, e, f, g, h] = sums;
+    ((a + b) + (c + d)) + ((e + f) + (g + h))
 }

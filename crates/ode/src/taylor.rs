@@ -173,6 +173,11 @@ impl Stepper for Taylor {
         self.unit
     }
 
+    /// A coefficient that is not shows at the end of the step.
+    fn is_finite_between(&self) -> bool {
+        true
+    }
+
     fn error_power(&self) -> usize {
         self.order
     }

@@ -32,7 +32,8 @@ pub(crate) fn add_nested(theta: f64, nested: &[f64], n: usize, first: usize, res
 
 /// The largest absolute value; NaN if there is one.
 pub fn largest(values: &[f64]) -> f64 {
-    dispatch(Largest(values))
+    // of a few, a call would take longer than the work
+    if values.len() < LANES { Largest(values).run() } else { dispatch(Largest(values)) }
 }
 
 /// The smallest absolute value.
@@ -90,12 +91,18 @@ impl<const STARTED: bool> Kernel for WeightedSum<'_, STARTED> {
     #[inline(always)]
     fn run(mut self) {
         let n = self.result.len();
-        if n < WIDE {
+        if n < LANES {
             (0..n).for_each(|from| self.lanes::<1>(from));
             return;
         }
+        // the last block begins earlier rather than be cut: what is written twice is the same
+        if n < WIDE {
+            for from in (0..n).step_by(LANES) {
+                self.lanes::<LANES>(from.min(n - LANES));
+            }
+            return;
+        }
         for from in (0..n).step_by(WIDE) {
-            // the last block begins earlier rather than be cut: what is written twice is the same
             self.lanes::<WIDE>(from.min(n - WIDE));
         }
     }
@@ -237,7 +244,7 @@ impl Kernel for Largest<'_> {
 }
 
 /// Components per iteration where sums over stages stay in registers.
-const WIDE: usize = 16;
+const WIDE: usize = 32;
 
 /// Components per iteration where several numbers are gathered.
 const LANES: usize = 8;

@@ -42,55 +42,46 @@ pub fn run(paths: &Paths, arguments: &JsonArgs) -> Result<(), Failure> {
     }
 }
 
+/// Programs that tell their version and that some verbs alone need: name, program, arguments, how to get it.
+const PROGRAMS: [(&str, &str, &[&str], &str); 7] = [
+    ("git", "git", &["--version"], "needed by bless; install git"),
+    ("clippy", "cargo", &["clippy", "--version"], "needed by ci; rustup component add clippy"),
+    ("rustfmt", "cargo", &["fmt", "--version"], "needed by ci; rustup component add rustfmt"),
+    ("python", "python3", &["-c", NEW_PYTHON], "needed by a check of ci; Python 3.11 or later with venv or pip"),
+    ("node", "node", &["--version"], "needed by the tests of the page; apt-get install nodejs npm"),
+    ("typst", "typst", &["--version"], "needed by paper, which installs it where there is Python 3.11 and a network"),
+    (
+        "numpy",
+        "python3",
+        &["-c", "import numpy; print(numpy.__version__)"],
+        "needed by spot checks of test; pip install numpy",
+    ),
+];
+
+/// Prints the version of a Python that is new enough for the packages that are pinned.
+const NEW_PYTHON: &str =
+    "import sys; sys.version_info < (3, 11) and sys.exit(1); print('Python', sys.version.split()[0])";
+
 fn findings(paths: &Paths) -> Result<Vec<Finding>, Failure> {
     let cargo = process::cargo().get_program().to_string_lossy().into_owned();
     let fonts = compile::check_fonts(paths).ok().map(|()| "both faces".to_owned());
     let finding = |name, needed, found, remedy| Finding { name, found, needed, remedy };
-    Ok(vec![
+    let mut findings = vec![
         finding("cargo", true, process::first_line(&cargo, &["--version"]), "install Rust with rustup (rustup.rs)"),
         finding("rustc", true, pinned_rustc(paths)?, "rustup toolchain install, in this folder"),
         finding("fonts", true, fonts, FONTS_REMEDY),
         finding("target folder", true, writable(paths), "free space, or CARGO_TARGET_DIR on another disk"),
-        finding("git", false, process::first_line("git", &["--version"]), "needed by bless; install git"),
-        finding(
-            "clippy",
-            false,
-            process::first_line(&cargo, &["clippy", "--version"]),
-            "needed by ci; rustup component add clippy",
-        ),
-        finding(
-            "rustfmt",
-            false,
-            process::first_line(&cargo, &["fmt", "--version"]),
-            "needed by ci; rustup component add rustfmt",
-        ),
-        finding("python", false, python(), "needed by a check of ci; Python 3.11 or later with venv or pip"),
-        finding(
-            "chromium",
-            false,
-            ["chromium", "chromium-browser"].iter().find_map(|name| process::first_line(name, &["--version"])),
-            "needed by the tests of the page; apt-get install chromium",
-        ),
-        finding(
-            "node",
-            false,
-            process::first_line("node", &["--version"]),
-            "needed by the tests of the page; apt-get install nodejs npm",
-        ),
-        finding(
-            "typst",
-            false,
-            process::first_line("typst", &["--version"]),
-            "needed by paper, which installs it where there is Python 3.11 and a network",
-        ),
-        finding(
-            "WebAssembly",
-            false,
-            module::compiler(paths).map(|compiler| compiler.name().to_owned()),
-            "needed for the module of the page; rustup target add wasm32-unknown-unknown",
-        ),
-        finding("numpy", false, numpy(), "needed by spot checks of test; pip install numpy"),
-    ])
+    ];
+    for (name, program, arguments, remedy) in PROGRAMS {
+        let program = if program == "cargo" { &cargo } else { program };
+        findings.push(finding(name, false, process::first_line(program, arguments), remedy));
+    }
+    let chromium = ["chromium", "chromium-browser"].iter().find_map(|name| process::first_line(name, &["--version"]));
+    findings.push(finding("chromium", false, chromium, "needed by the tests of the page; apt-get install chromium"));
+    let module = module::compiler(paths).map(|compiler| compiler.name().to_owned());
+    let remedy = "needed for the module of the page; rustup target add wasm32-unknown-unknown";
+    findings.push(finding("WebAssembly", false, module, remedy));
+    Ok(findings)
 }
 
 /// The version of rustc, when it is the one that the checkout pins.
@@ -99,17 +90,6 @@ fn pinned_rustc(paths: &Paths) -> Result<Option<String>, Failure> {
     let channel = pin.lines().find_map(|line| line.trim().strip_prefix("channel")?.trim().strip_prefix('='));
     let channel = channel.map_or("", |channel| channel.trim().trim_matches('"'));
     Ok(process::first_line("rustc", &["--version"]).filter(|version| version.contains(channel)))
-}
-
-/// The version of Python, when it is new enough for the packages that are pinned.
-fn python() -> Option<String> {
-    let new_enough = "import sys; sys.exit(sys.version_info < (3, 11))";
-    process::first_line("python3", &["-c", new_enough]).and_then(|_| process::first_line("python3", &["--version"]))
-}
-
-/// The version of NumPy, when Python has it.
-fn numpy() -> Option<String> {
-    process::first_line("python3", &["-c", "import numpy; print(numpy.__version__)"])
 }
 
 fn writable(paths: &Paths) -> Option<String> {

@@ -29,7 +29,7 @@ fn what_changes_is_shown_on_each_level_before_anything_is_written() {
         "  run fig04-stable parts after t = 10; at t = 20 1 of 3 pedestrians differ: 1",
         "fig05: same data, other rendering\n",
         "fig05.png: 16 pixels changed within x 0 to 15, y 3 to 3, by at most 180 of 255",
-        "fig06.svg: other text from byte 5 on",
+        "fig06.svg: text differs from byte 5 on",
     ] {
         assert!(ended.out.contains(words), "{words}: {}", ended.out);
     }

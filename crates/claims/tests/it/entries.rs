@@ -59,7 +59,7 @@ fn bad_tests_are_named() {
     desk.problem(&format!("{count}\non = [\"t\"]"), &["on: is only for"]);
     desk.problem(&format!("{count}\nnext = \"t\"\nbeside = \"fig90/one\""), &["next: stands beside"]);
     desk.problem(&format!("{last}\nis = \"big\""), &["is: \"big\"; valid"]);
-    desk.problem(&format!("{last}\ntimes = 2\nplus = 2"), &["plus: stands beside times"]);
+    desk.problem(&format!("{last}\ntimes = 2\nless = 2"), &["less: stands beside times"]);
     desk.problem(&format!("{last}\ntimes = \"2\""), &["times", "must be a number or a measure"]);
     desk.problem(
         &format!("{last}\ntimes = {{ take = \"last\", off = \"v\", table = \"fig90/one\" }}"),

@@ -65,7 +65,7 @@ fn every_comparison_and_expression() {
         4.0,
         0.0,
     );
-    desk.value("take = \"last\"\nof = \"w\"\ntable = \"fig90/one\"\nplus = 0.5", 8.5, 0.0);
+    desk.value("take = \"last\"\nof = \"w\"\ntable = \"fig90/one\"\nless = -0.5", 8.5, 0.0);
 }
 
 #[test]
@@ -129,7 +129,7 @@ fn words_and_empty_cells() {
         &format!("{count}\nwhere = [\"event = overlp\"]"),
         &["where", "does not occur in column event", "overlap, blow_up"],
     );
-    desk.problem(&format!("{count}\nwhere = [\"event < overlap\"]"), &["words are not ordered"]);
+    desk.problem(&format!("{count}\nwhere = [\"event < overlap\"]"), &["words have no order"]);
     desk.problem(&format!("{count}\nwhere = [\"event > 1\"]"), &["where a number is needed"]);
     // a word that is the name of a column stands in quotes
     let desk = Desk::new("quoted", &[("events", "kind,t\nt,1\nn,2\n")]);

@@ -48,7 +48,7 @@ fn bad_input_is_told_and_leaves_nothing() {
     let with = |from: &str, to: &str| scene().replace(from, to);
     let map = with("[run]", "[map]");
     for (scene, table, more, words) in [
-        (scene(), "t,n,x\n", &[][..], "run.csv:1: columns t,n,x"),
+        (scene(), "t,n,x\n", &[][..], "run.csv:1: expected the columns t,n,x,v, found t,n,x"),
         (scene(), &TABLE[..TABLE.len() - 4], &[], "run.csv:5: "),
         (with("v0 = 3.0", "v0 = -3.0"), TABLE, &[], "law.v0 = -3"),
         (with("pedestrians = 2", "pedestrians = 1"), TABLE, &[], "ring.pedestrians = 1"),

@@ -111,7 +111,7 @@ impl<L: Law> Force for Compiled<L> {
     }
 
     fn series(&self, motion: Motion<'_>) {
-        let operations = self.reference.borrow().tape.operations();
+        let operations = self.reference.borrow().tape.histories();
         super::series::compiled(self.law, operations, motion, &mut self.memory.borrow_mut());
     }
 

@@ -4,12 +4,6 @@
 //! and `(k + 1) w_{k+1} = a_k`, where `a_k` is the coefficient of the acceleration along the motion, which the formula
 //! gives from those of spacing and speeds up to the order `k` ([`math::series`]). An order costs a few sums of products;
 //! no stage is evaluated.
-//!
-//! The sums read all that the operations have kept, so this has to stay in the first-level cache. A ring for which it does
-//! goes through order by order. A larger one is cut into pieces, each of which goes through all orders: it needs those of
-//! the pedestrian ahead of it and nothing else, so the pieces follow each other against the direction of walking. The
-//! first of them needs those of pedestrian 0: these come from a piece for which nobody is known to be ahead. What is unknown
-//! there spoils one pedestrian more with every order, and does not come to pedestrian 0.
 
 use super::Flow;
 use crate::laws::Law;
@@ -35,52 +29,74 @@ pub struct Motion<'a> {
     pub coefficients: &'a mut [f64],
 }
 
-/// Pedestrians per iteration; more than there are orders, so that what spoils a pedestrian an order does not come through.
+/// Pedestrians per iteration.
 const W: usize = 24;
 
-/// As many operations that are not linear as a compiled formula has at most.
-const OPERATIONS: usize = 4;
-
-/// The first-level cache. The rows of a piece that are read for every order fit in it, unless those of one block do not.
-const CACHE: usize = 32 << 10;
-
-/// So many of the rows of an operation are read for every order.
-const READ: usize = 3;
-
-/// Memory that is kept from step to step. Rows are whole blocks: behind the last pedestrian of a ring the first follows,
-/// as the neighbour ahead, and numbers without meaning that nothing reads but others of their kind.
+/// Memory that is kept from step to step. Rows are whole blocks: behind the last pedestrian the first follows, as the
+/// neighbour ahead, and numbers without meaning that nothing reads but others of their kind.
 #[derive(Clone, Debug, Default)]
 pub struct Memory {
     /// What the operations keep, one block of pedestrians after another.
     histories: Vec<Block<W>>,
-    /// Coefficients of one order, and of the next; of speeds one more, for the neighbour ahead of the last lane.
+    /// Coefficients of one order, and of the next.
     spacings: Vec<f64>,
     speeds: Vec<f64>,
     next_speeds: Vec<f64>,
 }
 
-/// Who is ahead of the last pedestrian of a piece.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Ahead {
-    /// Its first: the piece is the ring.
-    First,
-    /// Somebody whose coefficients are there.
-    Known,
-    /// Somebody whose coefficients are not there yet; of the piece only the first pedestrian is wanted.
-    Unknown,
+impl Memory {
+    /// Makes room for so many blocks, with histories of this size.
+    fn reserve(&mut self, blocks: usize, size: usize) {
+        if self.histories.len() < blocks * size {
+            self.histories.resize(blocks * size, Block::default());
+        }
+        self.spacings.resize(blocks * W, 0.0);
+        // one more, for the neighbour ahead of the last lane
+        self.speeds.resize(blocks * W + 1, 0.0);
+        self.next_speeds.resize(blocks * W + 1, 0.0);
+    }
+
+    /// Takes a row of the coefficients, to which something is added; behind the last pedestrian, once more the last.
+    #[inline(always)]
+    fn take(&mut self, spacings: &[f64], speeds: &[f64], flow: Flow) {
+        let n = spacings.len();
+        for (own, spacing) in self.spacings.iter_mut().zip(spacings) {
+            *own = spacing + flow.net_gap;
+        }
+        for (own, speed) in self.speeds.iter_mut().zip(speeds) {
+            *own = speed + flow.speed;
+        }
+        let last = self.spacings[n - 1];
+        self.spacings[n..].fill(last);
+        self.speeds[n..].fill(speeds[0] + flow.speed);
+    }
+
+    /// Spacings, speeds and speeds ahead of a block.
+    #[inline(always)]
+    fn variables(&self, from: usize) -> [Lanes<W>; 3] {
+        [&self.spacings[from..], &self.speeds[from..], &self.speeds[from + 1..]].map(Lanes::of)
+    }
+
+    /// Goes on to the next order, whose speeds are there; writes its spacings to `row`, too.
+    #[inline(always)]
+    fn advance(&mut self, share: f64, row: &mut [f64]) {
+        let n = row.len();
+        let pairs = self.speeds.iter().zip(&self.speeds[1..]);
+        for ((spacing, written), (own, ahead)) in self.spacings.iter_mut().zip(row).zip(pairs) {
+            *spacing = (ahead - own) * share;
+            *written = *spacing;
+        }
+        let pairs = self.speeds.iter().zip(&self.speeds[1..]);
+        for (spacing, (own, ahead)) in self.spacings.iter_mut().zip(pairs).skip(n) {
+            *spacing = (ahead - own) * share;
+        }
+        std::mem::swap(&mut self.speeds, &mut self.next_speeds);
+        self.speeds[n] = self.speeds[0];
+    }
 }
 
-/// Neighbours whose coefficients are computed together.
-#[derive(Clone, Copy)]
-struct Piece {
-    from: usize,
-    count: usize,
-    ahead: Ahead,
-}
-
-/// The coefficients under a law that is compiled, which has so many operations that keep something.
+/// The coefficients under a law that is compiled, of which so many operations keep something.
 pub(super) fn compiled<L: Law>(law: L, operations: usize, motion: Motion<'_>, memory: &mut Memory) {
-    assert!(motion.order <= W, "what is unknown of a piece spoils no more than {W} orders");
     dispatch(Coefficients { law, operations, motion, memory });
 }
 
@@ -106,110 +122,33 @@ impl<L: Law> Kernel for Coefficients<'_, '_, L> {
 
 impl<L: Law> Coefficients<'_, '_, L> {
     #[inline(always)]
-    fn of(mut self, law: &L) {
-        let (n, order) = (self.motion.pedestrians, self.motion.order);
-        let used = self.operations * READ * order * size_of::<Block<W>>();
-        let fitting = if used < CACHE { CACHE / used } else { 1 };
-        let size = fitting * W;
-        let is_whole = n <= size;
-        let count = if is_whole { n } else { size };
-        // counted from the last piece; the last that is carried out begins with pedestrian 0, and may do some once more
-        let pieces = if is_whole { 0 } else { n.div_ceil(size) };
-        let mut piece = Piece {
-            from: 0,
-            count: if is_whole { n } else { W },
-            ahead: if is_whole { Ahead::First } else { Ahead::Unknown },
-        };
-        // one place in the program for all of them
-        for next in 0..pieces + 1 {
-            self.piece(law, piece);
-            let from = n.saturating_sub((next + 1) * size);
-            piece = Piece { from, count, ahead: Ahead::Known };
-        }
-    }
-
-    /// Writes the coefficients of a piece, from order 2 on.
-    #[inline(always)]
-    fn piece(&mut self, law: &L, piece: Piece) {
-        let Piece { from, count, ahead } = piece;
-        let Motion { flow, pedestrians: n, order, unit, dimension, .. } = self.motion;
-        let (coefficients, memory) = (&mut *self.motion.coefficients, &mut *self.memory);
-        let blocks = count.div_ceil(W);
-        let size = OPERATIONS * ROWS * order;
-        let next = if from + count < n { from + count } else { 0 };
-        let written = if ahead == Ahead::Unknown { 1 } else { count };
+    fn of(self, law: &L) {
+        let Motion { flow, pedestrians: n, order, unit, dimension, coefficients } = self.motion;
+        let (memory, blocks, size) = (self.memory, n.div_ceil(W), self.operations * ROWS * order);
         let (states, rates) = coefficients.split_at_mut(dimension);
-        memory.start(blocks, size, &rates[from..from + count], &rates[n + from..n + from + count], rates[n + next]);
-        for (block, histories) in memory.histories.chunks_exact(size).take(blocks).enumerate() {
-            let (spacing, speed, ahead) = start(&states[..n], &states[n..2 * n], from + block * W);
-            let place = Place::new(histories, order, 0);
-            let [s, v, w] = [spacing + flow.net_gap, speed + flow.speed, ahead + flow.speed];
+        memory.reserve(blocks, size);
+        memory.take(&states[..n], &states[n..2 * n], flow);
+        for block in 0..blocks {
+            let place = Place::new(&memory.histories[block * size..(block + 1) * size], order, 0);
+            let [s, v, w] = memory.variables(block * W);
             law.acceleration::<Jet<W, true>>(place.variable(s), place.variable(v), place.variable(w));
         }
+        memory.take(&rates[..n], &rates[n..2 * n], NOTHING);
         for k in 1..order {
             let share = unit / (k + 1) as f64;
             let (spacings, speeds) = coefficients[(k + 1) * dimension..].split_at_mut(n);
-            for (block, histories) in memory.histories.chunks_exact(size).take(blocks).enumerate() {
-                let lane = block * W;
-                let place = Place::new(histories, order, k);
-                let s = place.variable::<false>(Lanes::of(&memory.spacings[lane..]));
-                let v = place.variable(Lanes::of(&memory.speeds[lane..]));
-                let w = place.variable(Lanes::of(&memory.speeds[lane + 1..]));
-                let acceleration = law.acceleration(s, v, w).coefficient();
-                memory.next_speeds[lane..lane + W].copy_from_slice(&(acceleration * share).0);
+            for block in 0..blocks {
+                let place = Place::new(&memory.histories[block * size..(block + 1) * size], order, k);
+                let [s, v, w] = memory.variables(block * W);
+                let (s, v, w) = (place.variable::<false>(s), place.variable(v), place.variable(w));
+                let next = law.acceleration(s, v, w).coefficient() * share;
+                memory.next_speeds[block * W..(block + 1) * W].copy_from_slice(&next.0);
             }
-            speeds[from..from + written].copy_from_slice(&memory.next_speeds[..written]);
-            let speed_ahead = match ahead {
-                Ahead::First => memory.next_speeds[0],
-                Ahead::Known => speeds[next],
-                Ahead::Unknown => 0.0,
-            };
-            memory.advance(share, count, speed_ahead);
-            spacings[from..from + written].copy_from_slice(&memory.spacings[..written]);
+            speeds[..n].copy_from_slice(&memory.next_speeds[..n]);
+            memory.advance(share, spacings);
         }
     }
 }
 
-impl Memory {
-    /// Takes row 1 of the coefficients.
-    #[inline(always)]
-    fn start(&mut self, blocks: usize, size: usize, spacings: &[f64], speeds: &[f64], ahead: f64) {
-        let count = spacings.len();
-        if self.histories.len() < blocks * size {
-            self.histories.resize(blocks * size, Block::default());
-        }
-        self.spacings.resize(blocks * W, 0.0);
-        self.speeds.resize(blocks * W + 1, 0.0);
-        self.next_speeds.resize(blocks * W + 1, 0.0);
-        self.spacings[..count].copy_from_slice(spacings);
-        self.speeds[..count].copy_from_slice(speeds);
-        self.speeds[count] = ahead;
-    }
-
-    /// Goes on to the next order, whose speeds are there, and the speed ahead of the last.
-    #[inline(always)]
-    fn advance(&mut self, share: f64, count: usize, ahead: f64) {
-        let pairs = self.speeds.iter().zip(&self.speeds[1..]);
-        for (spacing, (own, ahead)) in self.spacings.iter_mut().zip(pairs) {
-            *spacing = (ahead - own) * share;
-        }
-        std::mem::swap(&mut self.speeds, &mut self.next_speeds);
-        self.speeds[count] = ahead;
-    }
-}
-
-/// Spacings, speeds and speeds ahead of a block; behind the last pedestrian, once more the last.
-#[inline(always)]
-fn start(spacings: &[f64], speeds: &[f64], from: usize) -> (Lanes<W>, Lanes<W>, Lanes<W>) {
-    let n = spacings.len();
-    if from + W < n {
-        return (Lanes::of(&spacings[from..]), Lanes::of(&speeds[from..]), Lanes::of(&speeds[from + 1..]));
-    }
-    let place = |lane: usize| if from + lane < n { from + lane } else { n - 1 };
-    let next = |own: usize| if own + 1 < n { own + 1 } else { 0 };
-    (
-        Lanes(std::array::from_fn(|lane| spacings[place(lane)])),
-        Lanes(std::array::from_fn(|lane| speeds[place(lane)])),
-        Lanes(std::array::from_fn(|lane| speeds[next(place(lane))])),
-    )
-}
+/// What leaves any number as it is, a zero with its sign.
+const NOTHING: Flow = Flow { net_gap: -0.0, speed: -0.0 };

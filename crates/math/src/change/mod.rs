@@ -21,18 +21,20 @@ const CAPACITY: usize = 16;
 pub struct Tape {
     kept: [Kept; CAPACITY],
     length: usize,
+    /// Products of which a power consists, less one for each operation.
+    more: usize,
 }
 
 impl Default for Tape {
     fn default() -> Tape {
-        Tape { kept: [Kept::default(); CAPACITY], length: 0 }
+        Tape { kept: [Kept::default(); CAPACITY], length: 0, more: 0 }
     }
 }
 
 impl Tape {
-    /// How many operations the formula has that are not linear.
-    pub fn operations(&self) -> usize {
-        self.length
+    /// As many operations keep something for a [series](crate::series) of the formula, at most.
+    pub fn histories(&self) -> usize {
+        self.length + self.more
     }
 }
 
@@ -263,6 +265,8 @@ macro_rules! functions {
             })*
 
             fn powi(self, n: i32) -> Self {
+                let products = n.max(2) as usize - 1;
+                self.tape.0.borrow_mut().more += products - 1;
                 self.map(Kept::of_whole_power(self.value, n), Number::powi(self.value, n))
             }
 
