@@ -25,7 +25,7 @@ pub struct CheckpointOptions {
     /// Least time between two updates of that file; longer where updates would take more than a hundredth of the run
     #[arg(long, value_name = "SECONDS", default_value = "5", value_parser = seconds)]
     checkpoint_every: Duration,
-    /// Report progress on stderr, a line a second: `progress 0.42`, or `resumed 0.40` at the start
+    /// Report progress on stderr, a line a second: `progress 0.42 left 17` (part done, seconds left), or `resumed 0.40` at the start
     #[arg(long)]
     progress: bool,
     /// Do not classify the outcome of the run
@@ -166,10 +166,10 @@ impl<'a> CheckpointWriter<'a> {
 
     fn tell(&mut self, fraction: f64) {
         let mut stderr = std::io::stderr();
+        let left = self.started.elapsed().as_secs_f64() * (1.0 - fraction) / (fraction - self.done);
         if self.care.progress {
-            say(&format!("progress {fraction:.4}"));
+            say(&format!("progress {fraction:.4} left {left:.0}"));
         } else if stderr.is_terminal() {
-            let left = self.started.elapsed().as_secs_f64() * (1.0 - fraction) / (fraction - self.done);
             // a word about progress that cannot be shown is no reason to stop
             let _ = write!(stderr, "\r\x1b[K{:.0} %, about {left:.0} s left", 100.0 * fraction);
             self.is_bar_shown = true;

@@ -30,7 +30,7 @@ pub struct Usage {
 pub enum Message {
     /// It goes on where another one was killed: `resumed 0.40`.
     Resumed(f64),
-    /// It has come so far: `progress 0.42`.
+    /// It has come so far: `progress 0.42`, perhaps with the seconds that are left: `progress 0.42 left 17`.
     Progress(f64),
 }
 
@@ -38,7 +38,7 @@ impl Message {
     /// Reads a line; `None` when it is about something else.
     pub fn parse(line: &str) -> Option<Message> {
         let (word, number) = line.split_once(' ')?;
-        let fraction = number.parse().ok()?;
+        let fraction = number.split(' ').next()?.parse().ok()?;
         match word {
             "resumed" => Some(Message::Resumed(fraction)),
             "progress" => Some(Message::Progress(fraction)),

@@ -4,9 +4,11 @@
 
 use crate::dense::Step;
 use crate::system::{System, Tangent};
-use crate::taylor::Change;
+use crate::taylor::{Change, forced};
 use crate::vector::largest;
-use math::simd::dispatch;
+use math::simd::{Kernel, dispatch};
+use std::cell::RefCell;
+use std::ops::Range;
 
 /// The series of a difference over the step looked at last.
 #[derive(Clone, Debug)]
@@ -24,6 +26,13 @@ pub(crate) struct Linear {
     steady_for: u32,
     /// The rows of all pieces, which are equally long; what stands behind them is of no meaning.
     rows: Vec<f64>,
+    /// How late the solution is: this part of the difference, a shift along the solution, is carried exactly. Of a motion
+    /// that is thrown back by a wall all but a small rest is of this kind.
+    late: f64,
+    /// The components of which that is told.
+    forced: Vec<Range<usize>>,
+    /// Scratch for states and rates.
+    state: RefCell<[Vec<f64>; 2]>,
     /// How many numbers the rows of a piece are.
     length: usize,
     pieces: usize,
@@ -56,6 +65,9 @@ impl Linear {
             is_steady: false,
             steady_for: 0,
             rows: Vec::new(),
+            late: 0.0,
+            forced: forced(system),
+            state: RefCell::new([vec![0.0; system.dimension()], vec![0.0; system.dimension()]]),
             length: 0,
             pieces: 0,
         })
@@ -76,7 +88,11 @@ impl Linear {
         if self.rows.len() < self.pieces * self.length {
             self.rows.resize(self.pieces * self.length, 0.0);
         }
-        self.rows[..dimension].copy_from_slice(error);
+        let rates = step.rates_before();
+        self.late = lateness(&self.forced, rates, error);
+        for (row, (error, rate)) in self.rows.iter_mut().zip(error.iter().zip(rates)) {
+            *row = error - self.late * rate;
+        }
         self.growth.iter_mut().for_each(|growth| *growth *= share);
         for piece in 0..self.pieces {
             let (done, rest) = self.rows.split_at_mut(piece * self.length);
@@ -111,11 +127,70 @@ impl Linear {
         if self.fastest > before { self.fastest } else { before }
     }
 
-    /// Writes the difference at the fraction `theta` of the step, of what was there at its start.
-    pub(crate) fn at(&self, theta: f64, result: &mut [f64]) {
+    /// Writes the difference at the end of the step, of what was there at its start.
+    pub(crate) fn end(&self, step: &Step<'_>, result: &mut [f64]) {
+        self.rest(1.0, result);
+        self.shift(step.rates_after(), result);
+    }
+
+    /// The same at the fraction `theta` of the step.
+    pub(crate) fn at(&self, step: &mut Step<'_>, theta: f64, result: &mut [f64]) {
+        let [state, rates] = &mut *self.state.borrow_mut();
+        step.at_fraction(theta, state);
+        step.rates_of(state, rates);
+        self.rest(theta, result);
+        self.shift(rates, result);
+    }
+
+    fn rest(&self, theta: f64, result: &mut [f64]) {
         let place = theta * self.pieces as f64;
         let piece = (place as usize).min(self.pieces - 1);
         whole(&self.rows[piece * self.length..][..self.length], result.len(), place - piece as f64, result);
+    }
+
+    fn shift(&self, rates: &[f64], result: &mut [f64]) {
+        result.iter_mut().zip(rates).for_each(|(result, rate)| *result += self.late * rate);
+    }
+}
+
+/// The shift in time that makes most of a difference.
+fn lateness(components: &[Range<usize>], rates: &[f64], error: &[f64]) -> f64 {
+    let scale = components.iter().fold(0.0, |scale, range| {
+        let own = largest(&rates[range.clone()]);
+        if own <= scale { scale } else { own }
+    });
+    let share = 1.0 / scale;
+    let (mut along, mut squares) = (0.0, 0.0);
+    for range in components {
+        let sums = dispatch(Products { rates: &rates[range.clone()], error: &error[range.clone()], share });
+        (along, squares) = (along + sums[0], squares + sums[1]);
+    }
+    let late = along / squares * share;
+    if late.is_finite() { late } else { 0.0 }
+}
+
+/// The sums of rates times errors and of squares of rates, these in units in which the largest is 1.
+struct Products<'a> {
+    rates: &'a [f64],
+    error: &'a [f64],
+    share: f64,
+}
+
+impl Kernel for Products<'_> {
+    type Output = [f64; 2];
+
+    #[inline(always)]
+    fn run(self) -> [f64; 2] {
+        const LANES: usize = 8;
+        let (mut along, mut squares) = ([0.0; LANES], [0.0; LANES]);
+        for (rates, error) in self.rates.chunks(LANES).zip(self.error.chunks(LANES)) {
+            for i in 0..rates.len().min(error.len()) {
+                let share = rates[i] * self.share;
+                along[i] += share * error[i];
+                squares[i] += share * share;
+            }
+        }
+        [along, squares].map(|sums| sums.iter().sum())
     }
 }
 

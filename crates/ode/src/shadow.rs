@@ -43,6 +43,8 @@ pub struct Shadow {
     /// Carries the error over each step by itself, where the system tells how small differences move.
     linear: Option<Linear>,
     is_linear_known: bool,
+    /// The error at the end of the step looked at last, if it is carried so.
+    after: Vec<f64>,
     /// What the next rounding is drawn by.
     lot: u64,
 }
@@ -98,6 +100,7 @@ impl Shadow {
             is_sure: true,
             linear: None,
             is_linear_known: false,
+            after: Vec::new(),
             lot: 0,
         }
     }
@@ -116,7 +119,9 @@ impl Shadow {
             *own += (ROUNDING * (after - before).abs()).copysign(*error);
         }
         self.round(step, rounding);
-        self.added.iter_mut().zip(&self.own).for_each(|(added, own)| *added += own);
+        if !self.arrive(step) {
+            self.added.iter_mut().zip(&self.own).for_each(|(added, own)| *added += own);
+        }
         true
     }
 
@@ -145,6 +150,15 @@ impl Shadow {
     pub fn carry(&mut self, step: &mut Step<'_>) {
         self.advance(step);
         self.own.fill(0.0);
+        self.arrive(step);
+    }
+
+    /// Finds the error at the end of a step, where each step carries it by itself.
+    fn arrive(&mut self, step: &Step<'_>) -> bool {
+        let Some(linear) = self.linear.as_ref().filter(|_| self.has_rows) else { return false };
+        linear.end(step, &mut self.after);
+        self.after.iter_mut().zip(&self.own).for_each(|(after, own)| *after += own);
+        true
     }
 
     fn advance(&mut self, step: &mut Step<'_>) {
@@ -169,11 +183,10 @@ impl Shadow {
     /// Carries the error over the step by the linearised equations.
     fn expand_linear(&mut self, step: &Step<'_>) {
         if self.has_rows {
-            let mut error = std::mem::take(&mut self.error);
-            self.at(1.0, &mut error);
-            self.error = error;
+            std::mem::swap(&mut self.error, &mut self.after);
+        } else {
+            self.after.clone_from(&self.error);
         }
-        self.added.fill(0.0);
         if let Some(linear) = &mut self.linear {
             self.has_rows = linear.expand(step, &self.error);
             self.is_sure &= self.has_rows;
@@ -183,7 +196,7 @@ impl Shadow {
     /// Expands the difference about the start of a step.
     fn expand(&mut self, step: &mut Step<'_>) {
         let mut near = vec![0.0; self.error.len()];
-        self.at(1.0, &mut near);
+        self.sum(1.0, &mut near);
         self.error.copy_from_slice(&near);
         self.added.fill(0.0);
         let h = step.length();
@@ -239,11 +252,28 @@ impl Shadow {
     }
 
     /// Writes the error at the fraction `theta` of the step looked at last, component by component.
-    pub fn at(&self, theta: f64, result: &mut [f64]) {
-        if let Some(linear) = self.linear.as_ref().filter(|_| self.has_rows) {
-            linear.at(theta, result);
-            return self.add(theta, result);
+    pub fn at(&self, step: &mut Step<'_>, theta: f64, result: &mut [f64]) {
+        match self.linear.as_ref().filter(|_| self.has_rows) {
+            Some(_) if theta == 1.0 => result.copy_from_slice(&self.after),
+            Some(linear) => {
+                linear.at(step, theta, result);
+                let share = self.own_share(theta);
+                result.iter_mut().zip(&self.own).for_each(|(result, own)| *result += share * own);
+            }
+            None => self.sum(theta, result),
         }
+    }
+
+    /// Writes the error at the end of the step looked at last.
+    pub fn at_end(&self, result: &mut [f64]) {
+        match self.linear.as_ref().filter(|_| self.has_rows) {
+            Some(_) => result.copy_from_slice(&self.after),
+            None => self.sum(1.0, result),
+        }
+    }
+
+    /// The error that series since some steps ago tell.
+    fn sum(&self, theta: f64, result: &mut [f64]) {
         if self.has_rows {
             let h = (self.elapsed - (1.0 - theta) * self.length) / self.unit;
             dispatch(Change::<false> { rows: &self.rows, n: result.len(), from: 0, h, result });
@@ -252,25 +282,22 @@ impl Shadow {
         } else {
             result.fill(0.0);
         }
-        result.iter_mut().zip(&self.error).for_each(|(result, error)| *result += error);
-        self.add(theta, result);
-    }
-
-    /// Adds what steps have added up to the fraction `theta` of the last one.
-    fn add(&self, theta: f64, result: &mut [f64]) {
-        if theta == 1.0 {
-            return result.iter_mut().zip(&self.added).for_each(|(result, added)| *result += added);
-        }
-        // of the own error of the step, that of what lies before it is the rest
-        let rest = 1.0 - (0..self.power).fold(1.0, |power, _| power * theta);
-        for (result, (added, own)) in result.iter_mut().zip(self.added.iter().zip(&self.own)) {
-            *result += added - rest * own;
+        // what lies before the own error of the step has been added whole
+        let rest = 1.0 - self.own_share(theta);
+        let errors = self.error.iter().zip(&self.added).zip(&self.own);
+        for (result, ((error, added), own)) in result.iter_mut().zip(errors) {
+            *result += error + (added - rest * own);
         }
     }
 
-    /// The error at the start of the last expansion, that of the step looked at last where the system tells its tangent.
-    pub fn before(&self) -> &[f64] {
-        &self.error
+    /// The part of the own error of a step that is there at the fraction `theta` of it.
+    fn own_share(&self, theta: f64) -> f64 {
+        (0..self.power).fold(1.0, |power, _| power * theta)
+    }
+
+    /// The error at the end of the step looked at last, where each step carries it by itself.
+    pub fn after(&self) -> Option<&[f64]> {
+        self.linear.as_ref().filter(|_| self.has_rows).map(|_| &self.after[..])
     }
 
     /// How many components it has.

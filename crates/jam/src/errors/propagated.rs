@@ -35,7 +35,7 @@ pub struct Propagated {
     /// How large the errors of speeds were when that was looked at last, and how many steps ago.
     looked_at: f64,
     since: u32,
-    /// The last moment before a blow-up at which the error was small beside the state.
+    /// The moment that tells most of the time of a blow-up.
     last_known: Option<LastKnown>,
     /// The time at which the run ends.
     t_end: f64,
@@ -43,13 +43,19 @@ pub struct Propagated {
     events: Vec<f64>,
 }
 
-/// A moment at which the error was a small part of the state: how late the run was, and that part.
+/// A moment before a blow-up at which the error was a small part of the state.
 #[derive(Clone, Copy, Debug)]
 struct LastKnown {
     time: f64,
+    /// How late the run was, and the part of speeds that their errors were.
     late: f64,
     part: f64,
+    /// How late the blow-up may be, about.
+    guess: f64,
 }
+
+/// Who is so much faster than pedestrians want to be has been thrown back.
+const THROWN: f64 = 4.0;
 
 /// Larger parts of the state do not follow linearised equations.
 const SMALL: f64 = 1e-3;
@@ -86,7 +92,11 @@ impl RunObserver for Propagated {
             }
             let place = step.fraction(*time);
             // where the perturbation is lost all errors but its own are alike
-            self.lost.as_ref().or(self.shadow.as_ref()).into_iter().for_each(|shadow| shadow.at(place, &mut error));
+            self.lost
+                .as_ref()
+                .or(self.shadow.as_ref())
+                .into_iter()
+                .for_each(|shadow| shadow.at(step, place, &mut error));
             let errors = &error[n..2 * n];
             // no standard deviation is off by more than all of its numbers
             if (1.0 + UNSURE) * largest(errors) <= self.std {
@@ -101,12 +111,11 @@ impl RunObserver for Propagated {
         for happening in sight.new {
             let place = step.fraction(happening.time);
             let known = self.last_known.filter(|_| happening.kind == EventKind::BlowUp);
-            if let Some(LastKnown { time, late, part }) = known {
-                // later the error is as large as the state, but there is no time left for it to matter
-                self.events.push(late + part * (happening.time - time));
+            if let Some(known) = known {
+                self.events.push(known.late + known.part * (happening.time - known.time));
                 continue;
             }
-            error = self.error_at(place);
+            error = self.error_at(Some((step, place)));
             step.at_fraction(place, &mut state);
             let mut rates = vec![0.0; dimension];
             step.rates_of(&state, &mut rates);
@@ -153,10 +162,10 @@ impl Propagated {
             self.shadow = Some(Shadow::new(if self.loses_shift { vec![0.0; dimension] } else { error }));
         }
         if self.shadow.as_ref().is_some_and(|shadow| shadow.dimension() != dimension) {
-            self.shadow = Some(Shadow::new(in_gaps(&self.error_at(1.0), n)));
+            self.shadow = Some(Shadow::new(in_gaps(&self.error_at(None), n)));
         }
         if self.lost.is_some() && !is_uniform(step.before(), n) {
-            (self.shadow, self.lost) = (Some(Shadow::new(self.error_at(1.0))), None);
+            (self.shadow, self.lost) = (Some(Shadow::new(self.error_at(None))), None);
         }
         if let Some(lost) = &mut self.lost {
             lost.carry(step);
@@ -170,8 +179,9 @@ impl Propagated {
 
     /// Whether the error of the standard deviation may be larger in this step than it was.
     fn is_worth_looking(&mut self, step: &Step<'_>, sight: &Sight<'_, '_>) -> bool {
-        let Some(shadow) = self.lost.as_ref().or(self.shadow.as_ref()) else { return true };
-        let now = largest(&shadow.before()[self.pedestrians..2 * self.pedestrians]);
+        let shadow = self.lost.as_ref().or(self.shadow.as_ref());
+        let Some(errors) = shadow.and_then(Shadow::after) else { return true };
+        let now = largest(&errors[self.pedestrians..2 * self.pedestrians]);
         self.since += 1;
         let is_worth =
             now > GROWN * self.looked_at || self.since >= EVERY || step.end >= self.t_end || !sight.new.is_empty();
@@ -181,28 +191,38 @@ impl Propagated {
         is_worth
     }
 
-    /// Keeps what the error tells of the time of a blow-up to come, where one may come: at a wall, in spacings.
+    /// Keeps what the error tells of the time of a blow-up to come, once somebody has been thrown back: from the moment that
+    /// tells it best. Later the error is as large as the state, but then there is hardly any time left for it to matter.
     fn remember(&mut self, step: &Step<'_>) {
-        let (n, state) = (self.pedestrians, step.before());
+        let (n, state) = (self.pedestrians, step.after());
         let Some(shadow) = self.shadow.as_ref().filter(|_| self.is_singular && state.len() == 2 * n + 1) else {
             return;
         };
-        let (error, rates) = (shadow.before(), step.rates_before());
-        let part = largest(&error[n..2 * n]) / largest(&state[n..2 * n]);
-        if part < SMALL {
-            let late = largest(&error[..n]) / largest(&rates[..n]);
-            self.last_known = Some(LastKnown { time: step.start, late, part });
+        let fastest = largest(&state[n..2 * n]);
+        if fastest < THROWN * self.desired {
+            return;
+        }
+        let (Some(error), rates) = (shadow.after(), step.rates_after()) else { return };
+        let part = largest(&error[n..2 * n]) / fastest;
+        let late = largest(&error[..n]) / largest(&rates[..n]);
+        // speeds double at every throw: the end is about as near as the ring is long over the largest
+        let guess = late + part * (self.headway * n as f64 / fastest);
+        if part < SMALL && self.last_known.is_none_or(|known| guess <= known.guess) {
+            self.last_known = Some(LastKnown { time: step.end, late, part, guess });
         }
     }
 
-    /// The error at a fraction of the step looked at last.
-    fn error_at(&self, place: f64) -> Vec<f64> {
-        let at = |shadow: &Shadow| {
+    /// The error at a fraction of the step looked at last, or at its end.
+    fn error_at(&self, mut place: Option<(&mut Step<'_>, f64)>) -> Vec<f64> {
+        let mut at = |shadow: &Shadow| {
             let mut error = vec![0.0; shadow.dimension()];
-            shadow.at(place, &mut error);
+            match &mut place {
+                Some((step, place)) => shadow.at(step, *place, &mut error),
+                None => shadow.at_end(&mut error),
+            }
             error
         };
-        let mut all = self.shadow.as_ref().map_or(Vec::new(), at);
+        let mut all = self.shadow.as_ref().map_or(Vec::new(), &mut at);
         if let Some(lost) = &self.lost {
             all.iter_mut().zip(at(lost)).for_each(|(all, lost)| *all += lost);
         }
@@ -223,7 +243,7 @@ impl Propagated {
     pub fn errors(&self, scene: &Scene, outcome: &Outcome) -> Option<Errors> {
         // next to a blow-up the error leaves the doubles before the speeds do: a second run tells the time
         let is_told = self.events.iter().all(|error| error.is_finite());
-        let error = (!self.is_blind && is_told && self.shadow.is_some()).then(|| self.error_at(1.0))?;
+        let error = (!self.is_blind && is_told && self.shadow.is_some()).then(|| self.error_at(None))?;
         let n = self.pedestrians;
         // deviations have the speed of the uniform flow, too
         let (spacings, flow) = (&error[..n], error.get(2 * n + 2).copied().unwrap_or(0.0));

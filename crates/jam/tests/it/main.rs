@@ -20,5 +20,6 @@ mod rings;
 mod run;
 mod sample;
 mod series;
+mod tangent;
 mod uniform;
 mod walls;

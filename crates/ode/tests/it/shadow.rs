@@ -1,11 +1,13 @@
 //! Errors that are carried along with a solution by Taylor's method, against exact ones.
 
-use ode::{Control, Group, Measure, Method, Problem, Shadow, Step, System, integrate};
+use ode::{Control, Group, Measure, Method, Problem, Shadow, Step, System, Tangent, integrate};
 use std::ops::{ControlFlow, Range};
 
 /// `dx/dt = v`, `dv/dt = -x - 2 a v`, without or with friction, or driven if `a < 0`; the tolerance is relative to the state.
 struct Pendulum {
     friction: f64,
+    /// Whether it tells its linearised equations.
+    is_linear: bool,
 }
 
 impl System for Pendulum {
@@ -40,6 +42,23 @@ impl System for Pendulum {
             c[2 * k + 3] = share * (-c[2 * k] - 2.0 * self.friction * c[2 * k + 1]);
         }
     }
+
+    fn tangent_size(&self) -> usize {
+        usize::from(self.is_linear)
+    }
+
+    fn tangent(&self, _state: &[f64], tangent: &mut [f64]) -> f64 {
+        tangent[0] = -1.0;
+        1.0
+    }
+
+    fn difference(&self, tangent: Tangent<'_>, order: usize, unit: f64, c: &mut [f64]) {
+        for k in 0..order {
+            let share = unit / (k + 1) as f64;
+            c[2 * k + 2] = share * c[2 * k + 1];
+            c[2 * k + 3] = share * (tangent.start[0] * c[2 * k] - 2.0 * self.friction * c[2 * k + 1]);
+        }
+    }
 }
 
 impl Pendulum {
@@ -55,11 +74,9 @@ impl Pendulum {
 }
 
 /// Goes along with a solution from `[1, 0]` to 20 and shows every step with the shadow.
-fn follow(friction: f64, tolerance: f64, error: [f64; 2], look: &mut dyn FnMut(&mut Step<'_>, &Shadow)) {
-    let system = Pendulum { friction };
+fn follow(system: &Pendulum, tolerance: f64, error: [f64; 2], look: &mut dyn FnMut(&mut Step<'_>, &Shadow)) {
     let control = Control::Adaptive { tolerance };
-    let problem =
-        Problem { system: &system, start: &[1.0, 0.0], begin: 0.0, end: 20.0, method: Method::Taylor, control };
+    let problem = Problem { system, start: &[1.0, 0.0], begin: 0.0, end: 20.0, method: Method::Taylor, control };
     let mut shadow = Shadow::new(error.to_vec());
     let mut observer = |step: &mut Step<'_>| {
         assert!(shadow.follow(step, 0.0), "Taylor's method tells its errors");
@@ -69,16 +86,19 @@ fn follow(friction: f64, tolerance: f64, error: [f64; 2], look: &mut dyn FnMut(&
     integrate(&problem, &mut observer).expect("nothing stands in the way");
 }
 
+/// Frictions, and whether the linearised equations are told.
+const SYSTEMS: [(f64, bool); 6] = [(0.0, false), (0.3, false), (-0.1, false), (0.0, true), (0.3, true), (-0.1, true)];
+
 #[test]
 fn errors_of_steps_are_those_against_the_exact_solution() {
-    for friction in [0.0, 0.3, -0.1] {
+    for (friction, is_linear) in SYSTEMS {
         for tolerance in [1e-4, 1e-7, 1e-10] {
-            let system = Pendulum { friction };
+            let system = Pendulum { friction, is_linear };
             let (mut steps, mut worst) = (0, 0.0);
-            follow(friction, tolerance, [0.0; 2], &mut |step, shadow| {
+            follow(&system, tolerance, [0.0; 2], &mut |step, shadow| {
                 let (mut error, mut state) = ([0.0; 2], [0.0; 2]);
                 for place in [0.5, 0.9, 1.0] {
-                    shadow.at(place, &mut error);
+                    shadow.at(step, place, &mut error);
                     step.at_fraction(place, &mut state);
                     let exact = system.exact([1.0, 0.0], step.start + place * step.length());
                     let off = [state[0] - exact[0], state[1] - exact[1]];
@@ -100,13 +120,13 @@ fn errors_of_steps_are_those_against_the_exact_solution() {
 
 #[test]
 fn an_error_at_the_start_becomes_what_the_exact_solution_makes_of_it() {
-    for friction in [0.0, 0.3, -0.1] {
-        let system = Pendulum { friction };
+    for (friction, is_linear) in SYSTEMS {
+        let system = Pendulum { friction, is_linear };
         let start = [1e-7, -2e-7];
         let mut steps = 0;
-        follow(friction, 1e-13, start, &mut |step, shadow| {
+        follow(&system, 1e-13, start, &mut |step, shadow| {
             let mut error = [0.0; 2];
-            shadow.at(1.0, &mut error);
+            shadow.at_end(&mut error);
             let right = system.exact(start, step.end);
             let size = math::larger(right[0].abs(), right[1].abs());
             let apart = math::larger((right[0] - error[0]).abs(), (right[1] - error[1]).abs());
@@ -120,7 +140,7 @@ fn an_error_at_the_start_becomes_what_the_exact_solution_makes_of_it() {
 
 #[test]
 fn other_methods_and_fixed_steps_tell_nothing() {
-    let system = Pendulum { friction: 0.0 };
+    let system = Pendulum { friction: 0.0, is_linear: true };
     for (method, control) in
         [(Method::Dop853, Control::Adaptive { tolerance: 1e-8 }), (Method::Heun, Control::Fixed { step: 0.1 })]
     {

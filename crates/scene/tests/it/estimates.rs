@@ -179,3 +179,47 @@ fn laws_with_kinks_and_other_methods_tell_nothing() {
         assert!(errors.std.is_some_and(|error| error > 0.0) && (errors.cost > 0.0) != tells, "{law} {method}");
     }
 }
+
+/// The scene of figure 4 with this `mu` to this time, by Taylor's method.
+fn figure_4(mu: f64, t_end: f64) -> Scene {
+    let text = format!(
+        "[law]\nkind = \"algebraic\"\nmu = {mu:?}\nq = 2.0\nv0 = 3.0\n[ring]\npedestrians = 67\nlength = 200.0\n\
+         [start]\nshift = 1e-4\n[run]\nt_end = {t_end:?}\nsample = 1.0\nmethod = \"taylor\"\ntolerance = 1e-12\n\
+         record = \"std\"\n"
+    );
+    let recipe = files::scene_file::parse("my.toml", &text).expect("a scene");
+    read("my.toml", &recipe.panels[0].tables).expect("a run")
+}
+
+/// Both numbers are there and no more than so many times apart.
+fn are_near(one: Option<f64>, other: Option<f64>, times: f64) -> bool {
+    one.zip(other).is_some_and(|(one, other)| one < times * other && other < times * one)
+}
+
+/// Once the flow is all but uniform, steps are longer than the time in which an error moves.
+#[test]
+fn a_slow_run_tells_errors_that_move_faster_than_its_steps() {
+    let scene = figure_4(0.45, 1200.0);
+    let mut propagated = Propagated::new(&scene);
+    let outcome = run_from(&scene, None, &mut propagated).expect("it runs");
+    assert!(outcome.statistics.steps < 300, "{} steps", outcome.statistics.steps);
+    let told = propagated.errors(&scene, &outcome).expect("steps tell their errors");
+    let second = errors(&scene, &outcome);
+    assert!(are_near(told.std, second.std, 30.0), "{told:?} {second:?}");
+    assert!(are_near(told.positions, second.positions, 30.0), "{told:?} {second:?}");
+}
+
+/// The error leaves all bounds in the throws before a blow-up; its time is known all the same.
+#[test]
+fn the_time_of_a_blow_up_is_told_without_a_second_run() {
+    let scene = figure_4(0.55, 2000.0);
+    let mut propagated = Propagated::new(&scene);
+    let outcome = run_from(&scene, None, &mut propagated).expect("it runs");
+    let told = propagated.errors(&scene, &outcome).expect("steps tell their errors");
+    let second = errors(&scene, &outcome);
+    assert_eq!(told.events.len(), 2, "{:?}", outcome.events);
+    for (one, other) in told.events.iter().zip(&second.events) {
+        assert!(are_near(*one, *other, 30.0), "{told:?} {second:?}");
+    }
+    assert!(told.positions.is_none() && told.speeds.is_none(), "{told:?}");
+}

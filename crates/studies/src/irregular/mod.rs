@@ -120,7 +120,7 @@ impl Run {
         Ok(row![
             scheme.0.name(),
             self.shift,
-            (count > 0).then(|| BEGIN + count as f64 * WINDOW),
+            (count > 0).then_some(BEGIN + count as f64 * WINDOW),
             known.map(|(mean, _)| mean),
             known.map(|(_, error)| error),
             (count > 0).then_some(slowest),
