@@ -143,7 +143,7 @@ impl Law for Long {
 
     #[inline(always)]
     fn acceleration<X: Number>(&self, s: X, v: X, ahead: X) -> X {
-        let near = (s.powf(1.5) + 1.0).recip() + (-s).exp() + (s + 1.0).ln() * s.sqrt();
+        let near = (s + 1.0).powf(1.5).recip() + (-s).exp() + (s + 1.0).ln() * (s + 1.0).sqrt();
         let seen = ((ahead - v) * s).tanh() + (v - ahead).softplus();
         (s - 2.0).tanh() + 1.0 - v + (near + seen) * 0.01
     }
