@@ -54,8 +54,8 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn space_time(file: &Path, panel: &str, part: f64) -> Result<SpaceTime, Failure> {
-    let recipe = scene_file::read(file)?;
-    let mut scene = scene::run::read(&recipe.file, &recipe.panel(panel)?.tables)?;
+    let parsed = scene_file::read(file)?;
+    let mut scene = scene::run::read(&parsed.file, &parsed.panel(panel)?.tables)?;
     scene.keeps_trajectories = true;
     let outcome = run(&scene).map_err(Failure::work)?;
     let end = outcome.samples.last().map_or(scene.t_end, |sample| sample.time);

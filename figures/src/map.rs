@@ -36,15 +36,15 @@ pub struct Arguments {
 /// # Errors
 /// A bad scene (nothing is written), or a file that cannot be written.
 pub fn main(arguments: &Arguments) -> Result<(), Failure> {
-    let recipe = scene_file::read(&arguments.scene)?;
-    let panels: Vec<_> = recipe.panels.iter().filter(|panel| panel.kind == Kind::Map).collect();
+    let parsed = scene_file::read(&arguments.scene)?;
+    let panels: Vec<_> = parsed.panels.iter().filter(|panel| panel.kind == Kind::Map).collect();
     if panels.is_empty() {
-        return points(&recipe, arguments);
+        return points(&parsed, arguments);
     }
     let mut computed = Vec::new();
     for panel in panels {
-        let map = scene::map::read(&recipe.file, &panel.tables)?;
-        let numbers = map.compute().map_err(|problem| Failure::input(format!("{}: {problem}", recipe.file)))?;
+        let map = scene::map::read(&parsed.file, &panel.tables)?;
+        let numbers = map.compute().map_err(|problem| Failure::input(format!("{}: {problem}", parsed.file)))?;
         computed.push((panel.name.as_str(), map, numbers));
     }
     let (mut files, mut summaries, mut words) = (Vec::new(), Vec::new(), Vec::new());
@@ -77,16 +77,16 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// Of a scene that is run, the stability of its uniform flow: a map of one point. Nothing is written.
-fn points(recipe: &SceneFile, arguments: &Arguments) -> Result<(), Failure> {
+fn points(parsed: &SceneFile, arguments: &Arguments) -> Result<(), Failure> {
     let (mut summaries, mut words) = (Vec::new(), Vec::new());
-    for panel in recipe.panels.iter().filter(|panel| panel.kind == Kind::Run) {
-        let scene = scene::run::read_unrun(&recipe.file, &panel.tables)?;
+    for panel in parsed.panels.iter().filter(|panel| panel.kind == Kind::Run) {
+        let scene = scene::run::read_unrun(&parsed.file, &panel.tables)?;
         let (speed, flow) = (scene.steady_speed, stability(&scene));
         summaries.push(json!({ "panel": panel.name, "steady_speed": speed, "uniform_flow": summary::of_flow(flow) }));
         words.push(format!("{}: {}", panel.name, uniform::in_words(flow, scene.ring.pedestrians)));
     }
     if words.is_empty() {
-        return Err(Failure::input(format!("{}: has neither [map] nor [run]", recipe.file)));
+        return Err(Failure::input(format!("{}: has neither [map] nor [run]", parsed.file)));
     }
     print(&if arguments.json {
         json!({ "schema_version": 1, "points": summaries }).to_string()

@@ -143,8 +143,8 @@ mod tests {
                     [ring]\npedestrians = 67\n[start]\nshift = 0.1\n[run]\nt_end = 10.0\nmethod = \"taylor\"\ntolerance = 1e-6\n[sweep]\n\
                     x = { parameter = \"mu\", from = 0.2, to = 1.0, cells = 4 }\n\
                     y = { parameter = \"headway\", from = 2.2, to = 4.0, cells = 3, scale = \"log\" }\n";
-        let recipe = scene_file::parse("plane.toml", text).expect("a scene");
-        scene::sweep::read(&recipe.file, &recipe.panels[0].tables).expect("a sweep")
+        let parsed = scene_file::parse("plane.toml", text).expect("a scene");
+        scene::sweep::read(&parsed.file, &parsed.panels[0].tables).expect("a sweep")
     }
 
     /// Cells of some classes, one of them with a number.

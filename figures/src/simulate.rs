@@ -115,17 +115,17 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn read_scene(arguments: &Arguments) -> Result<Scene, Failure> {
-    let recipe = scene_file::read(&arguments.scene)?;
+    let parsed = scene_file::read(&arguments.scene)?;
     let panel = match &arguments.panel {
-        Some(name) => recipe.panel(name)?,
-        None if recipe.panels.len() == 1 => &recipe.panels[0],
+        Some(name) => parsed.panel(name)?,
+        None if parsed.panels.len() == 1 => &parsed.panels[0],
         None => {
-            let names: Vec<&str> = recipe.panels.iter().map(|panel| panel.name.as_str()).collect();
-            return Err(Failure::input(format!("{}: choose one with --panel: {}", recipe.file, names.join(", "))));
+            let names: Vec<&str> = parsed.panels.iter().map(|panel| panel.name.as_str()).collect();
+            return Err(Failure::input(format!("{}: choose one with --panel: {}", parsed.file, names.join(", "))));
         }
     };
     if panel.kind != Kind::Run {
-        return Err(Failure::input(format!("{}: has no [run]; a map is computed with `map`", recipe.file)));
+        return Err(Failure::input(format!("{}: has no [run]; a map is computed with `map`", parsed.file)));
     }
     let tables = match arguments.scheme.as_str() {
         "paper" => Overrides::paper().apply(&panel.tables),
@@ -140,10 +140,10 @@ fn read_scene(arguments: &Arguments) -> Result<Scene, Failure> {
         state: None,
     };
     let tables = overrides.apply(&tables);
-    let scene = scene::run::read(&recipe.file, &tables)?;
+    let scene = scene::run::read(&parsed.file, &tables)?;
     match scene.control {
         Control::Adaptive { tolerance } if arguments.check => {
-            Ok(scene::run::read(&recipe.file, &Overrides::check(tolerance).apply(&tables))?)
+            Ok(scene::run::read(&parsed.file, &Overrides::check(tolerance).apply(&tables))?)
         }
         _ => Ok(scene),
     }
@@ -197,9 +197,9 @@ fn written(folder: &Path, scene: &Scene, outcome: &Outcome, errors: Option<&Erro
 /// is estimated, empty where the second run has no such event.
 fn events(outcome: &Outcome, errors: Option<&Errors>) -> String {
     let mut text = if errors.is_some() { "event,t,n,error\n" } else { "event,t,n\n" }.to_owned();
-    for (index, happening) in outcome.events.iter().enumerate() {
+    for (index, event) in outcome.events.iter().enumerate() {
         // writing to a String cannot fail
-        let _ = write!(text, "{},{:?},{}", happening.kind.name(), happening.time, happening.pedestrian);
+        let _ = write!(text, "{},{:?},{}", event.kind.name(), event.time, event.pedestrian);
         if let Some(errors) = errors {
             let _ = write!(text, ",{}", errors.events[index].map_or(String::new(), |error| format!("{error:?}")));
         }
@@ -261,9 +261,9 @@ fn in_words(
         statistics.evaluations,
     );
     let _ = write!(text, "\n{}", uniform::in_words(flow, scene.ring.pedestrians));
-    for (index, happening) in outcome.events.iter().enumerate() {
-        let (event, time) = (happening.kind, happening.time);
-        let is_same = |other: &Event| (other.kind, other.time) == (event, time);
+    for (index, event) in outcome.events.iter().enumerate() {
+        let (kind, time) = (event.kind, event.time);
+        let is_same = |other: &Event| (other.kind, other.time) == (kind, time);
         if index > 0 && is_same(&outcome.events[index - 1]) {
             continue;
         }
@@ -272,11 +272,11 @@ fn in_words(
         let _ = write!(
             text,
             "\n{} at t = {}, pedestrian {}{others}, spacing {:?}, within a step of {:e}",
-            event.name(),
+            kind.name(),
             sure(time, errors.and_then(|errors| errors.events[index])),
-            happening.pedestrian,
-            happening.gap,
-            happening.step
+            event.pedestrian,
+            event.gap,
+            event.step
         );
     }
     if let Some(errors) = errors {

@@ -27,8 +27,8 @@ impl Tables {
     /// In words: what is wrong with the scene, or how far the integration came.
     pub fn csv(&mut self, figure: &Figure, entry: &Entry) -> Result<Vec<u8>, String> {
         let file = format!("{}/scene.toml", figure.id);
-        let recipe = scene_file::parse(&file, figure.scene).map_err(|error| error.to_string())?;
-        let panel = recipe.panel(entry.panel).map_err(|error| error.to_string())?;
+        let parsed = scene_file::parse(&file, figure.scene).map_err(|error| error.to_string())?;
+        let panel = parsed.panel(entry.panel).map_err(|error| error.to_string())?;
         match entry.content {
             Content::Map => {
                 let map = scene::map::read(&file, &panel.tables).map_err(|error| error.to_string())?;

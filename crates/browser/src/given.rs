@@ -12,8 +12,8 @@ pub const FILE: &str = "scene.toml";
 /// # Errors
 /// The text is no scene, or has not one run; as JSON, see [`complaint`].
 pub fn panel(text: &str) -> Result<scene_file::Panel, Value> {
-    let mut recipe = scene_file::parse(FILE, text).map_err(|error| complaint(&error))?;
-    match (recipe.panels.pop(), recipe.panels.len()) {
+    let mut parsed = scene_file::parse(FILE, text).map_err(|error| complaint(&error))?;
+    match (parsed.panels.pop(), parsed.panels.len()) {
         (Some(panel), 0) if panel.kind == Kind::Run => Ok(panel),
         _ => Err(complaint(&SceneError::new(FILE, 0, "must have one [run], and no panels".to_owned()))),
     }

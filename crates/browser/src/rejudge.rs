@@ -80,8 +80,8 @@ fn sheets(figure: &str, panel: &str, ran: &Ran) -> Result<Vec<(String, Sheet)>, 
 
 fn determinants(id: &str, panel: &str) -> Result<String, String> {
     let figure = FIGURES.iter().find(|figure| figure.id == id).ok_or_else(|| format!("no figure {id}"))?;
-    let recipe = scene_file::parse(id, figure.scene).map_err(|error| error.to_string())?;
-    Ok(recipe.panel(panel).map_err(|error| error.to_string())?.determinants())
+    let parsed = scene_file::parse(id, figure.scene).map_err(|error| error.to_string())?;
+    Ok(parsed.panel(panel).map_err(|error| error.to_string())?.determinants())
 }
 
 /// A table of the run; nothing where the run does not keep what it holds.
@@ -118,10 +118,10 @@ fn cells(table: &Table) -> table::Sheet {
 /// The events of the run, in the columns of `data/events.csv`.
 fn events(scene: &str, ran: &Ran) -> Sheet {
     let mut sheet = table::Sheet::new(&["scene", "event", "t", "n", "uncertainty"]);
-    for (happening, error) in ran.outcome.events.iter().zip(&ran.errors.events) {
+    for (event, error) in ran.outcome.events.iter().zip(&ran.errors.events) {
         let error = error.map_or(Cell::Empty, Cell::from);
-        let (event, time) = (Cell::from(happening.kind.name()), Cell::from(happening.time));
-        sheet.push(vec![Cell::from(scene), event, time, Cell::from(happening.pedestrian), error]);
+        let (kind, time) = (Cell::from(event.kind.name()), Cell::from(event.time));
+        sheet.push(vec![Cell::from(scene), kind, time, Cell::from(event.pedestrian), error]);
     }
     Sheet::new(sheet, &|_| None)
 }

@@ -172,9 +172,9 @@ fn law_of(given: &Given<'_>) -> Result<(String, Section), SceneError> {
         Given::Tables(tables) => ("<dict>".to_owned(), section(tables)?),
         Given::Text(text) => ("<text>".to_owned(), Section::parse("<text>", text)?),
         Given::File(path) => {
-            let recipe = scene_file::read(path)?;
-            let tables = recipe.panels.first().map_or_else(Section::default, |panel| panel.tables.clone());
-            (recipe.file, tables)
+            let parsed = scene_file::read(path)?;
+            let tables = parsed.panels.first().map_or_else(Section::default, |panel| panel.tables.clone());
+            (parsed.file, tables)
         }
     };
     if tables.entries.contains_key("law") {

@@ -41,10 +41,10 @@ const CALLS: [(Kind, &str, &str); 3] =
 
 /// Reads a scene, chooses the panel `name` (or the one of this kind, if there is no other) and replaces values in it.
 pub fn choose(given: &Given<'_>, name: Option<&str>, kind: Kind, values: &Bound<'_, PyDict>) -> PyResult<Chosen> {
-    let recipe = read(given).map_err(|error| scene_error(values.py(), &error))?;
-    let mut panel = panel(&recipe, name, kind).map_err(|error| scene_error(values.py(), &error))?.clone();
+    let parsed = read(given).map_err(|error| scene_error(values.py(), &error))?;
+    let mut panel = panel(&parsed, name, kind).map_err(|error| scene_error(values.py(), &error))?.clone();
     panel.tables = replaced(&panel.tables, values)?;
-    let SceneFile { file, title, .. } = recipe;
+    let SceneFile { file, title, .. } = parsed;
     Ok(Chosen { file, title, panel })
 }
 
@@ -56,11 +56,11 @@ fn read(given: &Given<'_>) -> Result<SceneFile, SceneError> {
     }
 }
 
-fn panel<'a>(recipe: &'a SceneFile, name: Option<&str>, kind: Kind) -> Result<&'a Panel, SceneError> {
-    let complaint = |problem: String| SceneError::new(&recipe.file, 0, problem);
-    let found: Vec<&Panel> = recipe.panels.iter().filter(|panel| panel.kind == kind).collect();
+fn panel<'a>(parsed: &'a SceneFile, name: Option<&str>, kind: Kind) -> Result<&'a Panel, SceneError> {
+    let complaint = |problem: String| SceneError::new(&parsed.file, 0, problem);
+    let found: Vec<&Panel> = parsed.panels.iter().filter(|panel| panel.kind == kind).collect();
     match (name, &found[..]) {
-        (Some(name), _) => recipe.panel(name),
+        (Some(name), _) => parsed.panel(name),
         (None, [only]) => Ok(only),
         (None, []) => {
             let table = CALLS.iter().find(|call| call.0 == kind).map_or("", |call| call.1);

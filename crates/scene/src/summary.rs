@@ -36,18 +36,18 @@ pub fn of_run(scene: &Scene, ended: &Ended, flow: Option<Stability>, errors: Opt
         .events
         .iter()
         .enumerate()
-        .map(|(index, happening)| {
-            let mut event = json!({
-                "event": happening.kind.name(),
-                "t": happening.time,
-                "n": happening.pedestrian,
-                "gap": happening.gap,
-                "step": happening.step,
+        .map(|(index, event)| {
+            let mut told = json!({
+                "event": event.kind.name(),
+                "t": event.time,
+                "n": event.pedestrian,
+                "gap": event.gap,
+                "step": event.step,
             });
             if let Some(errors) = errors {
-                event["error"] = json!(errors.events[index]);
+                told["error"] = json!(errors.events[index]);
             }
-            event
+            told
         })
         .collect();
     json!({
@@ -99,7 +99,7 @@ pub fn of_verdict(verdict: &Verdict) -> Value {
 /// What ended the tables: an event, the end of the run, or why it could not go on.
 fn stop(outcome: &Outcome, broken: Option<&Broken>) -> &'static str {
     match (outcome.stop(), broken) {
-        (Some(happening), _) => happening.kind.name(),
+        (Some(event), _) => event.kind.name(),
         (None, Some(broken)) => broken.failure.name(),
         (None, None) => "t_end",
     }

@@ -35,7 +35,7 @@ pub(super) fn gather(task: &Task, arguments: &Arguments) -> Result<(), Failure> 
     if arguments.json {
         return print(&summary.to_string());
     }
-    let mut words = format!("{}: {} cells", task.recipe.file, cells.len());
+    let mut words = format!("{}: {} cells", task.parsed.file, cells.len());
     for class in Class::ALL {
         let count = cells.iter().filter(|cell| cell.class == class).count();
         if count > 0 {
@@ -90,7 +90,7 @@ fn cells(task: &Task) -> Result<Vec<Cell>, Failure> {
     }
     if !missing.is_empty() {
         let names: Vec<String> = missing.iter().map(|index| format!("{index}/{count}")).collect();
-        let scene = &task.recipe.file;
+        let scene = &task.parsed.file;
         let message = format!(
             "missing shards: {}; compute each with: sweep {scene} --out DIR --shard I/{count}",
             names.join(", ")

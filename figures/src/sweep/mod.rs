@@ -59,7 +59,7 @@ fn shard(text: &str) -> Result<(usize, usize), String> {
 
 /// A sweep with the hash of what determines it.
 pub(crate) struct Task {
-    pub(crate) recipe: SceneFile,
+    pub(crate) parsed: SceneFile,
     pub(crate) sweep: Sweep,
     /// The SHA-256 of scene and program.
     pub(crate) hash: String,
@@ -99,18 +99,18 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn read(arguments: &Arguments) -> Result<Task, Failure> {
-    let recipe = scene_file::read(&arguments.scene)?;
-    let mut panels = recipe.panels.iter().filter(|panel| panel.kind == Kind::Sweep);
+    let parsed = scene_file::read(&arguments.scene)?;
+    let mut panels = parsed.panels.iter().filter(|panel| panel.kind == Kind::Sweep);
     let panel = match (&arguments.panel, panels.next(), panels.next()) {
-        (Some(name), ..) => recipe.panel(name)?,
+        (Some(name), ..) => parsed.panel(name)?,
         (None, Some(panel), None) => panel,
-        (None, None, _) => return Err(Failure::input(format!("{}: has no [sweep]", recipe.file))),
+        (None, None, _) => return Err(Failure::input(format!("{}: has no [sweep]", parsed.file))),
         (None, Some(_), Some(_)) => {
-            let names: Vec<&str> = recipe.panels.iter().map(|panel| panel.name.as_str()).collect();
-            return Err(Failure::input(format!("{}: choose one with --panel: {}", recipe.file, names.join(", "))));
+            let names: Vec<&str> = parsed.panels.iter().map(|panel| panel.name.as_str()).collect();
+            return Err(Failure::input(format!("{}: choose one with --panel: {}", parsed.file, names.join(", "))));
         }
     };
-    let sweep = sweep::read(&recipe.file, &panel.tables)?;
+    let sweep = sweep::read(&parsed.file, &panel.tables)?;
     let program = match &arguments.program {
         Some(program) => program.clone(),
         None => sha256_file(&std::env::current_exe()?)?,
@@ -119,7 +119,7 @@ fn read(arguments: &Arguments) -> Result<Task, Failure> {
     panel.tables.canonical("", &mut lines);
     let hash = sha256(lines.join("\n").as_bytes());
     let out = arguments.out.clone().unwrap_or_default();
-    Ok(Task { recipe, sweep, hash, out })
+    Ok(Task { parsed, sweep, hash, out })
 }
 
 /// Seconds of a shard, at most and of one thread: what an engine adds to each is small beside it.

@@ -133,3 +133,28 @@ fn events_of_a_private_law_are_those_of_its_formula() {
     });
     assert!(found[0] == found[1] && found[0].iter().any(|event| event.kind == EventKind::NegativeSpeed), "{found:?}");
 }
+
+/// A law of more operations than any of the paper has.
+#[derive(Clone, Copy, Debug, Default)]
+struct Long;
+
+impl Law for Long {
+    const CONTACT: f64 = 0.0;
+
+    #[inline(always)]
+    fn acceleration<X: Number>(&self, s: X, v: X, ahead: X) -> X {
+        let near = (s + 1.0).powf(1.5).recip() + (-s).exp() + (s + 1.0).ln() * (s + 1.0).sqrt();
+        let seen = ((ahead - v) * s).tanh() + (v - ahead).softplus();
+        (s - 2.0).tanh() + 1.0 - v + (near + seen) * 0.01
+    }
+}
+
+#[test]
+fn a_law_of_many_operations_runs_by_taylors_method() {
+    let long = Model::own(Long).expect("a law");
+    let taylor = end(&long, StateVariables::Spacings, Method::Taylor, 1e-11);
+    let other = end(&long, StateVariables::Spacings, Method::Dop853, 1e-12);
+    for (a, b) in taylor.iter().flatten().zip(other.iter().flatten()) {
+        assert!((a - b).abs() < 1e-9, "{a} {b}");
+    }
+}

@@ -15,8 +15,8 @@ fn file(name: &str) -> PathBuf {
 }
 
 fn case(name: &str, overrides: &Overrides) -> Scene {
-    let recipe = files::scene_file::read(&file(name)).unwrap_or_else(|error| panic!("{error}"));
-    scene(&recipe, "main", overrides)
+    let parsed = files::scene_file::read(&file(name)).unwrap_or_else(|error| panic!("{error}"));
+    scene(&parsed, "main", overrides)
 }
 
 fn plain(name: &str) -> Outcome {
@@ -24,8 +24,8 @@ fn plain(name: &str) -> Outcome {
 }
 
 fn map(name: &str) -> (Map, Computed) {
-    let recipe = files::scene_file::read(&file(name)).expect("a scene");
-    let map = scene::map::read(&recipe.file, &recipe.panels[0].tables).expect("a map");
+    let parsed = files::scene_file::read(&file(name)).expect("a scene");
+    let map = scene::map::read(&parsed.file, &parsed.panels[0].tables).expect("a map");
     let computed = map.compute().expect("every cell has a value or is blank");
     (map, computed)
 }
@@ -96,8 +96,8 @@ fn maps_of_free_flow_are_exact_or_blank() {
 #[test]
 fn margin_is_the_default_and_blank_cells_are_empty_in_the_table() {
     let text = std::fs::read_to_string(file("criterion-log-free")).expect("a file");
-    let recipe = files::scene_file::parse("my.toml", &text.replace("value = \"criterion\"\n", "")).expect("a scene");
-    let map = scene::map::read("my.toml", &recipe.panels[0].tables).expect("a map");
+    let parsed = files::scene_file::parse("my.toml", &text.replace("value = \"criterion\"\n", "")).expect("a scene");
+    let map = scene::map::read("my.toml", &parsed.panels[0].tables).expect("a map");
     assert_eq!((map.value, map.columns()[2]), (Value::Margin, "margin"));
     let (map, computed) = self::map("criterion-log-free");
     let csv = String::from_utf8(computed.to_csv(&map)).expect("text");
@@ -162,11 +162,11 @@ fn an_unstable_run_ends_by_name_where_no_double_follows() {
 }
 
 fn refusal(text: &str) -> SceneError {
-    let recipe = match files::scene_file::parse("my.toml", text) {
-        Ok(recipe) => recipe,
+    let parsed = match files::scene_file::parse("my.toml", text) {
+        Ok(parsed) => parsed,
         Err(error) => return error,
     };
-    scene::run::read("my.toml", &recipe.panels[0].tables).expect_err("it is refused")
+    scene::run::read("my.toml", &parsed.panels[0].tables).expect_err("it is refused")
 }
 
 #[test]
@@ -176,8 +176,8 @@ fn an_end_too_near_for_adaptive_steps_is_named() {
     assert!(error.line == 13 && error.problem.contains("t_end = 1e-300"), "{error}");
     // steps of fixed length reach it
     let fixed = text.replace("tolerance = 1e-10", "dt = 1e-301");
-    let recipe = files::scene_file::parse("my.toml", &fixed).expect("a scene");
-    let scene = scene::run::read("my.toml", &recipe.panels[0].tables).expect("a run");
+    let parsed = files::scene_file::parse("my.toml", &fixed).expect("a scene");
+    let scene = scene::run::read("my.toml", &parsed.panels[0].tables).expect("a run");
     assert_eq!(run(&scene).expect("it runs").statistics.steps, 10);
 }
 
@@ -202,8 +202,8 @@ fn a_force_in_contact_is_seen_where_the_run_goes_on() {
     assert_eq!(stopped.stop().map(|stop| stop.kind), Some(EventKind::Overlap));
     let text = std::fs::read_to_string(file("contact-force-hfv")).expect("a file");
     let text = text.replace("[run]\n", "[run]\nat_overlap = \"continue\"\n");
-    let recipe = files::scene_file::parse("my.toml", &text).expect("a scene");
-    let scene = scene::run::read("my.toml", &recipe.panels[0].tables).expect("a run");
+    let parsed = files::scene_file::parse("my.toml", &text).expect("a scene");
+    let scene = scene::run::read("my.toml", &parsed.panels[0].tables).expect("a run");
     assert_eq!(scene.at_overlap, AtOverlap::Continue);
     let on = run(&scene).expect("it runs");
     let overlap = |run: &Outcome| at_once(&run.events, EventKind::Overlap);

@@ -13,8 +13,8 @@ fn scene(sample: f64, lines: &str) -> Scene {
         "[law]\nkind = \"exponential\"\na = 8.0\nb = 1.5\nv0 = 3.0\n[ring]\npedestrians = 30\nlength = 100.0\n\
          [start]\nshift = 0.1\n[run]\nt_end = 60.0\nsample = {sample:?}\n{lines}"
     );
-    let recipe = scene_file::parse("my.toml", &text).expect("a scene");
-    read("my.toml", &recipe.panels[0].tables).expect("a run")
+    let parsed = scene_file::parse("my.toml", &text).expect("a scene");
+    read("my.toml", &parsed.panels[0].tables).expect("a run")
 }
 
 /// Everything a run gives, in text that tells all doubles apart.
@@ -104,8 +104,8 @@ fn adaptive_runs_resumed_from_any_checkpoint_have_the_same_bits() {
     let text = "[law]\nkind = \"algebraic\"\nmu = 0.45\nq = 2.0\nv0 = 3.0\n[ring]\npedestrians = 2000\nlength = 5970.0\n\
                 [start]\nshift = 0.4\n[run]\nt_end = 150.0\nsample = 0.7\n";
     let own = |lines: &str| {
-        let recipe = scene_file::parse("my.toml", &format!("{text}{lines}")).expect("a scene");
-        read("my.toml", &recipe.panels[0].tables).expect("a run")
+        let parsed = scene_file::parse("my.toml", &format!("{text}{lines}")).expect("a scene");
+        read("my.toml", &parsed.panels[0].tables).expect("a run")
     };
     // the last one changes its state near a wall
     let figure = crate::project::scene(&figure("fig04"), "unstable", &Overrides::default());

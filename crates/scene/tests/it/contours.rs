@@ -15,9 +15,9 @@ const HEADWAY: f64 = 1.5;
 
 /// The map of a panel and its table, which [`scene::map`] fills column of cells by column of cells.
 fn panel(id: &str, name: &str) -> (Map, Table) {
-    let recipe = figure(id);
-    let panel = recipe.panel(name).unwrap_or_else(|error| panic!("{error}"));
-    let map = scene::map::read(&recipe.file, &panel.tables).unwrap_or_else(|error| panic!("{error}"));
+    let parsed = figure(id);
+    let panel = parsed.panel(name).unwrap_or_else(|error| panic!("{error}"));
+    let map = scene::map::read(&parsed.file, &panel.tables).unwrap_or_else(|error| panic!("{error}"));
     let computed = map.compute().unwrap_or_else(|error| panic!("{error}"));
     (map, computed.table)
 }

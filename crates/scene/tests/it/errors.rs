@@ -44,16 +44,16 @@ const ALGEBRAIC: &str = "kind = \"algebraic\"\nmu = 0.5\nq = 2.0\nv0 = 3.0";
 
 /// Reads all panels as the programs do; the first complaint.
 fn complaint(text: &str) -> Option<String> {
-    let recipe = match scene_file::parse("my.toml", text) {
-        Ok(recipe) => recipe,
+    let parsed = match scene_file::parse("my.toml", text) {
+        Ok(parsed) => parsed,
         Err(error) => return Some(error.to_string()),
     };
-    recipe.panels.iter().find_map(|panel| {
+    parsed.panels.iter().find_map(|panel| {
         let read = match panel.kind {
-            Kind::Run => scene::run::read(&recipe.file, &panel.tables).map(|_| ()),
-            Kind::Map => scene::map::read(&recipe.file, &panel.tables).map(|_| ()),
-            Kind::Sweep => scene::sweep::read(&recipe.file, &panel.tables).map(|_| ()),
-            Kind::Curve => scene::curve::table(&recipe.file, &panel.tables).map(|_| ()),
+            Kind::Run => scene::run::read(&parsed.file, &panel.tables).map(|_| ()),
+            Kind::Map => scene::map::read(&parsed.file, &panel.tables).map(|_| ()),
+            Kind::Sweep => scene::sweep::read(&parsed.file, &panel.tables).map(|_| ()),
+            Kind::Curve => scene::curve::table(&parsed.file, &panel.tables).map(|_| ()),
             Kind::Drawing => Ok(()),
         };
         read.err().map(|error| error.to_string())
@@ -350,8 +350,8 @@ fn complaints_about_the_whole_file() {
         let found = complaint(&RUN.replacen(from, to, 1)).expect("not TOML");
         assert!(found.starts_with(&format!("my.toml:{line}: ")) && found.len() > 20, "{found}");
     }
-    let recipe = scene_file::parse("my.toml", RUN).expect("a scene");
-    let error = recipe.panel("left").expect_err("it has no panels");
+    let parsed = scene_file::parse("my.toml", RUN).expect("a scene");
+    let error = parsed.panel("left").expect_err("it has no panels");
     assert_eq!(error.to_string(), "my.toml: no panel left; the scene has main");
 }
 

@@ -55,8 +55,8 @@ fn draw(random: &mut Draw) -> Option<Scene> {
         count as f64 * (contact + room),
         method.name()
     );
-    let recipe = files::scene_file::parse("my.toml", &text).ok()?;
-    read("my.toml", &recipe.panels[0].tables).ok()
+    let parsed = files::scene_file::parse("my.toml", &text).ok()?;
+    read("my.toml", &parsed.panels[0].tables).ok()
 }
 
 /// The largest difference of the standard deviation from that of a run with far smaller errors by another method.
@@ -164,8 +164,8 @@ fn laws_with_kinks_and_other_methods_tell_nothing() {
             "[law]\n{law}\n[ring]\npedestrians = 5\nlength = 20.0\n[start]\nshift = 0.1\n[run]\nt_end = 5.0\nsample = 1.0\n\
              method = \"{method}\"\ntolerance = 1e-8\n"
         );
-        let recipe = files::scene_file::parse("my.toml", &text).expect("a scene");
-        read("my.toml", &recipe.panels[0].tables).expect("a run")
+        let parsed = files::scene_file::parse("my.toml", &text).expect("a scene");
+        read("my.toml", &parsed.panels[0].tables).expect("a run")
     };
     let smooth = "kind = \"exponential\"\na = 3.0\nb = 1.5\nv0 = 1.2";
     let kinked = "kind = \"formula\"\nacceleration = \"v0 - v - max(0, 3 - s)^2\"\nv0 = 1.2\nbody = 0.0";

@@ -5,16 +5,16 @@ use files::reader::{Section, Value};
 use files::scene_file::{self, Kind, SceneFile};
 
 /// Reads every panel as the figure's program does.
-fn read(recipe: &SceneFile) {
-    for panel in &recipe.panels {
+fn read(parsed: &SceneFile) {
+    for panel in &parsed.panels {
         match panel.kind {
-            Kind::Run => drop(scene::run::read(&recipe.file, &panel.tables).unwrap_or_else(|error| panic!("{error}"))),
-            Kind::Map => drop(scene::map::read(&recipe.file, &panel.tables).unwrap_or_else(|error| panic!("{error}"))),
+            Kind::Run => drop(scene::run::read(&parsed.file, &panel.tables).unwrap_or_else(|error| panic!("{error}"))),
+            Kind::Map => drop(scene::map::read(&parsed.file, &panel.tables).unwrap_or_else(|error| panic!("{error}"))),
             Kind::Sweep => {
-                drop(scene::sweep::read(&recipe.file, &panel.tables).unwrap_or_else(|error| panic!("{error}")))
+                drop(scene::sweep::read(&parsed.file, &panel.tables).unwrap_or_else(|error| panic!("{error}")))
             }
             Kind::Curve => {
-                drop(scene::curve::table(&recipe.file, &panel.tables).unwrap_or_else(|error| panic!("{error}")));
+                drop(scene::curve::table(&parsed.file, &panel.tables).unwrap_or_else(|error| panic!("{error}")));
             }
             Kind::Drawing => {}
         }
@@ -25,9 +25,9 @@ fn read(recipe: &SceneFile) {
 fn all_scenes_can_be_read() {
     let figures = figures();
     assert!(figures.len() >= 15, "{} figures", figures.len());
-    for recipe in &figures {
-        assert!(!recipe.title.is_empty() && !recipe.source.is_empty(), "{}", recipe.file);
-        read(recipe);
+    for parsed in &figures {
+        assert!(!parsed.title.is_empty() && !parsed.source.is_empty(), "{}", parsed.file);
+        read(parsed);
     }
     let examples = std::fs::read_dir(root("scenes")).expect("the folder of the examples");
     let mut kinds = Vec::new();
@@ -37,9 +37,9 @@ fn all_scenes_can_be_read() {
         if path.extension().is_none_or(|extension| extension != "toml") {
             continue;
         }
-        let recipe = scene_file::read(&path).unwrap_or_else(|error| panic!("{error}"));
-        read(&recipe);
-        kinds.extend(recipe.panels.iter().map(|panel| panel.kind));
+        let parsed = scene_file::read(&path).unwrap_or_else(|error| panic!("{error}"));
+        read(&parsed);
+        kinds.extend(parsed.panels.iter().map(|panel| panel.kind));
     }
     assert!(kinds.contains(&Kind::Run) && kinds.contains(&Kind::Map), "an example of each kind");
 }
@@ -58,17 +58,17 @@ fn numbers(section: &Section, prefix: &str, keys: &mut Vec<String>) {
 #[test]
 fn every_number_of_a_figure_has_an_origin_and_the_other_way_round() {
     let mut count = 0;
-    for recipe in figures() {
+    for parsed in figures() {
         let mut keys = Vec::new();
-        for panel in &recipe.panels {
+        for panel in &parsed.panels {
             numbers(&panel.tables, "", &mut keys);
         }
         for key in &keys {
-            let origin = recipe.origin.iter().find(|(named, _)| named == key);
-            assert!(origin.is_some_and(|(_, from)| !from.trim().is_empty()), "{}: {key} has no origin", recipe.file);
+            let origin = parsed.origin.iter().find(|(named, _)| named == key);
+            assert!(origin.is_some_and(|(_, from)| !from.trim().is_empty()), "{}: {key} has no origin", parsed.file);
         }
-        for (key, _) in &recipe.origin {
-            assert!(keys.contains(key), "{}: origin of {key}, which is not a number of the scene", recipe.file);
+        for (key, _) in &parsed.origin {
+            assert!(keys.contains(key), "{}: origin of {key}, which is not a number of the scene", parsed.file);
         }
         count += keys.len();
     }

@@ -7,8 +7,8 @@ use scene::map;
 use scene::run::{self, Scene};
 
 fn read(text: &str) -> Result<Scene, String> {
-    let recipe = scene_file::parse("my.toml", text).map_err(|error| error.to_string())?;
-    run::read("my.toml", &recipe.panels[0].tables).map_err(|error| error.to_string())
+    let parsed = scene_file::parse("my.toml", text).map_err(|error| error.to_string())?;
+    run::read("my.toml", &parsed.panels[0].tables).map_err(|error| error.to_string())
 }
 
 fn outcome(text: &str) -> Outcome {
@@ -118,8 +118,8 @@ fn margins_of_formulas_are_those_of_the_criteria() {
                 [uniform]\nheadway = 2.0\n[map]\nx = { parameter = \"kappa\", from = 1.0, to = 3.0, cells = 10 }\n\
                 y = { parameter = \"headway\", from = 1.5, to = 2.5, cells = 3 }\n";
     let text = text.replace("[uniform]\nheadway = 2.0\n", "");
-    let recipe = scene_file::parse("my.toml", &text).expect("a map");
-    let map = map::read("my.toml", &recipe.panels[0].tables).unwrap_or_else(|error| panic!("{error}"));
+    let parsed = scene_file::parse("my.toml", &text).expect("a map");
+    let map = map::read("my.toml", &parsed.panels[0].tables).unwrap_or_else(|error| panic!("{error}"));
     let computed = map.compute().unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(computed.table.len(), 30);
     for row in computed.table.rows() {

@@ -15,18 +15,18 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/gallery")
 }
 
-fn recipe(name: &str) -> SceneFile {
+fn parsed(name: &str) -> SceneFile {
     scene_file::read(&folder().join(name)).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn read(recipe: &SceneFile, tables: &Section) -> Scene {
-    run::read(&recipe.file, tables).unwrap_or_else(|error| panic!("{error}"))
+fn read(parsed: &SceneFile, tables: &Section) -> Scene {
+    run::read(&parsed.file, tables).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// A panel of a scene, with other values for some of its keys.
 fn scene(name: &str, panel: &str, changes: &[(&str, &str, f64)]) -> Scene {
-    let recipe = recipe(name);
-    let mut tables = recipe.panel(panel).unwrap_or_else(|error| panic!("{error}")).tables.clone();
+    let parsed = parsed(name);
+    let mut tables = parsed.panel(panel).unwrap_or_else(|error| panic!("{error}")).tables.clone();
     for (table, key, value) in changes {
         let Some(Value::Section(section)) = tables.entries.get_mut(*table).map(|entry| &mut entry.value) else {
             panic!("{name} has no [{table}]")
@@ -34,7 +34,7 @@ fn scene(name: &str, panel: &str, changes: &[(&str, &str, f64)]) -> Scene {
         let line = section.entries.get(*key).map_or(1, |entry| entry.line);
         section.entries.insert((*key).to_owned(), Entry::new(line, Value::Number(*value)));
     }
-    read(&recipe, &tables)
+    read(&parsed, &tables)
 }
 
 fn verdict(name: &str, panel: &str, changes: &[(&str, &str, f64)]) -> Stability {
@@ -178,15 +178,15 @@ fn every_verdict_is_that_of_the_whole_rings_linear_equations() {
         .collect();
     files.sort();
     for file in files {
-        let recipe = scene_file::read(&file).unwrap_or_else(|error| panic!("{error}"));
-        for panel in &recipe.panels {
+        let parsed = scene_file::read(&file).unwrap_or_else(|error| panic!("{error}"));
+        for panel in &parsed.panels {
             let name = format!("{} {}", file.display(), panel.name);
             if panel.kind == Kind::Map {
-                map::read(&recipe.file, &panel.tables).unwrap_or_else(|error| panic!("{error}"));
+                map::read(&parsed.file, &panel.tables).unwrap_or_else(|error| panic!("{error}"));
                 maps += 1;
                 continue;
             }
-            let scene = read(&recipe, &panel.tables);
+            let scene = read(&parsed, &panel.tables);
             let told = stability(&scene).unwrap_or_else(|| panic!("{name}: a uniform flow"));
             let linear = Ring::derivatives(&scene, 0);
             // the same seen from the other side of the ring

@@ -11,8 +11,8 @@ fn attempt(law: &str, shift: &str, steps: &str) -> Result<Outcome, Broken> {
         "[law]\n{law}\n[ring]\npedestrians = 10\nlength = 29.85\n[start]\nshift = {shift}\n[run]\nt_end = 100.0\n\
          sample = 0.37\n{steps}\n"
     );
-    let recipe = files::scene_file::parse("my.toml", &text).expect("a scene");
-    run(&scene::run::read("my.toml", &recipe.panels[0].tables).expect("a run"))
+    let parsed = files::scene_file::parse("my.toml", &text).expect("a scene");
+    run(&scene::run::read("my.toml", &parsed.panels[0].tables).expect("a run"))
 }
 
 fn is_finite(table: &Table) -> bool {
@@ -95,8 +95,8 @@ fn positions_lose_the_digits_that_deviations_keep() {
             "[law]\n{law}\n[ring]\npedestrians = 6\nlength = 18.0\n[start]\nshift = 1e-6\n[run]\nt_end = 10.0\nsample = \
              1.0\n{steps}\n"
         );
-        let recipe = files::scene_file::parse("my.toml", &text).expect("a scene");
-        let outcome = run(&scene::run::read("my.toml", &recipe.panels[0].tables).expect("a run")).expect("it runs");
+        let parsed = files::scene_file::parse("my.toml", &text).expect("a scene");
+        let outcome = run(&scene::run::read("my.toml", &parsed.panels[0].tables).expect("a run")).expect("it runs");
         outcome.samples.std.last().copied().expect("a last sample")
     };
     let exact = end("method = \"extrapolation\"\ntolerance = 1e-14");

@@ -9,15 +9,15 @@ use jam::uniform::steady_speed;
 use math::double_double::DoubleDouble;
 use std::f64::consts::LN_2;
 
-fn recipe(text: &str) -> SceneFile {
+fn parsed(text: &str) -> SceneFile {
     scene_file::parse("my.toml", text).unwrap_or_else(|error| panic!("{error}"))
 }
 
 const LAW: &str = "[law]\nkind = \"algebraic\"\nq = 2.0\nv0 = 3.0\n";
 
 fn computed(text: &str) -> (scene::map::Map, scene::map::Computed) {
-    let recipe = recipe(text);
-    let map = scene::map::read("my.toml", &recipe.panels[0].tables).unwrap_or_else(|error| panic!("{error}"));
+    let parsed = parsed(text);
+    let map = scene::map::read("my.toml", &parsed.panels[0].tables).unwrap_or_else(|error| panic!("{error}"));
     let computed = map.compute().unwrap_or_else(|error| panic!("{error}"));
     (map, computed)
 }
@@ -164,8 +164,8 @@ fn the_error_of_a_map_is_the_largest_of_its_cells_relative_to_large_values() {
 fn a_cell_without_a_finite_value_is_named() {
     let axes = "x = { parameter = \"mu\", from = 0.0, to = 2e200, cells = 1 }\n\
                 y = { parameter = \"d_gap\", from = 1.0, to = 2.0, cells = 2 }\n";
-    let recipe = recipe(&format!("{LAW}[map]\nvalue = \"criterion\"\n{axes}"));
-    let map = scene::map::read("my.toml", &recipe.panels[0].tables).expect("a map");
+    let parsed = parsed(&format!("{LAW}[map]\nvalue = \"criterion\"\n{axes}"));
+    let map = scene::map::read("my.toml", &parsed.panels[0].tables).expect("a map");
     let problem = map.compute().expect_err("mu^2 is above all numbers");
     assert!(problem.starts_with("at mu = 1e200, d_gap = 1.25: the value is "), "{problem}");
     assert!(problem.ends_with("a number is too large or too small here"), "{problem}");
@@ -175,8 +175,8 @@ fn a_cell_without_a_finite_value_is_named() {
 fn a_cell_without_uniform_flow_is_named() {
     let axes = "x = { parameter = \"headway\", from = 1.0, to = 3.0, cells = 2 }\n\
                 y = { parameter = \"mu\", from = 0.0, to = 1.0, cells = 2 }\n";
-    let recipe = recipe(&format!("{LAW}[map]\nvalue = \"criterion\"\n{axes}"));
-    let map = scene::map::read("my.toml", &recipe.panels[0].tables).unwrap_or_else(|error| panic!("{error}"));
+    let parsed = parsed(&format!("{LAW}[map]\nvalue = \"criterion\"\n{axes}"));
+    let map = scene::map::read("my.toml", &parsed.panels[0].tables).unwrap_or_else(|error| panic!("{error}"));
     let error = map.compute().expect_err("a headway of 1.5 leaves no room");
     assert!(error.starts_with("at headway = 1.5, mu = 0.25: no uniform flow at headway L/N = 1.5: "), "{error}");
 }
@@ -184,17 +184,17 @@ fn a_cell_without_uniform_flow_is_named() {
 #[test]
 fn the_figures_maps_agree_with_a_second_way_to_compute_them() {
     let mut count = 0;
-    for recipe in figures() {
-        for panel in recipe.panels.iter().filter(|panel| panel.kind == Kind::Map) {
-            let map = scene::map::read(&recipe.file, &panel.tables).unwrap_or_else(|error| panic!("{error}"));
+    for parsed in figures() {
+        for panel in parsed.panels.iter().filter(|panel| panel.kind == Kind::Map) {
+            let map = scene::map::read(&parsed.file, &panel.tables).unwrap_or_else(|error| panic!("{error}"));
             let computed = map.compute().unwrap_or_else(|error| panic!("{error}"));
             assert_eq!(computed.table.len(), map.x.cells * map.y.cells);
             let values = computed.table.column(map.columns()[2]).expect("the values");
-            assert!(values.iter().all(|value| value.is_finite()), "{} {}", recipe.file, panel.name);
-            println!("{} {}: error {:e}", recipe.title, panel.name, computed.error);
+            assert!(values.iter().all(|value| value.is_finite()), "{} {}", parsed.file, panel.name);
+            println!("{} {}: error {:e}", parsed.title, panel.name, computed.error);
             // closed forms; the paper's limit eps -> 0 of the logarithmic law is off by exp(-0.25 / 0.01) of terms
             // below 1 at the headway of figure 10
-            assert!(computed.error < 1e-10, "{} {}: {:e}", recipe.file, panel.name, computed.error);
+            assert!(computed.error < 1e-10, "{} {}: {:e}", parsed.file, panel.name, computed.error);
             count += 1;
         }
     }
@@ -204,7 +204,7 @@ fn the_figures_maps_agree_with_a_second_way_to_compute_them() {
 #[test]
 fn curves_of_the_ramp() {
     let text = "[curve]\nvalue = \"ramp\"\nfrom = -1.0\nto = 1.0\npoints = 5\nepsilon = 0.1\n";
-    let table = scene::curve::table("my.toml", &recipe(text).panels[0].tables).expect("a curve");
+    let table = scene::curve::table("my.toml", &parsed(text).panels[0].tables).expect("a curve");
     assert_eq!(table.columns, ["x", "ramp", "smooth"]);
     assert_eq!(table.column("x").expect("x"), [-1.0, -0.5, 0.0, 0.5, 1.0]);
     assert_eq!(table.column("ramp").expect("ramp"), [1.0, 0.5, 0.0, 0.0, 0.0]);
@@ -219,7 +219,7 @@ fn curves_of_the_ramp() {
 fn curves_of_the_force() {
     let text = "[law]\nkind = \"logarithmic\"\nv0 = 1.5\nepsilon = 0.01\n\
                 [curve]\nvalue = \"force\"\nfrom = 0.0\nto = 4.0\npoints = 5\n";
-    let table = scene::curve::table("my.toml", &recipe(text).panels[0].tables).expect("a curve");
+    let table = scene::curve::table("my.toml", &parsed(text).panels[0].tables).expect("a curve");
     assert_eq!(table.columns, ["gap", "force"]);
     let force = table.column("force").expect("force");
     // the force just cancels the drive at contact, and is ln(1 + c (1 - 1/2)) half way to the critical distance
@@ -234,9 +234,9 @@ fn a_formula_has_no_criterion_of_the_paper() {
     let text = "[law]\nkind = \"formula\"\nacceleration = \"tanh(s - d) - v\"\nbody = 0.0\n[map]\nvalue = \"criterion\"\n\
                 x = { parameter = \"headway\", from = 1.0, to = 2.0, cells = 2 }\n\
                 y = { parameter = \"d\", from = 1.0, to = 2.0, cells = 2 }\n";
-    let recipe = recipe(text);
+    let parsed = parsed(text);
     let error =
-        scene::map::read("my.toml", &recipe.panels[0].tables).map(|_| ()).expect_err("no criterion").to_string();
+        scene::map::read("my.toml", &parsed.panels[0].tables).map(|_| ()).expect_err("no criterion").to_string();
     for said in ["my.toml:5", "criterion", "formula", "\"margin\"", "\"growth_rate\""] {
         assert!(error.contains(said), "{said}: {error}");
     }

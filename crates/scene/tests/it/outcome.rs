@@ -19,8 +19,8 @@ fn scene(law: &str, ring: (usize, f64), shift: f64, run: &str) -> Scene {
     let text = format!(
         "[law]\n{law}\n[ring]\npedestrians = {pedestrians}\nlength = {length:?}\n[start]\nshift = {shift:?}\n[run]\nsample = 1000.0\nrecord = \"std\"\n{run}\n"
     );
-    let recipe = scene_file::parse("own.toml", &text).expect("TOML");
-    scene::run::read("own.toml", &recipe.panels[0].tables).expect("a scene")
+    let parsed = scene_file::parse("own.toml", &text).expect("TOML");
+    scene::run::read("own.toml", &parsed.panels[0].tables).expect("a scene")
 }
 
 fn run(scene: &Scene, judging: Judging) -> Outcome {

@@ -30,31 +30,31 @@ fn the_check_is_another_method_ten_times_tighter() {
 
 #[test]
 fn step_and_tolerance_replace_each_other() {
-    let recipe = figure("fig11");
+    let parsed = figure("fig11");
     let fixed = Overrides { method: Some("rk4".to_owned()), dt: Some(0.01), ..Overrides::default() };
-    let fixed_scene = scene(&recipe, "main", &fixed);
+    let fixed_scene = scene(&parsed, "main", &fixed);
     assert_eq!((fixed_scene.method, fixed_scene.control), (Method::Rk4, Control::Fixed { step: 0.01 }));
     let back = Overrides { method: Some("dop853".to_owned()), tolerance: Some(1e-6), ..Overrides::default() };
-    let tables = back.apply(&fixed.apply(&recipe.panels[0].tables));
+    let tables = back.apply(&fixed.apply(&parsed.panels[0].tables));
     let adaptive = scene::run::read("my.toml", &tables).expect("a scene");
     assert_eq!(adaptive.control, Control::Adaptive { tolerance: 1e-6 });
     let times = Overrides { t_end: Some(7.0), sample: Some(0.5), ..Overrides::default() };
-    let short = scene(&recipe, "main", &times);
+    let short = scene(&parsed, "main", &times);
     assert_eq!((short.t_end, short.sample), (7.0, 0.5));
 }
 
 #[test]
 fn every_state_has_its_form() {
-    let recipe = figure("fig11");
+    let parsed = figure("fig11");
     let form = |state: Option<&str>| {
-        scene(&recipe, "main", &Overrides { state: state.map(str::to_owned), ..Overrides::default() }).form
+        scene(&parsed, "main", &Overrides { state: state.map(str::to_owned), ..Overrides::default() }).form
     };
     assert_eq!(form(None), StateVariables::Deviations);
     assert_eq!([form(Some("deviations")), form(Some("gaps"))], [StateVariables::Deviations, StateVariables::Spacings]);
     // the series of the method ask for gaps or deviations
     let positions =
         Overrides { method: Some("dop853".to_owned()), state: Some("positions".to_owned()), ..Overrides::default() };
-    assert_eq!(scene(&recipe, "main", &positions).form, StateVariables::Positions);
+    assert_eq!(scene(&parsed, "main", &positions).form, StateVariables::Positions);
 }
 
 #[test]

@@ -8,8 +8,8 @@ use std::sync::Mutex;
 /// 30 x 28 cells in four tiles, each cell a run of a moment.
 fn sweep() -> Sweep {
     let text = "[law]\nkind = \"logarithmic\"\nepsilon = 0.01\n[ring]\npedestrians = 6\nlength = 9.0\n[start]\nshift = 0.1\n[run]\nt_end = 20.0\nmethod = \"dop853\"\ntolerance = 1e-4\n[sweep]\nx = { parameter = \"a_v\", from = 0.0, to = 0.6, cells = 30 }\ny = { parameter = \"v0\", from = 0.5, to = 3.0, cells = 28 }\n";
-    let recipe = scene_file::parse("own.toml", text).expect("TOML");
-    read("own.toml", &recipe.panels[0].tables).expect("a sweep")
+    let parsed = scene_file::parse("own.toml", text).expect("TOML");
+    read("own.toml", &parsed.panels[0].tables).expect("a sweep")
 }
 
 /// All cells as text, which shows a NaN equal to another; and those that were heard of.
@@ -62,8 +62,8 @@ fn widened(uniform: &str, y: &str) -> Result<Sweep, String> {
     let text = format!(
         "[law]\nkind = \"algebraic\"\nq = 2.0\nv0 = 3.0\nepsilon = 0.1\nmu = 0.4\n{uniform}\n[start]\nshift = 0.1\n[run]\nt_end = 20.0\nmethod = \"dop853\"\ntolerance = 1e-6\n[sweep]\nx = {{ parameter = \"a_v\", from = 0.0, to = 0.3, cells = 3 }}\ny = {y}\n"
     );
-    let recipe = scene_file::parse("own.toml", &text).expect("TOML");
-    read("own.toml", &recipe.panels[0].tables).map_err(|error| error.to_string())
+    let parsed = scene_file::parse("own.toml", &text).expect("TOML");
+    read("own.toml", &parsed.panels[0].tables).map_err(|error| error.to_string())
 }
 
 #[test]

@@ -26,22 +26,22 @@ pub fn figures() -> Vec<SceneFile> {
 /// The scene of the figure whose folder starts so.
 pub fn figure(id: &str) -> SceneFile {
     let name =
-        |recipe: &SceneFile| recipe.file.split("figures").last().unwrap_or_default().trim_matches('/').to_owned();
-    figures().into_iter().find(|recipe| name(recipe).starts_with(id)).unwrap_or_else(|| panic!("no figure {id}"))
+        |parsed: &SceneFile| parsed.file.split("figures").last().unwrap_or_default().trim_matches('/').to_owned();
+    figures().into_iter().find(|parsed| name(parsed).starts_with(id)).unwrap_or_else(|| panic!("no figure {id}"))
 }
 
 /// The run of a panel, with other values on top.
-pub fn scene(recipe: &SceneFile, panel: &str, overrides: &Overrides) -> Scene {
-    let panel = recipe.panel(panel).unwrap_or_else(|error| panic!("{error}"));
+pub fn scene(parsed: &SceneFile, panel: &str, overrides: &Overrides) -> Scene {
+    let panel = parsed.panel(panel).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(panel.kind, Kind::Run);
-    scene::run::read(&recipe.file, &overrides.apply(&panel.tables)).unwrap_or_else(|error| panic!("{error}"))
+    scene::run::read(&parsed.file, &overrides.apply(&panel.tables)).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// The run of a panel as it stands, and the one that checks it.
-pub fn with_check(recipe: &SceneFile, panel: &str) -> [Outcome; 2] {
-    let plain = scene(recipe, panel, &Overrides::default());
-    let ode::Control::Adaptive { tolerance } = plain.control else { panic!("{} is adaptive", recipe.file) };
-    let check = scene(recipe, panel, &Overrides::check(tolerance));
+pub fn with_check(parsed: &SceneFile, panel: &str) -> [Outcome; 2] {
+    let plain = scene(parsed, panel, &Overrides::default());
+    let ode::Control::Adaptive { tolerance } = plain.control else { panic!("{} is adaptive", parsed.file) };
+    let check = scene(parsed, panel, &Overrides::check(tolerance));
     [plain, check].map(|scene| jam::run::run(&scene).unwrap_or_else(|error| panic!("{error}")))
 }
 

@@ -165,19 +165,19 @@ fn scene() -> impl Strategy<Value = String> {
 /// What became of a scene, in words; a panic when something that must not be.
 fn fate(text: &str) -> String {
     any_scene::read(text.as_bytes());
-    let recipe = scene_file::parse("any.toml", text).expect("it is TOML with known tables");
-    let panel = &recipe.panels[0];
+    let parsed = scene_file::parse("any.toml", text).expect("it is TOML with known tables");
+    let panel = &parsed.panels[0];
     let read = match panel.kind {
-        Kind::Run => scene::run::read(&recipe.file, &panel.tables).map(|scene| format!("run: {:?}", run(scene))),
-        Kind::Map => scene::map::read(&recipe.file, &panel.tables).map(|map| match map.compute() {
+        Kind::Run => scene::run::read(&parsed.file, &panel.tables).map(|scene| format!("run: {:?}", run(scene))),
+        Kind::Map => scene::map::read(&parsed.file, &panel.tables).map(|map| match map.compute() {
             Ok(_) => "map: Whole".to_owned(),
             Err(problem) => {
                 assert!(problem.starts_with("at "), "{problem}");
                 "map: Broken".to_owned()
             }
         }),
-        Kind::Sweep => scene::sweep::read(&recipe.file, &panel.tables).map(|_| "sweep: Whole".to_owned()),
-        Kind::Curve => scene::curve::table(&recipe.file, &panel.tables).map(|_| "curve: Whole".to_owned()),
+        Kind::Sweep => scene::sweep::read(&parsed.file, &panel.tables).map(|_| "sweep: Whole".to_owned()),
+        Kind::Curve => scene::curve::table(&parsed.file, &panel.tables).map(|_| "curve: Whole".to_owned()),
         Kind::Drawing => panic!("no drawing was asked for"),
     };
     read.unwrap_or_else(|error| {

@@ -112,8 +112,8 @@ fn a_run_that_breaks_off_names_who_had_the_least_room() {
     // who has the least room changes as the wave goes round
     let mut named = std::collections::BTreeSet::new();
     for most in [3, 15, 30, 45, 60] {
-        let recipe = files::scene_file::parse("my.toml", &format!("{text}{most}\n")).expect("a scene");
-        let scene = scene::run::read("my.toml", &recipe.panels[0].tables).expect("a run");
+        let parsed = files::scene_file::parse("my.toml", &format!("{text}{most}\n")).expect("a scene");
+        let scene = scene::run::read("my.toml", &parsed.panels[0].tables).expect("a run");
         let mut seen = Ends::default();
         let Err(broken) = run_from(&scene, None, &mut seen) else { panic!("{most} steps are enough") };
         let Narrowest { pedestrian, spacing: gap, effective_gap: room, speed } =
@@ -184,8 +184,8 @@ fn short(changes: &[(&str, &str)]) -> Outcome {
     let text = "[law]\nkind = \"exponential\"\na = 3.0\nb = 1.5\nv0 = 3.0\n[ring]\npedestrians = 5\nlength = 15.0\n\
                 [start]\nshift = 0.1\n[run]\nt_end = 10.0\nsample = 0.75\nmethod = \"dop853\"\ntolerance = 1e-12\n";
     let text = changes.iter().fold(text.to_owned(), |text, (from, to)| text.replacen(from, to, 1));
-    let recipe = files::scene_file::parse("my.toml", &text).expect("a scene");
-    run(&scene::run::read("my.toml", &recipe.panels[0].tables).expect("a run")).expect("it runs")
+    let parsed = files::scene_file::parse("my.toml", &text).expect("a scene");
+    run(&scene::run::read("my.toml", &parsed.panels[0].tables).expect("a run")).expect("it runs")
 }
 
 #[test]
