@@ -4,7 +4,7 @@
 //! whose errors are roundings that they do not tell; those of laws with kinks, which a step may cross unseen; those whose
 //! errors move much faster than they; and those that went on from a checkpoint, which does not keep the errors before it.
 
-use crate::check::{Errors, ROUNDINGS, has_kinks, largest, largest_std, loses_shift, of_headway};
+use crate::check::{Errors, ROUNDINGS, has_kinks, largest, largest_std, loses_shift, of_headway, unseen};
 use crate::run::Scene;
 use crate::simulation::{Outcome, RunObserver, Sight};
 use jam::events::{Event, EventKind};
@@ -259,20 +259,22 @@ impl Propagated {
             .take(n)
             .collect();
         let rounding = |numbers: &[f64]| ROUNDINGS * largest(numbers);
+        let is_unseen = self.lost.is_none() && unseen(scene, outcome).is_some();
         let of_std = match scene.form {
             StateVariables::Deviations => (ROUNDINGS + of_headway(scene)) * largest_std(outcome),
             // where all motion is one, no rounding lies between speeds; but a weak force goes unseen beside the drive
             _ if self.lost.is_some() && largest_std(outcome) == 0.0 => {
                 UNSEEN * scene.model.desired_speed().abs() * (self.shift / self.clearance).abs()
             }
-            _ => rounding(&outcome.speeds),
+            // roundings of earlier steps are carried along
+            _ => unseen(scene, outcome).unwrap_or_else(|| f64::EPSILON * largest(&outcome.speeds)),
         };
         // at a blow-up a rounding of the time is a large part of the state
         let is_blow_up = outcome.events.iter().any(|happening| happening.kind == EventKind::BlowUp);
         let end =
             |errors: &[f64], numbers: &[f64]| (!is_blow_up).then(|| CAUTION * largest(errors) + rounding(numbers));
         Some(Errors {
-            std: Some(CAUTION * self.std + of_std + f64::MIN_POSITIVE),
+            std: Some(if is_unseen { of_std } else { CAUTION * self.std + of_std } + f64::MIN_POSITIVE),
             positions: end(&positions, &outcome.positions)
                 .map(|error| error + 2.0 * rounding(&outcome.positions) + RELAXATION * UNSURE * largest(&speeds)),
             speeds: end(&speeds, &outcome.speeds).map(|error| error + ROUNDINGS * scene.model.desired_speed().abs()),
