@@ -2,7 +2,8 @@
 //!
 //! Some runs by this method are run a second time like those by others ([`crate::check`]): those by steps of fixed length,
 //! whose errors are roundings that they do not tell; those of laws with kinks, which a step may cross unseen; those whose
-//! errors move much faster than they; and those that went on from a checkpoint, which does not keep the errors before it.
+//! errors move much faster than they, if the law does not tell its linearised equations; and those that went on from a
+//! checkpoint, which does not keep the errors before it.
 
 use crate::check::{Errors, ROUNDINGS, has_kinks, largest, largest_std, loses_shift, of_headway, unseen};
 use crate::run::Scene;
@@ -313,7 +314,8 @@ fn in_gaps(error: &[f64], n: usize) -> Vec<f64> {
 /// 1e-200 have squares.
 fn std_error(speeds: &[f64], errors: &[f64]) -> f64 {
     let (count, scale) = (speeds.len() as f64, math::larger(largest(speeds), largest(errors)));
-    if scale == 0.0 || !scale.is_finite() {
+    if scale < SMALLEST || !scale.is_finite() {
+        // numbers without digits, or none: none is off by more than all of it
         return scale;
     }
     let share = 1.0 / (scale * count);
@@ -330,6 +332,9 @@ fn std_error(speeds: &[f64], errors: &[f64]) -> f64 {
     let difference = if between == 0.0 { 0.0 } else { (between / count).abs() / deviations };
     scale * (difference + UNSURE * (offs / count).sqrt())
 }
+
+/// Shares of smaller numbers are no doubles.
+const SMALLEST: f64 = 1e-300;
 
 /// What is not sure of speeds becomes an error of positions within a relaxation time.
 const RELAXATION: f64 = 1.0;
@@ -363,6 +368,8 @@ mod tests {
     fn errors_that_all_have_alike_do_not_count() {
         assert!(std_error(&[1.0, 2.0, 4.0], &[0.125; 3]) < 1e-15);
         assert_eq!(std_error(&[1.0, 2.0, 4.0], &[0.0; 3]), 0.0);
+        // of the least doubles, too, there is a number
+        assert!((2e-322..1e-321).contains(&std_error(&[0.0; 3], &[2e-322, 0.0, -2e-322])));
     }
 
     #[test]
