@@ -78,7 +78,7 @@ impl Linear {
         let fastest = self.look(step);
         let turns = fastest * step.length();
         let pieces = (turns / LONGEST).ceil();
-        if !(pieces <= MOST_PIECES) {
+        if pieces.is_nan() || pieces > MOST_PIECES {
             return false;
         }
         self.pieces = if pieces > 1.0 { pieces as usize } else { 1 };

@@ -1,8 +1,9 @@
 //! The error of a solution by Taylor's method, carried along with it.
 //!
 //! Each step tells its own error: how far the slope of its series is, at its end, from what the law says there. What
-//! becomes of these errors later a second solution would show that lies close by; near enough, it needs few orders of the
-//! series and not every step, so it costs a small part of the first one.
+//! becomes of these errors later the linearised equations tell ([`crate::linear`]), where the system knows them. Elsewhere a
+//! second solution shows it that lies close by; near enough, it needs few orders of the series and not every step, so it
+//! costs a small part of the first one.
 
 use crate::dense::Step;
 use crate::linear::Linear;

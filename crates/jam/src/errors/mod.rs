@@ -195,13 +195,13 @@ pub(crate) fn has_kinks(model: &Model) -> bool {
 /// Fixed steps may be too long for their error to be that of their order.
 const CAUTION: f64 = 2.0;
 
-/// The rounding of the standard deviation: that of speeds where they are not kept as deviations; none where spacings lose
-/// the perturbation whole, so that all motion is one, and the second run does not.
+/// The rounding of the standard deviation: that of speeds where they are not kept as deviations; none where all motion is one
+/// to the last bit, and the second run is not.
 fn rounding(run: &Run, outcome: &Outcome, second: &Run) -> f64 {
     let shows_all = second.form == StateVariables::Deviations;
     match run.form {
         StateVariables::Deviations => of_headway(run) * largest_std(outcome),
-        _ if shows_all && loses_shift(run) && largest_std(outcome) == 0.0 => 0.0,
+        _ if shows_all && largest_std(outcome) == 0.0 => 0.0,
         _ => ROUNDINGS * largest(&outcome.speeds),
     }
 }
@@ -215,6 +215,19 @@ pub(crate) fn of_headway(run: &Run) -> f64 {
     let [here, there] = [headway, headway * (1.0 + PART)].map(|headway| run.model.linearise(headway, speed).phi);
     let condition = ((there - here) / (PART * here)).abs();
     if condition.is_finite() { 0.5 * f64::EPSILON * condition } else { 0.0 }
+}
+
+/// The standard deviation of speeds where all of them are equal to the last bit, since what the force makes of the shift is
+/// lost beside the drive: nobody's speed is off by more than the force on the least spacing answers to the shift, within a
+/// relaxation time. `None` where speeds differ, or the law does not tell.
+pub(crate) fn unseen(run: &Run, outcome: &Outcome) -> Option<f64> {
+    let (headway, shift) = (run.ring.headway(), run.start.shift.abs());
+    let is_told = largest_std(outcome) == 0.0 && !matches!(run.model, Model::Formula(_));
+    // from rest speeds only grow until the drive is balanced, and the force with them
+    let speed = largest(&outcome.speeds);
+    let phi = is_told.then(|| run.model.linearise(headway - shift, speed).phi).filter(|phi| phi.is_finite())?;
+    // what the rounding of spacings leaves of the shift may be half as much again
+    Some(CAUTION * phi.abs() * shift * math::smaller(outcome.statistics.time, 1.0))
 }
 
 /// Whether spacings lose the shift of the start to the last digit.

@@ -2,9 +2,10 @@
 //!
 //! Some runs by this method are run a second time like those by others ([`super::errors`]): those by steps of fixed length,
 //! whose errors are roundings that they do not tell; those of laws with kinks, which a step may cross unseen; those whose
-//! errors move much faster than they; and those that went on from a checkpoint, which does not keep the errors before it.
+//! errors move much faster than they, if the law does not tell its linearised equations; and those that went on from a
+//! checkpoint, which does not keep the errors before it.
 
-use super::{Errors, ROUNDINGS, has_kinks, largest, largest_std, loses_shift, of_headway};
+use super::{Errors, ROUNDINGS, has_kinks, largest, largest_std, loses_shift, of_headway, unseen};
 use crate::events::{Event, EventKind};
 use crate::run::{Outcome, Run as Scene, RunObserver, Sight};
 use crate::states::StateVariables;
@@ -258,20 +259,22 @@ impl Propagated {
             .take(n)
             .collect();
         let rounding = |numbers: &[f64]| ROUNDINGS * largest(numbers);
+        let is_unseen = self.lost.is_none() && unseen(scene, outcome).is_some();
         let of_std = match scene.form {
             StateVariables::Deviations => (ROUNDINGS + of_headway(scene)) * largest_std(outcome),
             // where all motion is one, no rounding lies between speeds; but a weak force goes unseen beside the drive
             _ if self.lost.is_some() && largest_std(outcome) == 0.0 => {
                 UNSEEN * scene.model.desired_speed().abs() * (self.shift / self.clearance).abs()
             }
-            _ => rounding(&outcome.speeds),
+            // roundings of earlier steps are carried along
+            _ => unseen(scene, outcome).unwrap_or_else(|| f64::EPSILON * largest(&outcome.speeds)),
         };
         // at a blow-up a rounding of the time is a large part of the state
         let is_blow_up = outcome.events.iter().any(|happening| happening.kind == EventKind::BlowUp);
         let end =
             |errors: &[f64], numbers: &[f64]| (!is_blow_up).then(|| CAUTION * largest(errors) + rounding(numbers));
         Some(Errors {
-            std: Some(CAUTION * self.std + of_std + f64::MIN_POSITIVE),
+            std: Some(if is_unseen { of_std } else { CAUTION * self.std + of_std } + f64::MIN_POSITIVE),
             positions: end(&positions, &outcome.positions)
                 .map(|error| error + 2.0 * rounding(&outcome.positions) + RELAXATION * UNSURE * largest(&speeds)),
             speeds: end(&speeds, &outcome.speeds).map(|error| error + ROUNDINGS * scene.model.desired_speed().abs()),
@@ -310,7 +313,8 @@ fn in_gaps(error: &[f64], n: usize) -> Vec<f64> {
 /// 1e-200 have squares.
 fn std_error(speeds: &[f64], errors: &[f64]) -> f64 {
     let (count, scale) = (speeds.len() as f64, math::larger(largest(speeds), largest(errors)));
-    if scale == 0.0 || !scale.is_finite() {
+    if scale < SMALLEST || !scale.is_finite() {
+        // numbers without digits, or none: none is off by more than all of it
         return scale;
     }
     let share = 1.0 / (scale * count);
@@ -327,6 +331,9 @@ fn std_error(speeds: &[f64], errors: &[f64]) -> f64 {
     let difference = if between == 0.0 { 0.0 } else { (between / count).abs() / deviations };
     scale * (difference + UNSURE * (offs / count).sqrt())
 }
+
+/// Shares of smaller numbers are no doubles.
+const SMALLEST: f64 = 1e-300;
 
 /// What is not sure of speeds becomes an error of positions within a relaxation time.
 const RELAXATION: f64 = 1.0;
@@ -360,6 +367,8 @@ mod tests {
     fn errors_that_all_have_alike_do_not_count() {
         assert!(std_error(&[1.0, 2.0, 4.0], &[0.125; 3]) < 1e-15);
         assert_eq!(std_error(&[1.0, 2.0, 4.0], &[0.0; 3]), 0.0);
+        // of the least doubles, too, there is a number
+        assert!((2e-322..1e-321).contains(&std_error(&[0.0; 3], &[2e-322, 0.0, -2e-322])));
     }
 
     #[test]
