@@ -1,0 +1,26 @@
+//! Supplement 25: what a flow of the algebraic law becomes with widening, over strength and gap, the third class of figure 3; and
+//! over relative speed and strength, between its first class and its second. The tables are committed, as those of supplement 18.
+
+use figures::outcomes::{self, Titled};
+use figures::{Failure, Job, figure};
+use plot::Picture;
+use plot::style::FULL_WIDTH;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    figure(env!("CARGO_BIN_NAME"), tables, picture)
+}
+
+const PLANES: [Titled<'_>; 3] = [
+    ("widened", "$\\langle\\mu, 0, 2, 0.2\\rangle$"),
+    ("delta_near", "$\\langle\\mu, \\delta, 2, 0\\rangle$, $d' = 0.5$"),
+    ("delta_far", "$\\langle\\mu, \\delta, 2, 0\\rangle$, $d' = 1$"),
+];
+
+fn tables(job: &mut Job) -> Result<(), Failure> {
+    outcomes::tables(job, &PLANES)
+}
+
+fn picture(job: &Job) -> Result<Picture, Failure> {
+    outcomes::picture(job, &PLANES, 3, [FULL_WIDTH, 72.0])
+}
