@@ -117,8 +117,12 @@ fn a_run_of_adaptive_steps_killed_goes_on_to_the_same_bytes_and_tells_how_far_it
     }
     // where it was, and where it is a second later, if it takes that long
     let words = String::from_utf8_lossy(&output.stderr).into_owned();
-    let places = words.lines().map(|line| line.split_once(' ').and_then(|(_, place)| place.parse::<f64>().ok()));
-    let places: Vec<f64> = places.collect::<Option<_>>().expect("a number in each line");
+    let number = |line: &str, word: usize| line.split(' ').nth(word).and_then(|number| number.parse::<f64>().ok());
+    let places: Vec<f64> =
+        words.lines().map(|line| number(line, 1)).collect::<Option<_>>().expect("a number in each line");
+    for line in words.lines().filter(|line| line.starts_with("progress")) {
+        assert!(number(line, 3).is_some_and(|left| left >= 0.0), "{line}: the seconds that are left");
+    }
     assert!(
         words.starts_with("resumed 0.") && places.is_sorted() && places.iter().all(|&place| place < 1.0),
         "{words}"
