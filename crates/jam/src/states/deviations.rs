@@ -5,7 +5,7 @@
 //! keeps all its digits, and an error is one of the perturbation, not of the state.
 
 use super::tangent::{fastest, series};
-use super::{FlowAlong, LEAST_SIZE, RingSystem, closing_rates};
+use super::{FlowAlong, LEAST_SIZE, RingSystem, closing_rates, displace};
 use crate::force::{Flow, Force, Motion};
 use crate::observe::spread;
 use crate::ring::{Ring, Start};
@@ -152,13 +152,7 @@ impl RingSystem for Deviations {
     }
 
     fn start_displaced(&self, displacements: &[f64]) -> Vec<f64> {
-        let n = self.pedestrians;
-        let mut state = self.start(Start { shift: 0.0 });
-        for own in 0..n {
-            state[own] += displacements[(own + 1) % n] - displacements[own];
-        }
-        state[2 * n] += displacements[0];
-        state
+        displace(self.start(Start { shift: 0.0 }), displacements)
     }
 
     fn read(&self, state: &[f64], gaps: &mut [f64], speeds: &mut [f64]) {

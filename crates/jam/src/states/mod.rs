@@ -95,6 +95,17 @@ pub fn gaps_state(model: &Model, gaps: &[f64], speeds: &[f64], first: f64) -> Ve
     gaps.iter().map(|gap| gap - contact).chain(speeds.iter().copied()).chain([first]).collect()
 }
 
+/// A state of spacings, or of deviations, with each of the `N` pedestrians moved by so much: spacings stand first, the place of
+/// the first pedestrian behind the speeds.
+fn displace(mut state: Vec<f64>, displacements: &[f64]) -> Vec<f64> {
+    let n = displacements.len();
+    for own in 0..n {
+        state[own] += displacements[(own + 1) % n] - displacements[own];
+    }
+    state[2 * n] += displacements[0];
+    state
+}
+
 /// Writes `rate[n] = speed[n + 1] - speed[n]` around the ring.
 fn closing_rates(speeds: &[f64], rates: &mut [f64]) {
     dispatch(ClosingRates { speeds, rates });

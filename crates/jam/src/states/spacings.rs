@@ -2,7 +2,7 @@
 //! logarithmic law): a gap that closes keeps all its digits.
 
 use super::tangent::{fastest, series};
-use super::{LEAST_SIZE, RingSystem, closing_rates};
+use super::{LEAST_SIZE, RingSystem, closing_rates, displace};
 use crate::force::{Flow, Force, Motion};
 use crate::observe::spread;
 use crate::ring::{Ring, Start};
@@ -126,13 +126,7 @@ impl RingSystem for Spacings {
     }
 
     fn start_displaced(&self, displacements: &[f64]) -> Vec<f64> {
-        let n = self.pedestrians;
-        let mut state = self.start(Start { shift: 0.0 });
-        for own in 0..n {
-            state[own] += displacements[(own + 1) % n] - displacements[own];
-        }
-        state[2 * n] += displacements[0];
-        state
+        displace(self.start(Start { shift: 0.0 }), displacements)
     }
 
     fn read(&self, state: &[f64], gaps: &mut [f64], speeds: &mut [f64]) {
