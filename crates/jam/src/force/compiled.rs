@@ -98,12 +98,12 @@ impl<L: Law> Force for Compiled<L> {
         self.speed_slopes.map_or(f64::NAN, |[own, ahead]| own + ahead)
     }
 
-    fn slopes(&self, more: f64, spacings: &[f64], slopes: &mut [f64]) -> bool {
-        let depends_on_these_alone = self.speed_slopes == Some([-1.0, 0.0]);
-        if depends_on_these_alone {
-            dispatch(Slopes { law: self.law, more, spacings, slopes });
-        }
-        depends_on_these_alone
+    fn has_slopes(&self) -> bool {
+        self.speed_slopes == Some([-1.0, 0.0])
+    }
+
+    fn slopes(&self, more: f64, spacings: &[f64], slopes: &mut [f64]) {
+        dispatch(Slopes { law: self.law, more, spacings, slopes });
     }
 
     fn bend(&self) -> Option<Bend> {

@@ -47,10 +47,15 @@ pub trait Force: std::fmt::Debug + Send {
     /// Has a meaning only where [`Force::uses_speeds`] is false.
     fn relaxation(&self, flow: Flow) -> f64;
 
-    /// Writes how the accelerations answer to the spacings, for spacings that are so much larger than these; false of a force
-    /// that depends on anything else besides one's own speed.
-    fn slopes(&self, _more: f64, _spacings: &[f64], _slopes: &mut [f64]) -> bool {
+    /// Whether the acceleration depends on the own spacing alone, but for the relaxation of the own speed at rate 1.
+    fn has_slopes(&self) -> bool {
         false
+    }
+
+    /// Writes how the accelerations answer to the spacings, for spacings that are so much larger than these. Has a meaning only
+    /// where [`Force::has_slopes`] is true.
+    fn slopes(&self, _more: f64, _spacings: &[f64], slopes: &mut [f64]) {
+        slopes.fill(f64::NAN);
     }
 
     /// Where the force bends sharply, if it does.

@@ -87,7 +87,7 @@ impl System for Deviations {
     }
 
     fn tangent_size(&self) -> usize {
-        if self.force.slopes(0.0, &[], &mut []) { self.pedestrians } else { 0 }
+        if self.force.has_slopes() { self.pedestrians } else { 0 }
     }
 
     fn tangent(&self, state: &[f64], tangent: &mut [f64]) -> f64 {
