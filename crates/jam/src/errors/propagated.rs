@@ -259,7 +259,8 @@ impl Propagated {
             .take(n)
             .collect();
         let rounding = |numbers: &[f64]| ROUNDINGS * largest(numbers);
-        let is_unseen = self.lost.is_none() && unseen(scene, outcome).is_some();
+        let unseen = unseen(scene, outcome);
+        let is_unseen = self.lost.is_none() && unseen.is_some();
         let of_std = match scene.form {
             StateVariables::Deviations => (ROUNDINGS + of_headway(scene)) * largest_std(outcome),
             // where all motion is one, no rounding lies between speeds; but a weak force goes unseen beside the drive
@@ -267,7 +268,7 @@ impl Propagated {
                 UNSEEN * scene.model.desired_speed().abs() * (self.shift / self.clearance).abs()
             }
             // roundings of earlier steps are carried along
-            _ => unseen(scene, outcome).unwrap_or_else(|| f64::EPSILON * largest(&outcome.speeds)),
+            _ => unseen.unwrap_or_else(|| f64::EPSILON * largest(&outcome.speeds)),
         };
         // at a blow-up a rounding of the time is a large part of the state
         let is_blow_up = outcome.events.iter().any(|happening| happening.kind == EventKind::BlowUp);

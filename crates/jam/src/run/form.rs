@@ -29,11 +29,8 @@ pub fn fitting(
 /// The method of a run that names none: Taylor's, or `dop853` where only that method keeps the state in deviations, in which a
 /// small perturbation loses no digits.
 pub fn usual_method(wanted: Option<StateVariables>, model: &Model, ring: Ring, speed: Option<f64>) -> Method {
-    let variables = wanted.unwrap_or(if has_deviations(model, ring, speed) {
-        StateVariables::Deviations
-    } else {
-        StateVariables::Spacings
-    });
+    // dop853 suits every form
+    let variables = fitting(wanted, model, ring, speed, Method::Dop853);
     if Method::Taylor.suits(&*variables.build(model, ring)) { Method::Taylor } else { Method::Dop853 }
 }
 
