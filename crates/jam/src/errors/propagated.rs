@@ -7,11 +7,11 @@
 
 use super::{Errors, ROUNDINGS, has_kinks, largest, largest_std, loses_shift, of_headway, unseen};
 use crate::events::{Event, EventKind};
-use crate::run::{Outcome, Run as Scene, RunObserver, Sight};
+use crate::run::{Outcome, Run, RunObserver, Sight};
 use crate::states::StateVariables;
 use ode::{Shadow, Step};
 
-/// Looks on while a scene runs from its start, and knows the errors at its end if the steps tell theirs.
+/// Looks on while a run is made from its start, and knows the errors at its end if the steps tell theirs.
 #[derive(Clone, Debug)]
 pub struct Propagated {
     pedestrians: usize,
@@ -109,11 +109,11 @@ impl RunObserver for Propagated {
             }
             self.std = math::larger(self.std, std_error(&state[n..2 * n], errors));
         }
-        for happening in sight.new {
-            let place = step.fraction(happening.time);
-            let known = self.last_known.filter(|_| happening.kind == EventKind::BlowUp);
+        for event in sight.new {
+            let place = step.fraction(event.time);
+            let known = self.last_known.filter(|_| event.kind == EventKind::BlowUp);
             if let Some(known) = known {
-                self.events.push(known.late + known.part * (happening.time - known.time));
+                self.events.push(known.late + known.part * (event.time - known.time));
                 continue;
             }
             error = self.error_at(Some((step, place)));
@@ -121,10 +121,10 @@ impl RunObserver for Propagated {
             let mut rates = vec![0.0; dimension];
             step.rates_of(&state, &mut rates);
             let mut change =
-                |direction: &[f64]| sight.watch.change(happening.kind, happening.pedestrian, &state, direction).abs();
+                |direction: &[f64]| sight.watch.change(event.kind, event.pedestrian, &state, direction).abs();
             let (by_error, rate) = (change(&error), change(&rates));
             // what falls through 0 is a difference of larger numbers
-            let size = if happening.kind == EventKind::NegativeSpeed { self.desired } else { self.headway };
+            let size = if event.kind == EventKind::NegativeSpeed { self.desired } else { self.headway };
             self.events.push((by_error + f64::EPSILON * size) / rate);
         }
     }
@@ -132,24 +132,24 @@ impl RunObserver for Propagated {
 
 impl Propagated {
     /// Before the first step. A step over a kink does not see what it leaves out.
-    pub fn new(scene: &Scene) -> Propagated {
-        let clearance = scene.ring.headway() - scene.model.contact();
+    pub fn new(run: &Run) -> Propagated {
+        let clearance = run.ring.headway() - run.model.contact();
         Propagated {
-            pedestrians: scene.ring.pedestrians,
+            pedestrians: run.ring.pedestrians,
             clearance,
-            shift: scene.start.shift,
-            headway: scene.ring.headway(),
-            is_singular: scene.model.is_singular(),
-            desired: scene.model.desired_speed().abs(),
-            loses_shift: loses_shift(scene),
+            shift: run.start.shift,
+            headway: run.ring.headway(),
+            is_singular: run.model.is_singular(),
+            desired: run.model.desired_speed().abs(),
+            loses_shift: loses_shift(run),
             shadow: None,
             lost: None,
-            is_blind: !scene.method.needs_series() || has_kinks(&scene.model),
+            is_blind: !run.method.needs_series() || has_kinks(&run.model),
             std: 0.0,
             looked_at: 0.0,
             since: 0,
             last_known: None,
-            t_end: scene.t_end,
+            t_end: run.t_end,
             events: Vec::new(),
         }
     }
@@ -241,7 +241,7 @@ impl Propagated {
     }
 
     /// The errors of the run that it has seen; `None` where steps did not tell theirs, or not that of an event.
-    pub fn errors(&self, scene: &Scene, outcome: &Outcome) -> Option<Errors> {
+    pub fn errors(&self, run: &Run, outcome: &Outcome) -> Option<Errors> {
         // next to a blow-up the error leaves the doubles before the speeds do: a second run tells the time
         let is_told = self.events.iter().all(|error| error.is_finite());
         let error = (!self.is_blind && is_told && self.shadow.is_some()).then(|| self.error_at(None))?;
@@ -259,26 +259,26 @@ impl Propagated {
             .take(n)
             .collect();
         let rounding = |numbers: &[f64]| ROUNDINGS * largest(numbers);
-        let unseen = unseen(scene, outcome);
+        let unseen = unseen(run, outcome);
         let is_unseen = self.lost.is_none() && unseen.is_some();
-        let of_std = match scene.form {
-            StateVariables::Deviations => (ROUNDINGS + of_headway(scene)) * largest_std(outcome),
+        let of_std = match run.form {
+            StateVariables::Deviations => (ROUNDINGS + of_headway(run)) * largest_std(outcome),
             // where all motion is one, no rounding lies between speeds; but a weak force goes unseen beside the drive
             _ if self.lost.is_some() && largest_std(outcome) == 0.0 => {
-                UNSEEN * scene.model.desired_speed().abs() * (self.shift / self.clearance).abs()
+                UNSEEN * run.model.desired_speed().abs() * (self.shift / self.clearance).abs()
             }
             // roundings of earlier steps are carried along
             _ => unseen.unwrap_or_else(|| f64::EPSILON * largest(&outcome.speeds)),
         };
         // at a blow-up a rounding of the time is a large part of the state
-        let is_blow_up = outcome.events.iter().any(|happening| happening.kind == EventKind::BlowUp);
+        let is_blow_up = outcome.events.iter().any(|event| event.kind == EventKind::BlowUp);
         let end =
             |errors: &[f64], numbers: &[f64]| (!is_blow_up).then(|| CAUTION * largest(errors) + rounding(numbers));
         Some(Errors {
             std: Some(if is_unseen { of_std } else { CAUTION * self.std + of_std } + f64::MIN_POSITIVE),
             positions: end(&positions, &outcome.positions)
                 .map(|error| error + 2.0 * rounding(&outcome.positions) + RELAXATION * UNSURE * largest(&speeds)),
-            speeds: end(&speeds, &outcome.speeds).map(|error| error + ROUNDINGS * scene.model.desired_speed().abs()),
+            speeds: end(&speeds, &outcome.speeds).map(|error| error + ROUNDINGS * run.model.desired_speed().abs()),
             events: self.of_events(&outcome.events),
             cost: 0.0,
         })
@@ -287,7 +287,7 @@ impl Propagated {
     /// Events at the start are exact; that a run has come to a wall is no event of a step.
     fn of_events(&self, events: &[Event]) -> Vec<Option<f64>> {
         let mut of_steps = self.events.iter();
-        let error = |happening: &Event| match happening.time {
+        let error = |event: &Event| match event.time {
             0.0 => Some(0.0),
             time => of_steps.next().map(|error| CAUTION * error + ROUNDINGS * time),
         };
