@@ -1,7 +1,7 @@
 //! Checkpoints: bytes that a killed run left, of any contents, are those of the scene or are not taken.
 
 use files::scene_file;
-use scene::simulation::Checkpoint;
+use jam::run::Checkpoint;
 
 /// Three pedestrians; what the corpus was made by.
 pub const SCENE: &str = "[law]\nkind = \"exponential\"\na = 8.0\nb = 1.5\nv0 = 3.0\n[ring]\npedestrians = 3\n\

@@ -1,9 +1,9 @@
 //! Runs: a scene that is accepted, if it is small, runs to its end, stops with an event or says why it cannot go on.
 
 use files::scene_file::{self, Kind};
+use jam::run::Samples;
 use ode::Control;
 use scene::run::Scene;
-use scene::simulation::Samples;
 
 /// Larger ones are left out: pedestrians, rows of a table, steps.
 const SMALL: (usize, f64, u64) = (12, 200.0, 400);
@@ -40,7 +40,7 @@ pub fn run(scene: Scene) -> Ending {
         return Ending::Large;
     }
     let scene = Scene { most_steps: scene.most_steps.min(steps), ..scene };
-    let outcome = match scene::simulation::run(&scene) {
+    let outcome = match jam::run::run(&scene) {
         Ok(outcome) => outcome,
         Err(broken) => {
             assert!(broken.to_string().contains("t = "), "{broken}");

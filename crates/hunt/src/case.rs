@@ -21,7 +21,7 @@ pub fn of(seed: u64) -> Vec<Value> {
 fn case(seed: u64, text: &str, panel: &scene_file::Panel) -> Option<Value> {
     let scene = scene::run::read("scene.toml", &panel.tables).ok()?;
     let mut propagated = Propagated::new(&scene);
-    let outcome = scene::simulation::run_from(&scene, None, &mut propagated).ok()?;
+    let outcome = jam::run::run_from(&scene, None, &mut propagated).ok()?;
     let mut question = question::read(text, &panel.name).ok()?;
     question.times = judge::times(&scene, &outcome);
     let answer = Answer::new(&question, Numbers::Doubles);

@@ -4,10 +4,10 @@ use crate::answer::Answer;
 use crate::judge::{Ratio, is_beyond, is_blown_up, kind};
 use jam::errors;
 use jam::errors::Propagated;
+use jam::run::{Outcome, run};
 use jam::states::StateVariables;
 use ode::{Control, Method};
 use scene::run::Scene;
-use scene::simulation::{Outcome, run};
 
 /// The errors that a run states. Infinite: it states none.
 #[derive(Clone, Debug, PartialEq)]

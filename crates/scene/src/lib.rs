@@ -12,5 +12,4 @@ pub mod tables;
 pub mod uniform;
 
 pub use files::reader::SceneError;
-pub use jam::run as simulation;
 pub use overrides::Overrides;

@@ -2,11 +2,11 @@
 
 use crate::map::{Computed, Map};
 use crate::run::Scene;
-use crate::simulation::{Broken, Outcome};
 use crate::uniform::Stability;
 use jam::errors::Errors;
 use jam::errors::Propagated;
 use jam::outcome::{Decision, Verdict};
+use jam::run::{Broken, Outcome};
 use ode::Control;
 use serde_json::{Value, json};
 
