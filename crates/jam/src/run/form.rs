@@ -27,11 +27,12 @@ pub fn fitting(
 }
 
 /// The method of a run that names none: Taylor's, or `dop853` where only that method keeps the state in deviations, in which a
-/// small perturbation loses no digits.
+/// small perturbation loses no digits, and for a formula with kinks, on each of which a series has to end.
 pub fn usual_method(wanted: Option<StateVariables>, model: &Model, ring: Ring, speed: Option<f64>) -> Method {
     // dop853 suits every form
     let variables = fitting(wanted, model, ring, speed, Method::Dop853);
-    if Method::Taylor.suits(&*variables.build(model, ring)) { Method::Taylor } else { Method::Dop853 }
+    let has_kinks = matches!(model, Model::Formula(law) if law.has_kinks());
+    if !has_kinks && Method::Taylor.suits(&*variables.build(model, ring)) { Method::Taylor } else { Method::Dop853 }
 }
 
 /// Whether a ring has a uniform flow that its state can deviate from.
