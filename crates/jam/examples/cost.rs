@@ -63,8 +63,12 @@ fn variants() -> Vec<Variant> {
         let Some(model) = law(name) else { continue };
         variants.push(named(&format!("step-{name}"), pedestrians, heun(model, pedestrians)));
     }
-    for (name, pedestrians) in STEPS.into_iter().filter(|(name, _)| PLAIN.contains(name)) {
+    for (name, pedestrians) in STEPS {
         let Some(model) = law(name) else { continue };
+        if !PLAIN.contains(&name) {
+            variants.push(named(&format!("series-{name}"), pedestrians, series(model, pedestrians)));
+            continue;
+        }
         variants.push(named(
             &format!("gaps/{name}"),
             pedestrians,

@@ -122,7 +122,7 @@ fn series_of_formulas_have_the_bits_of_compiled_laws() {
             for (coefficients, model) in both.iter_mut().zip([model.clone(), as_formula(&model)]) {
                 let flow = Flow { net_gap: 0.0, speed: 0.0 };
                 let (pedestrians, order, unit) = (count, ORDER, 0.25);
-                model.force().series(Motion { flow, pedestrians, order, unit, dimension, coefficients });
+                model.force().series(Motion { flow, along: None, pedestrians, order, unit, dimension, coefficients });
             }
             assert_eq!(bits(&both[0]), bits(&both[1]), "{model:?}, {count}");
             assert!(both[0].iter().all(|value| value.is_finite()), "{model:?}");
