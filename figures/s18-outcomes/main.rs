@@ -1,8 +1,8 @@
 //! Supplement 18: what an unstable uniform flow becomes, over planes of parameters. The paper asks for it and looks at three
 //! points. A plane takes minutes, so its table is committed (`data/outcomes`); `checks/outcomes.sh` computes it again.
 
-use figures::outcomes::{self, Titled};
 use figures::{Failure, Job, figure};
+use planes::outcomes::{self, Titled};
 use plot::Picture;
 use plot::style::FULL_WIDTH;
 use std::process::ExitCode;

@@ -40,7 +40,7 @@ const KINDS: [(&str, Kind); 4] = [
 ];
 
 /// The law of `[law]` with any values, if it is one of the paper: what its parameters are is known before it is read.
-pub(crate) fn built_in(section: &Section) -> Option<Model> {
+pub fn built_in(section: &Section) -> Option<Model> {
     let Value::Text(kind) = &section.entries.get("kind")?.value else { return None };
     match KINDS.iter().find(|(name, _)| name == kind)?.1 {
         Kind::Algebraic => Some(Model::Algebraic(Algebraic::default())),

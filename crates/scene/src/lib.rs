@@ -1,4 +1,4 @@
-//! From a scene file to tables: validated scenes ([`law`], [`run`], [`map`], [`curve`], [`sweep`]) and their numbers, in memory;
+//! From a scene file to tables: validated scenes ([`law`], [`run`], [`map`], [`curve`]) and their numbers, in memory;
 //! what is told of them in the end ([`summary`]). A scene in time is a [`jam::run::Run`]. No file is opened here, so that the tables can be computed wherever Rust runs.
 
 pub mod curve;
@@ -7,7 +7,6 @@ pub mod map;
 pub mod overrides;
 pub mod run;
 pub mod summary;
-pub mod sweep;
 pub mod tables;
 pub mod uniform;
 

@@ -110,7 +110,7 @@ fn read_for(file: &str, tables: &Section, purpose: Purpose) -> Result<Scene, Sce
 }
 
 /// Names of the forms of the state.
-pub(crate) const FORMS: [(&str, StateVariables); 3] = [
+pub const FORMS: [(&str, StateVariables); 3] = [
     ("deviations", StateVariables::Deviations),
     ("gaps", StateVariables::Spacings),
     ("positions", StateVariables::Positions),
@@ -119,7 +119,11 @@ pub(crate) const FORMS: [(&str, StateVariables); 3] = [
 /// A run by adaptive steps is at least as long: far longer than the shortest of them.
 const SHORTEST_RUN: f64 = 1e-250;
 
-pub(crate) fn at_overlap(run: &mut Reader<'_>, model: &Model) -> Result<AtOverlap, SceneError> {
+/// What happens at an overlap: `stop`, or `continue`, which a force that is infinite at contact does not allow.
+///
+/// # Errors
+/// Another word, or a law that cannot continue.
+pub fn at_overlap(run: &mut Reader<'_>, model: &Model) -> Result<AtOverlap, SceneError> {
     if !run.has("at_overlap") {
         return Ok(AtOverlap::Stop);
     }
@@ -135,7 +139,10 @@ pub(crate) fn at_overlap(run: &mut Reader<'_>, model: &Model) -> Result<AtOverla
 }
 
 /// The steady speed that is meant, where a formula has several.
-pub(crate) fn uniform_speed(file: &str, section: &Section) -> Result<Option<f64>, SceneError> {
+///
+/// # Errors
+/// Not a finite number, or an unknown key.
+pub fn uniform_speed(file: &str, section: &Section) -> Result<Option<f64>, SceneError> {
     let mut reader = Reader::new(file, "uniform", section);
     let speed = reader.optional_number("speed", FINITE)?;
     reader.finish()?;
@@ -184,7 +191,10 @@ fn most_steps(run: &mut Reader<'_>, control: Control, t_end: f64, purpose: Purpo
 }
 
 /// The method that a scene names. One with steps of fixed length must name it.
-pub(crate) fn method(run: &mut Reader<'_>) -> Result<Option<Method>, SceneError> {
+///
+/// # Errors
+/// An unknown method, or `dt` without one.
+pub fn method(run: &mut Reader<'_>) -> Result<Option<Method>, SceneError> {
     if run.has("method") || run.has("dt") {
         return run.one_of("method", &Method::ALL.map(|method| (method.name(), method))).map(Some);
     }
@@ -192,7 +202,10 @@ pub(crate) fn method(run: &mut Reader<'_>) -> Result<Option<Method>, SceneError>
 }
 
 /// `tolerance` for methods that choose their steps, `usual` if nothing is named; `dt` for any.
-pub(crate) fn control(run: &mut Reader<'_>, method: Method, usual: f64) -> Result<Control, SceneError> {
+///
+/// # Errors
+/// Out of range, both, or one that the method does not have.
+pub fn control(run: &mut Reader<'_>, method: Method, usual: f64) -> Result<Control, SceneError> {
     let tolerance = run.optional_number("tolerance", 1e-15..=1e-2)?;
     let step = run.optional_number("dt", POSITIVE)?;
     match (tolerance, step) {

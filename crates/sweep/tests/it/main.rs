@@ -1,9 +1,9 @@
 //! Several tiles at a time: each cell once, the same cells with any number of threads, and an end when it is asked for.
 
 use files::scene_file;
-use scene::sweep::tiles::{Found, tiles};
-use scene::sweep::{Pool, Sweep, read};
 use std::sync::Mutex;
+use sweep::tiles::{Found, tiles};
+use sweep::{Pool, Sweep, read};
 
 /// 30 x 28 cells in four tiles, each cell a run of a moment.
 fn sweep() -> Sweep {

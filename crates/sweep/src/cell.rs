@@ -1,13 +1,13 @@
 //! A cell of a sweep: its scene, and what becomes of it.
 
 use super::Sweep;
-use crate::run::Scene;
 use jam::outcome::{Class, Verdict};
 use jam::ring::{Ring, Start};
 use jam::run::{Judging, fitting, flow, run_from, too_wide, without_value};
 use jam::stability::Waves;
 use jam::uniform;
 use ode::Control;
+use scene::run::Scene;
 
 /// What is known of a cell without a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
