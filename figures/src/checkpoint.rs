@@ -1,4 +1,4 @@
-//! A long run: its progress, and a checkpoint from which it is resumed after a kill.
+//! Progress of a long run, and a checkpoint file from which it is resumed after a kill.
 //!
 //! The file: a line `checkpoint 3 RUN SUM`, then the seconds of CPU so far and the run, as 64-bit words. `RUN` is the
 //! SHA-256 of the program and of the scene, `SUM` that of everything behind the line: what is damaged, cut off or of

@@ -1,6 +1,6 @@
-//! What the figures' binaries share: the command line and where tables and pictures go ([`job`]), panels that several
-//! figures draw ([`panels`], [`planes`], [`outcomes`]) and their titles ([`titles`]), exit codes ([`failure`]); and the programs for scenes of
-//! one's own ([`simulate`] with [`checkpoint`], [`map`]); the contact sheet of published laws ([`gallery`]).
+//! What the programs of the figures share: the command line and the output folders ([`job`]), panels used by several
+//! figures ([`panels`], [`planes`], [`outcomes`]) and their titles ([`titles`]), exit codes ([`failure`]); the programs
+//! for user scenes ([`simulate`] with [`checkpoint`], [`map`]); and the contact sheet of published laws ([`gallery`]).
 
 pub mod checkpoint;
 pub mod failure;

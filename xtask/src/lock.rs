@@ -1,4 +1,4 @@
-//! The lock: one run at a time in one target folder.
+//! The lock: one run at a time in a target folder.
 
 use checkout::disk;
 use checkout::failure::Failure;

@@ -1,4 +1,4 @@
-//! Measurements of each figure once it is made: the errors of its runs, for the manifest, and their events.
+//! Measures each figure that was made: the errors of its runs, for the manifest, and their events.
 
 use crate::estimate::{self, Estimate};
 use crate::pins::{CRATE, RUSTC};

@@ -1,4 +1,4 @@
-//! Nodes at work in parallel: longest first, none before what it needs.
+//! Runs nodes in parallel: the longest first, and none before its inputs.
 
 use checkout::failure::Failure;
 use std::any::Any;

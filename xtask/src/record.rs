@@ -1,4 +1,4 @@
-//! Records of the inputs from which each figure was last made, and the reasons why it is stale.
+//! Records of the inputs from which each figure was last made, and the reasons why a figure is stale.
 
 use crate::measured::Measured;
 use crate::pins::{CRATE, RUSTC};

@@ -1,4 +1,4 @@
-//! Stored runs: a folder for each, named by the hash of what determines the run, with a list of sums written last.
+//! Stored runs: one folder for each, named by the hash of its inputs, with a list of sums that is written last.
 
 use checkout::disk;
 use checkout::failure::Failure;

@@ -1,4 +1,4 @@
-//! The manifest: provenance and error of each output. It has no time and no commit.
+//! The manifest: provenance and error of each output. It contains neither a time nor a commit.
 
 use crate::disk;
 use crate::failure::Failure;

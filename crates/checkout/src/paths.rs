@@ -1,4 +1,4 @@
-//! The paths that several crates share.
+//! The paths that several crates use.
 
 use crate::failure::Failure;
 use clap::ValueEnum;

@@ -1,5 +1,5 @@
-//! A TOML document as a tree that remembers its lines, and a reader that takes typed values from it: every complaint
-//! names file, line, key, the value found and what would be valid.
+//! A TOML document as a tree that keeps line numbers, and a reader that extracts typed values. Every error names file,
+//! line, key, the value found and what would be valid.
 
 use crate::text::hint_in;
 use std::collections::{BTreeMap, BTreeSet};

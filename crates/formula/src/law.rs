@@ -1,4 +1,4 @@
-//! The formulas of a law: which names there are, what they stand for, in which order they are computed.
+//! The formulas of a law: resolves names and determines the order of evaluation.
 
 use crate::build::Builder;
 use crate::graph::{Graph, Parameter, Symbol};

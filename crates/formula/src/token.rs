@@ -1,4 +1,4 @@
-//! Text to tokens.
+//! The tokeniser.
 
 use crate::limits::LONGEST_TEXT;
 use crate::place::{Place, Problem};

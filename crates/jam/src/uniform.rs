@@ -1,4 +1,4 @@
-//! The uniform flow: equal gaps, equal and constant speeds.
+//! The uniform flow: equal spacings, equal and constant speeds.
 
 use crate::laws::{Formula, Model};
 

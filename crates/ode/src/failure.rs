@@ -1,4 +1,4 @@
-//! Why an integration could not go on.
+//! Reasons why an integration cannot continue.
 
 use crate::methods::Method;
 

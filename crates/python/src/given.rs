@@ -1,4 +1,4 @@
-//! What a caller gives: a scene as a file, as text or as a dictionary, and values that replace some of its own.
+//! The caller's input: a scene as a file, text or dictionary, and values that override some of its own.
 
 use files::reader::{Entry, SceneError, Section, Value};
 use files::scene_file::{self, Kind, Panel, SceneFile};

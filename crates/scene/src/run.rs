@@ -1,4 +1,4 @@
-//! A scene in time, validated: `[law]`, `[ring]`, `[start]`, `[run]`.
+//! A validated time-dependent scene: `[law]`, `[ring]`, `[start]`, `[run]`.
 
 use crate::law;
 use files::reader::{FINITE, POSITIVE, Reader, SceneError, Section};

@@ -1,4 +1,4 @@
-//! The command line. The runner starts it; it may also be started by hand.
+//! The command line. The runner starts this program; it can also be started by hand.
 
 use crate::findings::Findings;
 use crate::reference::Reference;

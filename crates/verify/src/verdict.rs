@@ -1,4 +1,4 @@
-//! The verdict that the four levels give together.
+//! The overall verdict from the four levels.
 
 use crate::judgement::Judgement;
 use crate::tables::{Against, Compared};

@@ -1,4 +1,4 @@
-//! `verify`: recomputes into a scratch folder and has it judged against what is committed, on four levels.
+//! `verify`: recomputes into a scratch folder and has the result compared with what is committed, on four levels.
 
 use super::figures::read_times;
 use super::judge;

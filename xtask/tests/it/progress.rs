@@ -1,4 +1,4 @@
-//! Runs that are killed go on; how far a run is and how long a plan takes.
+//! Killed runs are resumed; progress and estimated times.
 
 use crate::shop::Shop;
 use checkout::print::duration;

@@ -1,4 +1,4 @@
-//! What `figures`, `verify` and `clean` say and leave when something goes wrong.
+//! What `figures`, `verify` and `clean` report and leave behind when something goes wrong.
 
 use crate::shop::{blessed, temporary};
 

@@ -1,4 +1,4 @@
-//! Judging a run while it is made.
+//! Judges a run while it is integrated.
 
 use super::least::{Ends, highest, lowest};
 use super::repeats::{Repeats, Repetition};

@@ -1,4 +1,4 @@
-//! The uniform flow: its speed, and that it stays to the last bit.
+//! The uniform flow: its speed, and that it persists to the last bit.
 
 use crate::sample::{HEADWAYS, Random, laws, paper_laws};
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};

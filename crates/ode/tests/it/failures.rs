@@ -1,4 +1,4 @@
-//! What an integration does where it cannot go on.
+//! Integrations that cannot continue.
 
 use crate::problems::{Equations, general_methods, oscillator, solve, watched};
 use ode::{Control, Failure, Method};

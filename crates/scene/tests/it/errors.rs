@@ -1,4 +1,4 @@
-//! Every error message about a scene file, verbatim: file, line, key, value, and what would be valid.
+//! Error messages about scene files: file, line, key, value, and what would be valid.
 
 use files::scene_file::{self, Kind};
 use ode::Method;

@@ -1,4 +1,4 @@
-//! Runs that fail, and runs at the edge: what they say, and that no table holds a number that is none.
+//! Runs that fail and runs at the edge: their messages, and that no table contains a NaN or an infinity.
 
 use files::table::Table;
 use jam::run::{Broken, Narrowest, Outcome, run};
