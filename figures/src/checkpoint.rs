@@ -137,7 +137,7 @@ impl<'a> CheckpointWriter<'a> {
             .flatten()
             .and_then(|(seconds, words)| Some((Checkpoint::parse(words, scene)?, f64::from_le_bytes(*seconds))));
         if found.is_none() {
-            say(&format!("{}: damaged, or of another run or program; the run starts over", file.display()));
+            say(&format!("{}: damaged, or from another run or program; the run starts over", file.display()));
         }
         found
     }

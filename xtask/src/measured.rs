@@ -33,8 +33,8 @@ impl Measured {
         let errors = self.entries.iter().flat_map(|(name, entry)| entry.error.iter().map(move |error| (name, error)));
         let flagged = errors.filter(|(_, (_, error))| is_flagged(**error));
         let words = |(name, (column, error)): (&String, (&String, &Option<f64>))| match error {
-            Some(error) => format!("error of {name}, column {column}: {error:.1e} of the drawn range"),
-            None => format!("error of {name}, column {column}: unknown, the check says nothing"),
+            Some(error) => format!("error of {name}, column {column}: {error:.1e} of the data range"),
+            None => format!("error of {name}, column {column}: unknown: the second run gives no estimate"),
         };
         flagged.map(words).collect()
     }

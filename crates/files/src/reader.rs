@@ -188,7 +188,7 @@ fn whole(digits: &str, radix: u32, line: usize) -> Result<f64, (usize, String)> 
     if nearest as i128 == i128::from(number) {
         Ok(nearest)
     } else {
-        let problem = format!("{digits} is a whole number that no double holds; the nearest is {}", nearest as i128);
+        let problem = format!("{digits} is a whole number that a double cannot represent; the nearest is {}", nearest as i128);
         Err((line, problem))
     }
 }

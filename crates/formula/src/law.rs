@@ -190,11 +190,11 @@ fn order(definitions: &[Definition<'_>], uses: &[Vec<(usize, Place)>]) -> Result
                         State::Open => {
                             let inside = path.iter().map(|(open, _)| *open).skip_while(|open| open != next);
                             let circle: Vec<&str> = inside.chain([*next]).map(|open| definitions[open].name).collect();
-                            let found = format!("a circle of names: {}", circle.join(" -> "));
+                            let found = format!("circular definitions: {}", circle.join(" -> "));
                             return Err(Problem::new(
                                 *place,
                                 found,
-                                "named expressions that do not lead back to themselves",
+                                "named expressions without circular references",
                             ));
                         }
                     }

@@ -80,7 +80,7 @@ fn a_run_of_too_many_steps_says_how_far_it_came() {
         let ode::Failure::TooManySteps { time, steps } = broken.failure else { panic!("{method}: {broken}") };
         assert!(steps == most && time > 0.0 && time < 100.0 && broken.narrowest.is_some(), "{broken}");
         let words = format!(
-            "{most} steps, as many as are allowed, reach t = {time:?} only; raise most_steps or the tolerance; smallest"
+            "{most} steps, the limit, reach only t = {time:?}; raise most_steps or the tolerance; smallest"
         );
         assert!(broken.to_string().starts_with(&words), "{broken}");
     }
