@@ -1,4 +1,4 @@
-//! Running a scene from the command line: tables, events and a summary.
+//! Runs a scene from the command line: tables, events and a summary.
 
 use crate::checkpoint::CheckpointOptions;
 use crate::failure::{Failure, print};

@@ -1,4 +1,4 @@
-//! A scene run as its user would, and judged by the second integration.
+//! Runs a scene as its user would, and judges the result by the second integration.
 
 use crate::answer::{Answer, Numbers};
 use crate::bound::Bound;

@@ -1,6 +1,6 @@
-//! Does one thing again and again, for `checks/cost.sh`, which counts the instructions, and for `cargo xtask bench`, which
-//! measures the time as well: `cost NAME COUNT`. Without arguments it lists the names, each with its pedestrians. Prints
-//! seconds of CPU.
+//! Repeats one operation, for `checks/cost.sh` (which counts instructions) and `cargo xtask bench` (which also measures
+//! time): `cost NAME COUNT`. Without arguments it lists the names and the number of pedestrians of each. It prints CPU
+//! seconds.
 //!
 //! | name | once is |
 //! |---|---|

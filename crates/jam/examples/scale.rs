@@ -1,6 +1,6 @@
-//! Nanoseconds for one pedestrian and one step of Heun's scheme against the number of pedestrians: the columns of
-//! `data/timing/scale.csv`. For each law: in one piece with AVX2 (`four`) and with AVX-512 (`eight`), and with AVX2 in
-//! blocks (`blocks`; small rings are never cut). `scale [LARGEST]`.
+//! Nanoseconds per pedestrian and step of Heun's scheme against the number of pedestrians: the columns of
+//! `data/timing/scale.csv`. For each law: in one piece with AVX2 (`four`) and AVX-512 (`eight`), and in blocks with
+//! AVX2 (`blocks`; small rings are never divided). `scale [LARGEST]`.
 //!
 //! Time is that of the thread on its processor, each number the lowest of several, so that what else the machine does
 //! counts little.

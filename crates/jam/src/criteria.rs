@@ -1,4 +1,4 @@
-//! The criteria of stability as the paper prints them; negative means stable.
+//! The stability criteria as the paper prints them. A negative value means stable.
 
 use crate::laws::{Algebraic, C, Exponential, Logarithmic};
 

@@ -1,4 +1,4 @@
-//! Taylor's method: the series of the solution about the start of a step, of an order that suits the tolerance.
+//! Taylor's method: the series of the solution about the start of a step, to an order that suits the tolerance.
 //!
 //! The system gives the coefficients by recurrence ([`crate::System::series`]). The last two of them tell how long the
 //! step may be before it is made, so that none is rejected, and the series itself is the solution inside the step

@@ -1,4 +1,4 @@
-//! `[law]`: kind and parameters. A term whose parameter is not named is not computed.
+//! `[law]`: kind and parameters. A term without a named parameter is not computed.
 
 use files::reader::{About, Entry, NOT_NEGATIVE, POSITIVE, Reader, SceneError, Section, Value};
 use formula::{Definition, Given, Place};

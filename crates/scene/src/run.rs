@@ -1,4 +1,4 @@
-//! A scene in time, validated: `[law]`, `[ring]`, `[start]`, `[run]`.
+//! A validated time-dependent scene: `[law]`, `[ring]`, `[start]`, `[run]`.
 
 use crate::law;
 use files::reader::{FINITE, POSITIVE, Reader, SceneError, Section};
@@ -87,7 +87,7 @@ fn read_for(file: &str, tables: &Section, purpose: Purpose) -> Result<Scene, Sce
     }
     let most_steps = most_steps(&mut run, control, t_end, purpose)?;
     if matches!(control, Control::Adaptive { .. }) && t_end < SHORTEST_RUN {
-        let problem = format!("too short for steps of adaptive length; must be at least {SHORTEST_RUN:e}");
+        let problem = format!("too short for adaptive steps; must be at least {SHORTEST_RUN:e}");
         return Err(run.complaint("t_end", &problem));
     }
     let at_overlap = at_overlap(&mut run, &model)?;

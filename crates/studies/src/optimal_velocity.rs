@@ -1,5 +1,6 @@
-//! The laws as optimal-velocity models: without relative speed and widening each reads `x'' = V(s) - x'`. What a change of
-//! the desired speed does then, and from which desired speed on the logarithmic law is unstable in spite of a widening.
+//! The laws as optimal-velocity models: without relative speed and widening each reads `x'' = V(s) - x'`. The tables
+//! show the effect of the desired speed, and from which desired speed on the logarithmic law is unstable in spite of a
+//! widening.
 
 use crate::hard::rows::{Rows, row};
 use crate::thresholds::critical::exponential;

@@ -1,4 +1,4 @@
-//! A cell of a sweep: its scene, and what becomes of it.
+//! A cell of a sweep: its scene and its outcome.
 
 use super::Sweep;
 use jam::outcome::{Class, Verdict};

@@ -1,4 +1,5 @@
-//! A verification as one HTML page: four levels, and the pictures that differ side by side. No request leaves it.
+//! A verification as one HTML page: the four levels, and differing pictures side by side. The page makes no network
+//! request.
 
 use crate::attest::Attestation;
 use crate::findings::Findings;
@@ -32,7 +33,7 @@ pub fn html(findings: &Findings, attested: &[Attestation]) -> Result<String, Fai
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\
          <title>Verification</title><style>{STYLE}</style></head><body>\n<main><h1>Verification</h1>\n\
-         <p>{}</p>\n{}\n{left_out}{}{}<h2>Who got which bits</h2>\n{}</main></body></html>\n",
+         <p>{}</p>\n{}\n{left_out}{}{}<h2>Machines and their bits</h2>\n{}</main></body></html>\n",
         escape(summary),
         table(&findings.rows()),
         claims(findings),

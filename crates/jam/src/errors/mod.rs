@@ -1,4 +1,4 @@
-//! How far the numbers of a run are off: from a second run of the same run, by another method or by other steps.
+//! Error estimates for a run, from a second run with another method or other steps.
 //!
 //! The same method at another tolerance would often take the same steps, those of a short run above all: two runs that are
 //! one differ by nothing. Another method shares neither steps nor coefficients; it is of order 8 and at a smaller tolerance,

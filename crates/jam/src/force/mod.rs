@@ -1,4 +1,4 @@
-//! The force on all pedestrians of a ring at once: what the forms of a state ask of a law.
+//! The force on all pedestrians of a ring, as the forms of the state request it from a law.
 
 pub(crate) mod blocks;
 mod compiled;

@@ -1,4 +1,4 @@
-//! The algebraically decaying force, Eq. (8), eq:invd.
+//! The algebraic force, Eq. (8), eq:invd.
 
 use super::{Chosen, Law, Parameter, RAMP_WIDTH, Range};
 use crate::ramp::Bend;

@@ -1,5 +1,6 @@
-//! The laws of motion, `dv_n/dt = f(s_n, v_n, v_{n+1})`: one file each, with its parameters and the formula as the paper
-//! prints it. Everything else follows from the formula, by what numbers it is carried out with ([`math::number`]).
+//! The laws of motion, `dv_n/dt = f(s_n, v_n, v_{n+1})`. Each has a file with its parameters and the formula as the
+//! paper prints it. Everything else follows from evaluating that formula with different kinds of numbers
+//! ([`math::number`]).
 //!
 //! A parameter that is zero names no term: the formula leaves it out.
 

@@ -1,4 +1,4 @@
-//! Which form of the state suits a run, and whether its start has a value.
+//! Chooses the form of the state for a run, and checks that the law has a value at the start.
 
 use crate::laws::Model;
 use crate::ring::{Ring, Start};

@@ -1,4 +1,4 @@
-//! One run from its start to its end: samples, events, what it cost, the last state, and what became of it.
+//! A run from start to end: samples, events, cost, final state, outcome.
 //!
 //! [`Run`] says what is integrated and what is kept, [`run`] does it, [`Outcome`] is what it gives. A [`RunObserver`] looks on;
 //! [`Checkpoint`] is a run between two of its steps, as bytes, from which [`run_from`] goes on to the same bits.

@@ -1,4 +1,4 @@
-//! Every method has its order on every law.
+//! Every method attains its order on every law.
 
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
 use jam::ring::{Ring, Start};

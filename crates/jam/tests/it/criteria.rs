@@ -1,4 +1,4 @@
-//! The paper's criteria against the exact margin, and the lines where they vanish.
+//! The paper's criteria against the exact margin, and the lines on which they vanish.
 
 use crate::sample::{Random, algebraic, exponential};
 use jam::criteria;

@@ -1,4 +1,4 @@
-//! The laws written as differences from the uniform flow are the printed laws, and stay accurate for small deviations.
+//! The laws as differences from the uniform flow agree with the printed laws and stay accurate for small deviations.
 
 use crate::sample::{Random, algebraic, deviation, laws, variants};
 use jam::laws::{Algebraic, Model};

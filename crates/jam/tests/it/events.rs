@@ -1,4 +1,4 @@
-//! Events of constructed trajectories: when, who, and in which order.
+//! Events of constructed trajectories: their times, pedestrians and order.
 
 use jam::events::{BLOW_UP, Event, EventKind, Watch};
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};

@@ -1,4 +1,4 @@
-//! Waves in simulations grow, decay and travel as the linear theory says.
+//! Waves in simulations grow, decay and travel as the linear theory predicts.
 
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
 use jam::ring::Ring;

@@ -1,4 +1,5 @@
-//! Steps of Heun's scheme made many at once: the bits of the scheme as printed, at every width, size and cut.
+//! Batches of Heun steps have the bits of the scheme as printed, for every vector width, ring size and division into
+//! blocks.
 
 use crate::sample::{Random, paper_laws, variants};
 use jam::laws::{Exponential, Logarithmic, Model};

@@ -1,4 +1,4 @@
-//! Random numbers, the same in every run, and random laws of every combination of terms.
+//! Reproducible random numbers, and random laws with every combination of terms.
 
 use jam::force::Flow;
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};

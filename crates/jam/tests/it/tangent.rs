@@ -1,4 +1,4 @@
-//! The linearised equations that a ring tells, against the equations themselves.
+//! The linearised equations of a ring against differences of the equations themselves.
 
 use crate::sample::{Random, laws};
 use jam::ring::Ring;

@@ -1,4 +1,4 @@
-//! The uniform flow: its speed, and that it stays to the last bit.
+//! The uniform flow: its speed, and that it persists to the last bit.
 
 use crate::sample::{HEADWAYS, Random, laws, paper_laws};
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
@@ -55,7 +55,7 @@ fn no_uniform_flow_where_there_is_no_room() {
         [(&algebraic, 2.0), (&algebraic, 1.5), (&exponential, 2.0), (&exponential, 0.1), (&logarithmic, 0.0)]
     {
         let error = steady_speed(model, headway).expect_err("no room");
-        let words = "at no speed from -1e12 v_0 to v_0 does the drive balance the force with room left; a longer ring, fewer pedestrians or a weaker force has a uniform flow";
+        let words = "at no speed from -1e12 v_0 to v_0 does the drive balance the force at a positive gap; a longer ring, fewer pedestrians or a weaker force has a uniform flow";
         assert_eq!(error.to_string(), format!("no uniform flow at headway L/N = {headway:?}: {words}"));
     }
     // a contact force so stiff that only backwards motion, in an ever narrower room, would balance it

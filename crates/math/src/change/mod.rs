@@ -1,4 +1,4 @@
-//! The difference of a formula from its value at a reference, without cancellation.
+//! The difference of a formula from its value at a reference state, without cancellation.
 //!
 //! A formula is carried out twice. First at the reference, with [`Reference`] numbers: every operation that is not linear
 //! leaves on a [`Tape`] what it needs of the reference. Then with [`Change`]s, as often as wanted: the operations take

@@ -1,4 +1,4 @@
-//! Power series of a formula along a motion, one order after another.
+//! Power series of a formula along a motion, computed order by order.
 //!
 //! Each operation has a recurrence for its next coefficient ([`recurrences`]). A formula is carried out once for each
 //! order, with [`Jet`]s that hold the coefficients of this order: linear operations act on these, the others read and

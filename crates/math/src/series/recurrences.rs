@@ -1,4 +1,5 @@
-//! The next coefficient of an operation's result, from those of its operands and the earlier ones.
+//! Recurrences for the next coefficient of an operation's result, from the coefficients of its operands and its own
+//! earlier ones.
 //!
 //! An elementary function solves a differential equation of its own, which is a recurrence for its coefficients (R. E.
 //! Moore, *Interval Analysis*, 1966, chapter 11; E. Hairer, S. P. Norsett, G. Wanner, *Solving Ordinary Differential

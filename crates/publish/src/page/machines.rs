@@ -1,4 +1,4 @@
-//! Who got the same bits: the lines that `verify --attest` has added, against the committed sums.
+//! Which machines got the same bits: the lines added by `verify --attest`, compared with the committed sums.
 
 use super::html::{escape, table};
 use super::source::Source;

@@ -1,4 +1,4 @@
-//! The laws, written twice, agree to the rounding of a double.
+//! The two implementations of the laws agree to rounding.
 
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
 use math::double_double::{DoubleDouble, decimal};

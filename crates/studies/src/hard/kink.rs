@@ -1,4 +1,4 @@
-//! Case 3: the width of the smooth ramp goes to 0 and the right-hand side to a kink: how the orders of the schemes fall.
+//! Case 3: the order of each scheme as the width of the smooth ramp goes to 0 and the right-hand side acquires a kink.
 
 use super::Tables;
 use super::rows::{Rows, row};

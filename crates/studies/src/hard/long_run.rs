@@ -1,4 +1,4 @@
-//! Case 7: long runs: drift of the sum of the gaps and of the mean speed, in every form of the state.
+//! Case 7: long runs: drift of the sum of the spacings and of the mean speed, in every form of the state.
 
 use super::Tables;
 use super::fixed_steps::name;

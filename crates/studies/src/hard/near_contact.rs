@@ -1,4 +1,5 @@
-//! Case 2: two pedestrians, one running into the other: the room goes to 0+ and back, for several powers of the force.
+//! Case 2: one pedestrian runs into another: the gap shrinks to nearly 0 and opens again, for several exponents of the
+//! force.
 
 use super::Tables;
 use super::rows::{Rows, row};

@@ -1,4 +1,4 @@
-//! Runs of a ring as the hard cases need them: any form, any method, and what ended each.
+//! Runs of a ring for the hard cases: any form, any method, and the reason why each ended.
 
 use figures::failure::Failure;
 use jam::events::{Event, Watch};

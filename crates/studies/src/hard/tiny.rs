@@ -1,4 +1,4 @@
-//! Case 12: perturbations too small for a square, and none at all.
+//! Case 12: perturbations whose square underflows, and no perturbation at all.
 
 use super::Tables;
 use super::fixed_steps::name;

@@ -1,5 +1,4 @@
-//! Case 9: space requirements that grow with speed: `a_v >= 1` is stable whatever the force; negative speeds make
-//! `a_n + a_{n+1}` vanish.
+//! Case 9: velocity-dependent size: `a_v >= 1` is stable for any force; negative speeds make `a_n + a_{n+1}` vanish.
 
 use super::Tables;
 use super::fixed_steps::name;

@@ -1,5 +1,5 @@
-//! The largest Lyapunov exponent of a run: how fast two that began side by side part, brought close again and again
-//! (Benettin's method).
+//! The largest Lyapunov exponent of a run by Benettin's method: two neighbouring trajectories diverge and are
+//! repeatedly brought close again.
 
 use super::Scheme;
 use crate::draw::Draw;

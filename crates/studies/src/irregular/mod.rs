@@ -1,6 +1,6 @@
-//! An irregular wave train of the algebraic law with widening: what of it is certain. Its trajectories are not, beyond some
-//! time: two methods part. Nor is the time at which it becomes regular. The regular train that it becomes is, and so are
-//! means, as far as methods and starts agree about them.
+//! An irregular wave train of the algebraic law with widening, and which of its properties are reproducible. Its
+//! trajectories are not beyond some time, when two methods part, nor is the time at which it becomes regular. The
+//! regular train that follows is reproducible, and so are means, as far as methods and starts agree about them.
 
 mod lyapunov;
 mod observed;

@@ -1,4 +1,4 @@
-//! Growth rates of all waves, measured one by one in runs, against `Re z^+` of the linear theory.
+//! Growth rates of all waves, each measured in a run, against `Re z^+` of the linear theory.
 
 use super::{Extent, figure_4_stable};
 use crate::hard::Tables;

@@ -1,4 +1,4 @@
-//! Random laws: whether the criterion for long waves tells the stability of all of them, and what the two roots are.
+//! Random laws: whether the criterion for long waves decides the stability of all of them, and the two roots.
 
 use super::critical::{algebraic, wave_numbers};
 use crate::draw::Draw;

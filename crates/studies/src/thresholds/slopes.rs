@@ -1,4 +1,4 @@
-//! Slopes that the source uses: that of the smooth ramp, and that of the optimal velocity.
+//! Slopes that the source uses: of the smooth ramp, and of the optimal velocity.
 
 use crate::hard::rows::{Rows, row};
 use figures::failure::Failure;

@@ -1,5 +1,5 @@
-//! What a space requirement that grows with speed does to stability: at a given effective distance, as the figures of
-//! the paper show it, and at a given density, where it takes away distance.
+//! The effect of velocity-dependent size on stability: at a given effective gap, as in the figures of the paper, and at
+//! a given density, where it reduces the gap.
 
 use super::critical::{algebraic, exponential};
 use crate::hard::rows::{Rows, row};

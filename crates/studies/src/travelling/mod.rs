@@ -1,5 +1,6 @@
-//! Travelling waves of the algebraic law with relative speed on a ring, stable or not, without a run: from where the uniform
-//! flow becomes unstable, along their amplitude. Runs from some of them say whether they last.
+//! Travelling waves of the algebraic law with relative speed on a ring, stable or not, computed without runs: a branch
+//! is followed along its amplitude from the onset of instability. Runs that start from some of the waves show whether
+//! they last.
 
 mod elimination;
 mod presets;

@@ -1,5 +1,5 @@
-//! The outcome of one run of each preset of the algebraic law (tab:model), beyond the threshold of its uniform flow if it
-//! has one.
+//! The outcome of one run for each preset of the algebraic law (tab:model), beyond the threshold of its uniform flow if
+//! it has one.
 
 use super::GAP;
 use crate::hard::rows::{Rows, row};

@@ -1,5 +1,5 @@
-//! What the ledger reads: critical values against formulas worked out by hand, jams seen at other samples, the maps that are
-//! counted, distances of curves.
+//! Tables that the ledger reads: critical values against formulas derived by hand, jams at other samples, counted maps,
+//! distances of curves.
 
 use crate::root;
 use files::scene_file::{self, Kind};
