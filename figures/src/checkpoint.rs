@@ -84,6 +84,11 @@ impl CheckpointOptions {
         Ok(Ended { outcome, broken, seconds, resumed_steps: steps, propagated })
     }
 
+    /// Whether the outcome of the run is judged.
+    pub fn judging(&self) -> Judging {
+        if self.no_outcome { Judging::No } else { Judging::Along }
+    }
+
     /// Removes the checkpoint of a run whose results are safe.
     ///
     /// # Errors
@@ -186,7 +191,7 @@ impl<'a> CheckpointWriter<'a> {
 
 impl RunObserver for CheckpointWriter<'_> {
     fn judging(&self) -> Judging {
-        if self.care.no_outcome { Judging::No } else { Judging::Along }
+        self.care.judging()
     }
 
     fn between(&mut self, underway: &PartialRun<'_>) {

@@ -5,6 +5,7 @@
 //! errors move much faster than they, if the law does not tell its linearised equations; and those that went on from a
 //! checkpoint, which does not keep the errors before it.
 
+use super::confirmed::last_before;
 use super::{Errors, ROUNDINGS, has_kinks, largest, largest_std, loses_shift, of_headway, unseen};
 use crate::events::{Event, EventKind};
 use crate::run::{Outcome, Run, RunObserver, Sight};
@@ -42,6 +43,8 @@ pub struct Propagated {
     t_end: f64,
     /// Of the times of events within steps.
     events: Vec<f64>,
+    /// The time at which a shift that spacings lose would have become a visible part of them.
+    shows: Option<f64>,
 }
 
 /// A moment before a blow-up at which the error was a small part of the state.
@@ -57,6 +60,9 @@ struct LastKnown {
 
 /// Who is so much faster than pedestrians want to be has been thrown back.
 const THROWN: f64 = 4.0;
+
+/// A shift that has grown to this part of the clearance is no small difference any more.
+const VISIBLE: f64 = 0.1;
 
 /// Larger parts of the state do not follow linearised equations.
 const SMALL: f64 = 1e-3;
@@ -151,6 +157,7 @@ impl Propagated {
             last_known: None,
             t_end: run.t_end,
             events: Vec::new(),
+            shows: None,
         }
     }
 
@@ -170,6 +177,11 @@ impl Propagated {
         }
         if let Some(lost) = &mut self.lost {
             lost.carry(step);
+            let limit = VISIBLE * self.clearance;
+            let is_seen = lost.after().is_some_and(|lost| largest(&lost[..n]) > limit);
+            if is_seen && self.shows.is_none() {
+                self.shows = Some(time_of(lost, step, n, limit));
+            }
         }
         // deviations are rounded as parts of themselves, equal motion alike; else drive, speed and force each are
         let is_in_gaps = dimension == 2 * n + 1;
@@ -281,6 +293,7 @@ impl Propagated {
             speeds: end(&speeds, &outcome.speeds).map(|error| error + ROUNDINGS * run.model.desired_speed().abs()),
             events: self.of_events(&outcome.events),
             cost: 0.0,
+            confirmed_until: self.shows.map(|time| last_before(outcome, time)),
         })
     }
 
@@ -294,6 +307,20 @@ impl Propagated {
         events.iter().map(error).collect()
     }
 }
+
+/// The time in a step at which a difference in spacings grows beyond this.
+fn time_of(shadow: &Shadow, step: &mut Step<'_>, n: usize, limit: f64) -> f64 {
+    let (mut before, mut past, mut error) = (0.0, 1.0, vec![0.0; shadow.dimension()]);
+    while past - before > FINE {
+        let middle = 0.5 * (before + past);
+        shadow.at(step, middle, &mut error);
+        if largest(&error[..n]) > limit { past = middle } else { before = middle }
+    }
+    step.start + before * step.length()
+}
+
+/// The part of a step to which that is sought.
+const FINE: f64 = 1e-3;
 
 /// Whether everybody has the same spacing and the same speed, to the last bit, in a state of spacings.
 fn is_uniform(state: &[f64], n: usize) -> bool {
