@@ -62,7 +62,7 @@ fn end(scene: &Scene, watch: &mut Watch<'_>) -> Ended {
         Ok(outcome) => (outcome, None),
         Err(broken) => (*broken.outcome.clone(), Some(broken)),
     };
-    Ended { outcome, broken, seconds: 0.0, resumed_steps: 0, propagated }
+    Ended { outcome, broken, seconds: 0.0, resumed_steps: 0, propagated: Some(propagated) }
 }
 
 /// Tells what is seen.

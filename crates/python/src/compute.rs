@@ -37,8 +37,12 @@ pub fn simulate<'py>(
         watch.turn_to(scene.t_end, 0.0, share);
         watch.judging = if outcome { Judging::Along } else { Judging::No };
         let clock = ThreadTime::now();
-        let (made, propagated) =
-            if check { run_propagated(&scene, &mut watch) } else { (run_from(&scene, None, &mut watch), None) };
+        let (made, propagated) = if check {
+            let (made, propagated) = run_propagated(&scene, &mut watch);
+            (made, Some(propagated))
+        } else {
+            (run_from(&scene, None, &mut watch), None)
+        };
         let (outcome, broken) = match made {
             Ok(outcome) => (outcome, None),
             Err(broken) => (*broken.outcome.clone(), Some(broken)),

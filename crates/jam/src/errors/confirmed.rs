@@ -20,7 +20,7 @@ pub fn refused(
         let shorter = Run { t_end: time, ..run.clone() };
         let (made, propagated) = run_propagated(&shorter, observer);
         let made = made.unwrap_or_else(|broken| *broken.outcome);
-        let errors = errors_of(&shorter, &made, propagated.as_ref(), &mut ());
+        let errors = errors_of(&shorter, &made, Some(&propagated), &mut ());
         (made, Errors { confirmed_until: None, ..errors })
     } else {
         let made = untried(run, observer);

@@ -7,6 +7,7 @@
 
 mod confirmed;
 mod propagated;
+mod recent;
 mod second;
 
 pub use confirmed::refused;
@@ -57,20 +58,17 @@ pub(crate) const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 pub fn stated(run: &Run) -> Result<(Outcome, Errors), Broken> {
     let (made, propagated) = run_propagated(run, &mut ());
     let outcome = made?;
-    let errors = errors_of(run, &outcome, propagated.as_ref(), &mut ());
+    let errors = errors_of(run, &outcome, Some(&propagated), &mut ());
     match refused(run, &outcome, &errors, &mut ()) {
         Some((broken, _)) => Err(broken),
         None => Ok((outcome, errors)),
     }
 }
 
-/// Makes a run whose steps are asked for their errors, if its method tells them.
-pub fn run_propagated(run: &Run, observer: &mut dyn RunObserver) -> (Result<Outcome, Broken>, Option<Propagated>) {
-    let mut propagated = run.method.needs_series().then(|| Propagated::new(run));
-    let made = match &mut propagated {
-        Some(propagated) => run_from(run, None, &mut (observer, propagated)),
-        None => run_from(run, None, observer),
-    };
+/// Makes a run whose steps are asked for what tells its errors.
+pub fn run_propagated(run: &Run, observer: &mut dyn RunObserver) -> (Result<Outcome, Broken>, Propagated) {
+    let mut propagated = Propagated::new(run);
+    let made = run_from(run, None, &mut (observer, &mut propagated));
     (made, propagated)
 }
 
@@ -82,12 +80,15 @@ pub fn errors_of(
     onlooker: &mut dyn RunObserver,
 ) -> Errors {
     let told = propagated.and_then(|propagated| propagated.errors(run, outcome));
-    told.unwrap_or_else(|| Second::new(run, outcome, onlooker).errors(run, outcome))
+    told.unwrap_or_else(|| {
+        let instants = propagated.map_or(Vec::new(), |propagated| propagated.instants(run));
+        Second::new(run, outcome, &instants, onlooker).errors(run, outcome, &instants)
+    })
 }
 
 /// Runs the scene once more and compares.
 pub fn errors(run: &Run, outcome: &Outcome) -> Errors {
-    Second::new(run, outcome, &mut ()).errors(run, outcome)
+    Second::new(run, outcome, &[], &mut ()).errors(run, outcome, &[])
 }
 
 /// Whether the law has bends of no width.

@@ -1,5 +1,6 @@
 //! A second run of a run, and what the difference of both tells.
 
+use super::recent::{Compared, Instant};
 use super::{CAUTION, Errors, ROUNDINGS, confirmed, has_kinks, largest, largest_std, loses_shift, of_headway};
 use crate::events::{Event, EventKind};
 use crate::run::{Outcome, Run, RunObserver, has_deviations, run_from};
@@ -38,6 +39,8 @@ pub(super) struct Second {
     /// The error of the run over the difference of both.
     pub factor: f64,
     pub outcome: Outcome,
+    /// What it is where the last steps of the run end.
+    instants: Vec<Instant>,
     /// The right-hand sides of this run, and of one before it that told too little.
     evaluations: u64,
 }
@@ -45,8 +48,11 @@ pub(super) struct Second {
 impl Second {
     /// Makes it: of steps of fixed length by longer ones, which cost less, or by shorter ones where those do not confirm the
     /// run. Somebody may look on.
-    pub fn new(run: &Run, outcome: &Outcome, onlooker: &mut dyn RunObserver) -> Second {
-        let Control::Fixed { step } = run.control else { return by_tolerance(run, outcome, onlooker) };
+    pub fn new(run: &Run, outcome: &Outcome, instants: &[Instant], onlooker: &mut dyn RunObserver) -> Second {
+        let step = match run.control {
+            Control::Adaptive { tolerance } => return by_tolerance(run, outcome, tolerance, instants, onlooker),
+            Control::Fixed { step } => step,
+        };
         let made = if step < run.t_end { step } else { run.t_end };
         let ratio = match order_seen(run) {
             // a longer step would be cut to the same one
@@ -64,7 +70,7 @@ impl Second {
     }
 
     /// The errors of the run.
-    pub fn errors(&self, run: &Run, outcome: &Outcome) -> Errors {
+    pub fn errors(&self, run: &Run, outcome: &Outcome, instants: &[Instant]) -> Errors {
         let (factor, other) = (self.factor, &self.outcome);
         let difference = |numbers: &[f64], others: &[f64]| factor * difference(numbers, others);
         let gathered = gathered(run, outcome);
@@ -74,9 +80,12 @@ impl Second {
         let is_through_wall = is_through_wall(run, outcome);
         let is_shift_lost = loses_shift(run) && self.form != StateVariables::Deviations;
         let has_std = ends_alike && confirmed::reaches(outcome, other) && !is_shift_lost;
-        let state = |numbers: fn(&Outcome) -> &[f64]| {
-            (ends_alike && is_same_time && !is_through_wall)
-                .then(|| difference(numbers(outcome), numbers(other)) + gathered * largest(numbers(outcome)))
+        let is_known = ends_alike && is_same_time && !is_through_wall;
+        let state = |numbers: fn(&Outcome) -> &[f64], before: fn(&Instant) -> &[f64]| {
+            let last = instants.iter().zip(&self.instants);
+            let at_last = last.map(|(one, other)| difference(before(one), before(other)));
+            let all = at_last.fold(difference(numbers(outcome), numbers(other)), larger);
+            is_known.then(|| all + gathered * largest(numbers(outcome)))
         };
         // the drive and the force may cancel
         let desired = ROUNDINGS * run.model.desired_speed().abs();
@@ -86,8 +95,9 @@ impl Second {
                 let difference = difference(&outcome.samples.std, &other.samples.std);
                 difference + gathered * largest(&outcome.samples.std) + self.rounding(run, outcome) + f64::MIN_POSITIVE
             }),
-            positions: state(|outcome| &outcome.positions).map(|error| error + ROUNDINGS * largest(&outcome.positions)),
-            speeds: state(|outcome| &outcome.speeds).map(|error| error + desired),
+            positions: state(|outcome| &outcome.positions, |instant| &instant.positions)
+                .map(|error| error + ROUNDINGS * largest(&outcome.positions)),
+            speeds: state(|outcome| &outcome.speeds, |instant| &instant.speeds).map(|error| error + desired),
             events: outcome
                 .events
                 .iter()
@@ -118,27 +128,32 @@ fn is_through_wall(run: &Run, outcome: &Outcome) -> bool {
 }
 
 /// By another method at a smaller tolerance.
-fn by_tolerance(run: &Run, outcome: &Outcome, onlooker: &mut dyn RunObserver) -> Second {
-    let Control::Adaptive { tolerance } = run.control else {
-        unreachable!("steps of adaptive length have a tolerance")
-    };
+fn by_tolerance(
+    run: &Run,
+    outcome: &Outcome,
+    tolerance: f64,
+    instants: &[Instant],
+    onlooker: &mut dyn RunObserver,
+) -> Second {
     let method = if run.method == Method::Dop853 { Method::Verner87 } else { Method::Dop853 };
     let tighter = tolerance * if run.method.order() < HIGH { TIGHTER } else { TIGHTER_IF_HIGH };
     let control = Control::Adaptive { tolerance: if tighter > TIGHTEST { tighter } else { TIGHTEST } };
     let second = Run { method, control, most_steps: most_steps(run, outcome), ..again(run, outcome) };
-    made(&second, AGREEMENT, onlooker)
+    made(&second, AGREEMENT, instants, onlooker)
 }
 
 /// By the same method with steps of so many times the length.
 fn by_steps(run: &Run, outcome: &Outcome, [step, ratio]: [f64; 2], onlooker: &mut dyn RunObserver) -> Second {
     let growth = (0..order_seen(run)).fold(1.0, |power: f64, _| power * ratio);
     let second = Run { control: Control::Fixed { step: ratio * step }, ..again(run, outcome) };
-    made(&second, CAUTION / (growth - 1.0).abs(), onlooker)
+    made(&second, CAUTION / (growth - 1.0).abs(), &[], onlooker)
 }
 
-fn made(second: &Run, factor: f64, onlooker: &mut dyn RunObserver) -> Second {
-    let outcome = run_from(second, None, onlooker).unwrap_or_else(|broken| *broken.outcome);
-    Second { form: second.form, factor, evaluations: outcome.statistics.evaluations, outcome }
+fn made(second: &Run, factor: f64, instants: &[Instant], onlooker: &mut dyn RunObserver) -> Second {
+    let mut compared = Compared { run: second, first: instants, second: Vec::new(), onlooker };
+    let outcome = run_from(second, None, &mut compared).unwrap_or_else(|broken| *broken.outcome);
+    let instants = compared.second;
+    Second { form: second.form, factor, instants, evaluations: outcome.statistics.evaluations, outcome }
 }
 
 /// The same run to the time that it reached, in deviations where it can be.
@@ -181,7 +196,6 @@ fn gathered(run: &Run, outcome: &Outcome) -> f64 {
 
 /// The largest difference, and what rounding leaves open.
 fn difference(numbers: &[f64], others: &[f64]) -> f64 {
-    let larger = |a: f64, b: f64| if a >= b || a.is_nan() { a } else { b };
     let differences = numbers.iter().zip(others).map(|(number, other)| (number - other).abs());
     differences.fold(ROUNDINGS * largest(numbers), larger)
 }
@@ -191,4 +205,9 @@ fn time_error(event: &Event, others: &[Event]) -> Option<f64> {
     let same_kind = || others.iter().filter(|other| other.kind == event.kind);
     let same = same_kind().find(|other| other.pedestrian == event.pedestrian).or_else(|| same_kind().next());
     same.map(|other| difference(&[event.time], &[other.time]))
+}
+
+/// The larger of two; NaN if there is one.
+fn larger(a: f64, b: f64) -> f64 {
+    if a >= b || a.is_nan() { a } else { b }
 }
