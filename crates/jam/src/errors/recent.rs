@@ -8,7 +8,7 @@ use ode::Step;
 use std::collections::VecDeque;
 
 /// So many instants are kept.
-const KEPT: usize = 4;
+const KEPT: usize = 3;
 
 /// States at the ends of the last steps, with their times.
 #[derive(Clone, Debug, Default)]

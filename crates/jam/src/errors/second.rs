@@ -62,7 +62,7 @@ impl Second {
         };
         let first = by_steps(run, outcome, [made, ratio], onlooker);
         let is_enough = confirmed::reaches(outcome, &first.outcome) && confirmed::until(run, outcome, &first).is_none();
-        if is_enough || ratio == SHORTER {
+        if is_enough || ratio < 1.0 {
             return first;
         }
         let second = by_steps(run, outcome, [made, SHORTER], onlooker);
