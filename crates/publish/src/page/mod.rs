@@ -154,7 +154,7 @@ fn distances(source: &Source<'_>) -> Result<BTreeMap<&'static str, String>, Fail
         let mean = (sum / differences.len() as f64).sqrt();
         let largest =
             differences.iter().fold(0.0, |most: f64, value| if value.abs() > most { value.abs() } else { most });
-        let verdict = if largest <= reading { "within the error of reading" } else { "beyond the error of reading" };
+        let verdict = if largest <= reading { "within the reading error" } else { "beyond the reading error" };
         rows.push(vec![
             html::escape(set.title),
             html::code(&format!("data/reference/{}.csv", set.file)),
@@ -171,7 +171,7 @@ fn distances(source: &Source<'_>) -> Result<BTreeMap<&'static str, String>, Fail
         "points",
         "largest difference",
         "root of the mean square",
-        "error of reading",
+        "reading error",
         "verdict",
     ];
     Ok(BTreeMap::from([("distances", html::table("Published minus regenerated numbers", &head, &rows))]))
