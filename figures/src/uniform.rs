@@ -16,7 +16,8 @@ pub fn in_words(flow: Option<Stability>, count: usize) -> String {
     };
     match growing {
         Some((least, largest)) => {
-            let range = if least == 0.0 { format!("k < {largest:.4}") } else { format!("{least:.4} < k < {largest:.4}") };
+            let range =
+                if least == 0.0 { format!("k < {largest:.4}") } else { format!("{least:.4} < k < {largest:.4}") };
             format!("{flow}: unstable (margin {margin:.4}), waves with {range} grow; {on_ring}")
         }
         None if margin == 0.0 => format!("{flow}: neutral (margin 0), no wave grows, but not all decay; {on_ring}"),

@@ -35,9 +35,9 @@ impl<'a> From<&'a str> for Given<'a> {
 pub struct Definition<'a> {
     /// The key.
     pub name: &'a str,
-    /// Where the key stands.
+    /// The position of the key.
     pub key: Place,
-    /// Where the value stands: the number, or the first character of the string behind the quotation mark.
+    /// The position of the value: of the number, or of the first character of the string after the quotation mark.
     pub value: Place,
     /// The value.
     pub given: Given<'a>,
@@ -191,11 +191,7 @@ fn order(definitions: &[Definition<'_>], uses: &[Vec<(usize, Place)>]) -> Result
                             let inside = path.iter().map(|(open, _)| *open).skip_while(|open| open != next);
                             let circle: Vec<&str> = inside.chain([*next]).map(|open| definitions[open].name).collect();
                             let found = format!("circular definitions: {}", circle.join(" -> "));
-                            return Err(Problem::new(
-                                *place,
-                                found,
-                                "named expressions without circular references",
-                            ));
+                            return Err(Problem::new(*place, found, "named expressions without circular references"));
                         }
                     }
                 }

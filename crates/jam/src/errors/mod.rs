@@ -15,7 +15,8 @@ use crate::run::{Broken, Outcome, Run, RunObserver, has_deviations, run_from};
 use crate::states::StateVariables;
 use ode::{Control, Method};
 
-/// Estimated errors, in the units of the numbers; `None` where the second run says nothing, having ended elsewhere.
+/// Estimated errors, in the units of the numbers; `None` where the second run gives no estimate because it ended
+/// elsewhere.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Errors {
     /// The largest of the standard deviation over all samples.
@@ -44,10 +45,11 @@ const TIGHTEST: f64 = 3e-15;
 /// Ends of both runs that are this near, relative to the time, are one.
 const SAME_TIME: f64 = 1e-9;
 
-/// No number is known better than to so many roundings of the largest of its kind.
+/// Least error of a number, in roundings of the largest number of its kind.
 pub(crate) const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
-/// Makes a run and estimates the errors of its numbers, by its steps where they tell them, else by a second run.
+/// Makes a run and estimates the errors of its results: from its steps if they estimate theirs, otherwise from a second
+/// run.
 ///
 /// ```
 /// use jam::laws::{Logarithmic, Model};
@@ -97,7 +99,7 @@ pub fn errors(run: &Run, outcome: &Outcome) -> Errors {
     errors_seen(run, outcome, &mut ())
 }
 
-/// The same, with somebody who looks on while the scene runs once more.
+/// The same, with an observer of the second run.
 fn errors_seen(run: &Run, outcome: &Outcome, onlooker: &mut dyn RunObserver) -> Errors {
     let Second { run: second, factor } = second(run, outcome);
     let other = run_from(&second, None, onlooker).unwrap_or_else(|broken| *broken.outcome);

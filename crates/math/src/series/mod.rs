@@ -36,7 +36,7 @@ impl<const W: usize> Block<W> {
     }
 }
 
-/// The memory of an operation that is not linear: so many rows of a block for each order.
+/// The memory of an operation that is not linear: a number of rows of a block for each order.
 pub const ROWS: usize = recurrences::ROWS;
 
 /// Where the operations of a formula keep earlier coefficients, for `W` pedestrians: [`ROWS`] rows for each operation that
