@@ -8,7 +8,7 @@
 //! is fused or reordered. Elsewhere (ARM, WebAssembly) there is one copy only.
 #![allow(unsafe_code)] // the only module that needs it: see `dispatch_up_to`
 
-/// A computation that is worth compiling for several widths: its arguments.
+/// A computation compiled for several widths, with its arguments.
 pub trait Kernel {
     /// What the computation returns; `()` if it writes to slices it holds.
     type Output;

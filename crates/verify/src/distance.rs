@@ -36,7 +36,7 @@ pub const COLUMNS: [&str; 15] = [
 const PUBLISHED: [(&str, &str, &str, &str); 2] =
     [("fig12", "t300", "v", "published_speed_t300"), ("fig13", "std", "std", "published_std_log")];
 
-/// Writes the table of distances wherever the tables of both schemes are there, and tells it.
+/// Writes and prints the table of distances, for figures whose tables by both schemes exist.
 ///
 /// # Errors
 /// A table cannot be read, or the distances not be written.

@@ -34,7 +34,7 @@ pub enum Pace {
     Wide,
 }
 
-/// Applies the function to everybody on the ring.
+/// Applies the function to all pedestrians of the ring.
 #[inline(always)]
 pub fn around<B: Block>(block: &B, pace: Pace, first: &[f64], second: &[f64], result: &mut [f64]) {
     let n = first.len();

@@ -32,7 +32,7 @@ pub enum Range {
     NotNegative,
 }
 
-/// A parameter of a law: its name in scenes and on axes, and what it may be.
+/// A parameter of a law: its name in scenes and on axes, and its range.
 #[derive(Debug)]
 pub struct Parameter<L> {
     /// The name.
@@ -174,7 +174,7 @@ pub enum Model {
     Own(Own),
 }
 
-/// Does something with whatever law it is.
+/// Calls a function with the concrete law.
 macro_rules! each {
     ($model:expr, $law:ident => $action:expr, $formula:ident => $other:expr, $own:ident => $own_action:expr) => {
         match $model {
@@ -214,8 +214,8 @@ fn is_singular<L: Law>(_law: &L) -> bool {
 }
 
 impl Model {
-    /// A law that is a Rust type of your own (see [`Law`]). What takes a `Model` then takes it: runs, events, outcome,
-    /// stability, maps and jams.
+    /// A law that is a Rust type of your own (see [`Law`]). Everything that takes a `Model` accepts it: runs, events,
+    /// outcome, stability, maps and jams.
     ///
     /// # Errors
     /// A parameter out of its range; an effective gap that is not linear with constant slopes, or not 0 where two touch at
@@ -338,7 +338,7 @@ impl Model {
         each!(self, law => law.effective_gap(0.0, 1.0, 0.0) == 0.0, _formula => false, own => own.has_plain_gap())
     }
 
-    /// Whether the acceleration has kinks, at which its derivatives jump; of a law of your own nobody knows, so it may.
+    /// Whether the acceleration has kinks, at which its derivatives jump; a law of your own is assumed to have kinks.
     pub fn may_have_kinks(&self) -> bool {
         match self {
             Model::Algebraic(_) | Model::Exponential(_) | Model::Logarithmic(_) => false,

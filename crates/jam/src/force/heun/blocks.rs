@@ -51,7 +51,7 @@ pub(super) fn in_blocks<L: Law>(law: L, steps: Steps, cut: Cut, state: &mut [f64
     true
 }
 
-/// As many steps of everybody as a block makes at a time.
+/// The number of steps that a block makes at a time.
 fn round<L: Law>(law: L, steps: Steps, cut: Cut, state: &mut [f64]) -> bool {
     let parts = parts(steps.count, cut.threads, state);
     if parts.len() == 1 {
