@@ -125,9 +125,11 @@ impl Stepper for Taylor {
     fn defect(&mut self, ends: &Ends<'_>, norm: &Norm) -> f64 {
         let h = ends.h / self.unit;
         let coefficients = &self.coefficients[self.dimension..];
-        for range in self.forced.iter().cloned() {
-            let rates = ends.rates_after;
-            dispatch(Defect { coefficients, range, h, length: ends.h, rates, defect: &mut self.defect });
+        let (Some(first), Some(last)) = (self.forced.first(), self.forced.last()) else { return 0.0 };
+        let range = first.start..last.end;
+        dispatch(Defect { coefficients, range, h, length: ends.h, rates: ends.rates_after, defect: &mut self.defect });
+        for pair in self.forced.windows(2) {
+            self.defect[pair[0].end..pair[1].start].fill(0.0);
         }
         self.has_defect = true;
         norm.of(&self.defect)
@@ -249,7 +251,9 @@ impl<const WHOLE: bool> Kernel for Change<'_, WHOLE> {
     fn run(mut self) {
         let n = self.result.len();
         if n < LANES {
-            (0..n).for_each(|from| self.lanes::<1>(from));
+            for from in 0..n {
+                self.lanes::<1>(from);
+            }
             return;
         }
         if n >= WIDE {
@@ -301,12 +305,20 @@ impl Kernel for Defect<'_> {
     #[inline(always)]
     fn run(mut self) {
         let Range { start, end } = self.range;
-        if end - start < LANES {
-            (start..end).for_each(|from| self.lanes::<1>(from));
-            return;
-        }
-        for from in (start..end).step_by(LANES) {
-            self.lanes::<LANES>(from.min(end - LANES));
+        let count = end - start;
+        // loops, not iterators: what these call would not be compiled for the registers of the kernel
+        if count < LANES {
+            for from in start..end {
+                self.lanes::<1>(from);
+            }
+        } else if count < WIDE {
+            for from in (start..end).step_by(LANES) {
+                self.lanes::<LANES>(from.min(end - LANES));
+            }
+        } else {
+            for from in (start..end).step_by(WIDE) {
+                self.lanes::<WIDE>(from.min(end - WIDE));
+            }
         }
     }
 }

@@ -92,7 +92,9 @@ impl<const STARTED: bool> Kernel for WeightedSum<'_, STARTED> {
     fn run(mut self) {
         let n = self.result.len();
         if n < WIDE {
-            (0..n).for_each(|from| self.lanes::<1>(from));
+            for from in 0..n {
+                self.lanes::<1>(from);
+            }
             return;
         }
         for from in (0..n).step_by(WIDE) {
