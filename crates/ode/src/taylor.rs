@@ -103,9 +103,9 @@ impl Stepper for Taylor {
     fn propose(&mut self, system: &dyn System, state: &[f64], rates: &[f64], norm: &Norm) -> Option<f64> {
         self.expand(system, state, rates);
         self.last_size = norm.of(self.row(self.order));
-        let last = step_of_term(self.last_size, self.order)?;
-        let before = step_of_term(norm.of(self.row(self.order - 1)), self.order - 1)?;
-        let step = SAFETY * self.unit * if last < before { last } else { before };
+        let last = growth(self.last_size, self.order)?;
+        let before = growth(norm.of(self.row(self.order - 1)), self.order - 1)?;
+        let step = SAFETY * self.unit * lane::exp(-if last > before { last } else { before });
         self.next_unit = power_of_two(step);
         Some(step)
     }
@@ -199,18 +199,17 @@ fn power_of_two(number: f64) -> f64 {
     f64::from_bits(number.to_bits() & EXPONENT)
 }
 
-/// The step over which a term of order `k` with this coefficient, in units of the tolerance, grows to 1. `None` for a
-/// NaN coefficient; for one that vanishes, a step beyond every run.
-fn step_of_term(coefficient: f64, k: usize) -> Option<f64> {
-    if !coefficient.is_finite() {
-        return None;
-    }
-    let power = -1.0 / k as f64;
-    Some(if coefficient < LEAST { lane::pow(LEAST, power) } else { lane::pow(coefficient, power) })
+/// The logarithm of the step over which a term of order `k` with this coefficient, in units of the tolerance, grows to 1, with
+/// the other sign. `None` for a coefficient that is not finite; for one that vanishes, of a step beyond every run.
+fn growth(coefficient: f64, k: usize) -> Option<f64> {
+    let clamped = math::smaller(math::larger(coefficient, LEAST), MOST);
+    coefficient.is_finite().then(|| lane::ln(clamped) / k as f64)
 }
 
 /// Smaller coefficients are taken for this one.
 const LEAST: f64 = 1e-300;
+/// Larger ones for this one: the step is rejected then.
+const MOST: f64 = 1e300;
 
 /// The step is so much shorter than that at which the last term meets the tolerance.
 const SAFETY: f64 = 0.95;
