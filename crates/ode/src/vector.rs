@@ -71,17 +71,17 @@ impl<const STARTED: bool> WeightedSum<'_, STARTED> {
                 sum[lane] += weight * k[lane];
             }
         }
-        let result = &mut self.result[from..][..LANES];
+        for sum in &mut sum {
+            *sum *= self.factor;
+        }
         if STARTED {
             let start = &self.start[from..][..LANES];
             for lane in 0..LANES {
-                result[lane] = start[lane] + sum[lane] * self.factor;
-            }
-        } else {
-            for lane in 0..LANES {
-                result[lane] = sum[lane] * self.factor;
+                sum[lane] += start[lane];
             }
         }
+        // at the end: between two stores the compiler would read the start anew, one number at a time
+        self.result[from..][..LANES].copy_from_slice(&sum);
     }
 }
 
