@@ -73,7 +73,7 @@ impl Law for Algebraic {
 
     /// Powers are products, which as constants need no choice for every pedestrian.
     #[inline(always)]
-    fn choose<C: Chosen<Algebraic>>(self, chosen: C) {
+    fn choose<C: Chosen<Algebraic>>(self, chosen: C) -> C::Output {
         let without = |power: f64| Algebraic { relative: 0.0, widening: 0.0, power, ..self };
         let alone = |power: f64| Algebraic { relative: 0.0, power, ..self };
         match (self.relative == 0.0, self.widening == 0.0, self.power) {
@@ -81,7 +81,7 @@ impl Law for Algebraic {
             (true, true, 2.0) => chosen.straight(without(2.0)),
             (true, true, 3.0) => chosen.straight(without(3.0)),
             (true, false, 2.0) => chosen.straight(alone(2.0)),
-            _ => chosen.law(self),
+            _ => chosen.any(self),
         }
     }
 }
