@@ -125,8 +125,9 @@ fn write(row: &mut [f64], from: usize, block: Lanes<W>) {
     }
 }
 
-/// The coefficients under a law that is compiled, of which so many operations keep something.
-pub(super) fn compiled<L: Law>(law: L, operations: usize, motion: Motion<'_>, memory: &mut Memory) {
+/// The coefficients under a law in its [plain](Law::plain) form, of which so many operations keep something; others are carried
+/// out as a list of operations.
+pub(super) fn plain<L: Law>(law: L, operations: usize, motion: Motion<'_>, memory: &mut Memory) {
     dispatch(Coefficients { law, operations, motion, memory });
 }
 
@@ -142,10 +143,8 @@ impl<L: Law> Kernel for Coefficients<'_, '_, L> {
 
     #[inline(always)]
     fn run(self) {
-        let law = self.law;
-        match law.plain() {
-            Some(plain) => self.of(&plain),
-            None => self.of(&law),
+        if let Some(law) = self.law.plain() {
+            self.of(&law);
         }
     }
 }
