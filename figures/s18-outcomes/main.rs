@@ -1,5 +1,5 @@
-//! Supplement 18: what an unstable uniform flow becomes, over planes of parameters. The paper asks for it and looks at three
-//! points. A plane takes minutes, so its table is committed (`data/outcomes`); `checks/outcomes.sh` computes it again.
+//! Supplement 18: the outcome of unstable uniform flows over planes of parameters, of which the paper simulates three
+//! points. A plane takes minutes, so its table is committed (`data/outcomes`); `checks/outcomes.sh` recomputes it.
 
 use figures::{Failure, Job, figure};
 use planes::outcomes::{self, Titled};

@@ -1,4 +1,4 @@
-//! A long run: its progress, and a checkpoint from which it is resumed after a kill.
+//! Progress of a long run, and a checkpoint file from which it is resumed after a kill.
 //!
 //! The file: a line `checkpoint 3 RUN SUM`, then the seconds of CPU so far and the run, as 64-bit words. `RUN` is the
 //! SHA-256 of the program and of the scene, `SUM` that of everything behind the line: what is damaged, cut off or of
@@ -137,7 +137,7 @@ impl<'a> CheckpointWriter<'a> {
             .flatten()
             .and_then(|(seconds, words)| Some((Checkpoint::parse(words, scene)?, f64::from_le_bytes(*seconds))));
         if found.is_none() {
-            say(&format!("{}: damaged, or of another run or program; the run starts over", file.display()));
+            say(&format!("{}: damaged, or from another run or program; the run starts over", file.display()));
         }
         found
     }

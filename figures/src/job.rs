@@ -1,4 +1,4 @@
-//! A figure's binary: tables first, from runs and laws; then the picture, from the tables alone.
+//! The main function of a figure: tables first, from runs and laws; then the picture, from the tables alone.
 
 use crate::failure::{Failure, exit};
 use clap::Parser;

@@ -1,6 +1,6 @@
-//! What the figures' binaries share: the command line and where tables and pictures go ([`job`]), panels that several
-//! figures draw ([`panels`]) and their titles ([`titles`]), exit codes ([`failure`]); and the programs `simulate` ([`simulate`] with
-//! [`checkpoint`]) and `map` ([`map`]).
+//! What the programs of the figures share: the command line and the output folders ([`job`]), panels used by several
+//! figures ([`panels`]) and their titles ([`titles`]), exit codes ([`failure`]); the programs
+//! for user scenes ([`simulate`] with [`checkpoint`], [`map`]).
 
 pub mod checkpoint;
 pub mod failure;

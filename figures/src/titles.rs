@@ -1,4 +1,4 @@
-//! What stands in titles, legends and labels: the paper's symbols with the numbers of the scene.
+//! Titles, legends and labels: the paper's symbols with the numbers of the scene.
 
 use files::reader::{Section, Value};
 use files::scene_file::Panel;

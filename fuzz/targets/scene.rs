@@ -1,4 +1,4 @@
-//! Scene files: whatever stands in one, it is accepted or refused with a line that exists and words that name the key.
+//! Scene files: any text is accepted, or refused with an existing line and a message that names the key.
 
 use files::reader::SceneError;
 use files::scene_file::{self, Kind, Panel, SceneFile};

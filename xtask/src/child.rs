@@ -1,4 +1,4 @@
-//! Starting a program and waiting for it.
+//! Starts a program and waits for it.
 
 use crate::lock;
 use checkout::disk;

@@ -1,4 +1,4 @@
-//! Building programs: those of the figures only when a source has changed, the others when a verb needs them.
+//! Builds programs: those of the figures only when a source has changed, the others when a verb needs them.
 
 use crate::sources::{Inputs, Sources};
 use checkout::disk;

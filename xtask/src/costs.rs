@@ -1,4 +1,4 @@
-//! Chooses the figures that fit into a budget of time.
+//! Chooses the figures that fit into a time budget.
 
 use crate::child::Usage;
 use crate::plan::{self, Node, Wish};

@@ -1,4 +1,4 @@
-//! Conditions for making a document about the figures: they are up to date, and they are the committed ones.
+//! Preconditions of documents about the figures: the figures are up to date, and they are the committed ones.
 
 use crate::record::{self, FigureState, Records};
 use crate::sources::Sources;

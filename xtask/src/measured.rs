@@ -1,4 +1,4 @@
-//! Measurements of each figure once it is made: the errors of its runs, for the manifest, and their events.
+//! Measures each figure that was made: the errors of its runs, for the manifest, and their events.
 
 use crate::estimate::{self, Estimate};
 use crate::pins::{CRATE, RUSTC};
@@ -33,8 +33,8 @@ impl Measured {
         let errors = self.entries.iter().flat_map(|(name, entry)| entry.error.iter().map(move |error| (name, error)));
         let flagged = errors.filter(|(_, (_, error))| is_flagged(**error));
         let words = |(name, (column, error)): (&String, (&String, &Option<f64>))| match error {
-            Some(error) => format!("error of {name}, column {column}: {error:.1e} of the drawn range"),
-            None => format!("error of {name}, column {column}: unknown, the check says nothing"),
+            Some(error) => format!("error of {name}, column {column}: {error:.1e} of the data range"),
+            None => format!("error of {name}, column {column}: unknown: the second run gives no estimate"),
         };
         flagged.map(words).collect()
     }

@@ -1,4 +1,4 @@
-//! The WebAssembly module that the page carries: built where the compiler, or Debian's, can.
+//! Builds the WebAssembly module of the page where the compiler, or Debian's, can.
 
 use checkout::failure::Failure;
 use checkout::paths::Paths;

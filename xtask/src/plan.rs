@@ -1,4 +1,4 @@
-//! The plan: what has to be done, in which order.
+//! The plan: what to do, and in which order.
 
 use crate::pool::Job;
 use crate::record::FigureState;

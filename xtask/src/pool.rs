@@ -1,4 +1,4 @@
-//! Nodes at work in parallel: longest first, none before what it needs.
+//! Runs nodes in parallel: the longest first, and none before its inputs.
 
 use checkout::failure::Failure;
 use std::any::Any;
@@ -119,7 +119,7 @@ fn lose_dependents(jobs: &[Job], phases: &mut [Phase]) {
 /// What a panic said.
 fn words_of(panic: &(dyn Any + Send)) -> &str {
     let text = panic.downcast_ref::<String>().map(String::as_str);
-    text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("a panic without words")
+    text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("a panic without a message")
 }
 
 /// A thread that panicked leaves the phases as they were before its change: they stay usable.

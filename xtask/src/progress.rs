@@ -1,4 +1,4 @@
-//! Progress of the nodes at work, on stderr: one line that changes on a terminal, else a plain line now and then.
+//! Shows progress on stderr: one changing line on a terminal, plain lines elsewhere.
 
 use crate::child::Message;
 use checkout::print::duration;

@@ -1,4 +1,4 @@
-//! Records of the inputs from which each figure was last made, and the reasons why it is stale.
+//! Records of the inputs from which each figure was last made, and the reasons why a figure is stale.
 
 use crate::measured::Measured;
 use crate::pins::{CRATE, RUSTC};
@@ -118,7 +118,7 @@ pub fn survey<'a>(
         if let Some(record) = record.filter(|record| paths.scheme == Scheme::Adaptive && record.measured.is_none())
             && report(paths, figure)? != record.report
         {
-            reasons.push("what it said of its accuracy is not as recorded".to_owned());
+            reasons.push("its stated accuracy differs from the record".to_owned());
         }
         Ok(FigureState { figure, runs, inputs, outputs, reasons })
     };
@@ -153,7 +153,7 @@ pub fn scenes(paths: &Paths, all: &[Figure], numeric: &str) -> BTreeMap<String, 
 /// Why a figure is stale: each input and output that is not as recorded.
 pub fn reasons(record: Option<&Record>, inputs: &Inputs, outputs: &Hashes) -> Vec<String> {
     let Some(record) = record else {
-        return vec!["not made here before".to_owned()];
+        return vec!["has not been made here yet".to_owned()];
     };
     let made_from = changes(&record.inputs, inputs, ["changed", "is gone", "is new"]);
     let made = changes(&record.outputs, outputs, ["was edited", "is missing", "was not made by the figure"]);

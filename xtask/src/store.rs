@@ -1,4 +1,4 @@
-//! Stored runs: a folder for each, named by the hash of what determines the run, with a list of sums written last.
+//! Stored runs: one folder for each, named by the hash of its inputs, with a list of sums that is written last.
 
 use checkout::disk;
 use checkout::failure::Failure;
@@ -55,7 +55,7 @@ pub fn is_sound(folder: &Path) -> Result<bool, Failure> {
 pub fn adopt(fresh: &Path, folder: &Path) -> Result<(), Failure> {
     let names = disk::names(fresh)?;
     if names.is_empty() {
-        return Err(Failure::Failed(format!("{}: the run wrote nothing", fresh.display())));
+        return Err(Failure::Failed(format!("{}: the run wrote no files", fresh.display())));
     }
     let paths: Vec<PathBuf> = names.iter().map(|name| fresh.join(name)).collect();
     let hashes = hashing::hash_all(&paths)?;

@@ -1,4 +1,4 @@
-//! Carries out a plan: starts programs, puts their outputs in place, shows progress on stderr.
+//! Carries out a plan: starts programs, moves their outputs into place, and shows progress on stderr.
 
 use crate::child::{self, Message, Usage};
 use crate::plan::{Node, Step};

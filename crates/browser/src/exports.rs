@@ -1,6 +1,6 @@
-//! The C functions of the module. A function that answers with text or bytes keeps them and returns their length;
-//! [`answer`] says where they lie, until the next call. A negative length is that of an error message. What a function
-//! reads is written to where [`room`] says before it is called.
+//! The C functions that the module exports. A function that answers with text or bytes keeps them and returns their
+//! length; [`answer`] returns their address, which is valid until the next call. A negative length announces an error
+//! message. Input is written to the address that [`room`] returns before the call.
 #![allow(unsafe_code, reason = "an exported name is `unsafe` since two of the same would clash; nothing else here is")]
 
 use crate::compute::Tables;

@@ -1,4 +1,4 @@
-//! Small waves on the uniform flow of a scene: growth rates over the wave number, the margin, the verdict.
+//! Small waves on the uniform flow of a scene: growth rate against wave number, stability margin, verdict.
 
 use crate::given::{FILE, complaint, panel};
 use scene::run::Scene;

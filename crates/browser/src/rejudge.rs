@@ -1,4 +1,4 @@
-//! The claims of the paper, judged anew on the tables of a run that began from one of its scenes.
+//! Judges the claims of the paper again, on the tables of a run that started from one of the paper's scenes.
 
 use crate::compute::at;
 use crate::figures::{Content, Entry, FIGURES};

@@ -1,4 +1,4 @@
-//! A run of a scene that somebody watches: samples and events as they come, the summary at the end.
+//! Runs a scene for a viewer: samples and events are passed on as they occur, the summary at the end.
 
 use crate::given::{FILE, complaint, panel};
 use crate::rejudge::Ran;

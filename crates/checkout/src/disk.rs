@@ -1,4 +1,4 @@
-//! Files and folders, with errors that name the path.
+//! Operations on files and folders whose errors name the path.
 
 use crate::failure::Failure;
 use std::fs;

@@ -1,4 +1,4 @@
-//! The manifest: provenance and error of each output. It has no time and no commit.
+//! The manifest: provenance and error of each output. It contains neither a time nor a commit.
 
 use crate::disk;
 use crate::failure::Failure;
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// Errors above this part of the drawn range are flagged: at a hundred million parts nothing shows in a picture, but a
+/// Errors above this part of the data range are flagged: at a hundred million parts nothing shows in a picture, but a
 /// method that works stays far below.
 pub const FLAGGED_ABOVE: f64 = 1e-8;
 

@@ -1,4 +1,4 @@
-//! The paths that several crates share.
+//! The paths that several crates use.
 
 use crate::failure::Failure;
 use clap::ValueEnum;
@@ -49,7 +49,7 @@ pub const EVENTS: &str = "data/events.csv";
 pub const TOLERANCES: &str = "data/tolerances.toml";
 /// What each program costs, by name.
 pub const COSTS: &str = "data/costs.csv";
-/// Who got which bits, by name.
+/// Machines and their bits, by name.
 pub const ATTESTATIONS: &str = "data/attestations.jsonl";
 /// What the ledger is written by hand from: claims, errata, parameters.
 pub const LEDGER_SOURCES: [&str; 3] = ["paper/claims.toml", "paper/errata.toml", "paper/parameters.toml"];

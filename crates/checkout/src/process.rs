@@ -1,4 +1,4 @@
-//! Starts programs that share the terminal, or reads one line of their output.
+//! Starts programs that share the terminal, and reads single lines from the output of others.
 
 use crate::failure::Failure;
 use std::io::ErrorKind;

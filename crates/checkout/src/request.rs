@@ -1,4 +1,5 @@
-//! A request of the runner to the program `verify`: the figures that were made, their runs, and the folder with their outputs.
+//! A request from the runner to the program `verify`: which figures were made, from which runs, and where their outputs
+//! lie.
 
 use crate::failure::Failure;
 use crate::figure::{self, Figure};

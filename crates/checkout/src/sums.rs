@@ -1,4 +1,4 @@
-//! Lists of sums in the form of GNU coreutils: 64 hexadecimal digits, two blanks, a name.
+//! Lists of checksums in the format of GNU coreutils: 64 hexadecimal digits, two spaces, a name.
 
 use crate::disk;
 use crate::failure::Failure;

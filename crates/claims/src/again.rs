@@ -1,4 +1,4 @@
-//! Claims judged anew on the tables of another run: a test that has no value there leaves its claim open, with the reason.
+//! Judges claims again on the tables of another run. Where a test has no value, the claim stays open, with the reason.
 
 use crate::entry::{Claim, Measure, Verdict};
 use crate::measure;

@@ -1,5 +1,4 @@
-//! What an entry of the ledger consists of, as its file spells it: claims, errata, parameters, and the measures of their
-//! tests.
+//! The entries of the ledger as its files spell them: claims, errata, parameters, and the measures of their tests.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! The expressions of `of` and `where`: formulas whose names are columns, and comparisons of them.
+//! The expressions in `of` and `where`: formulas and comparisons whose names are columns.
 
 use crate::sheet::{Sheet, Stated};
 use crate::uncertain::{Outcome, Relation, Uncertain};

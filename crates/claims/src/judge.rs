@@ -1,4 +1,4 @@
-//! Judges the ledger by the present tables, compares it with the committed one, and writes it.
+//! Judges the ledger on the present tables, compares the result with the committed ledger, and writes it.
 
 use crate::entry::{Claim, Erratum, Parameter, Verdict};
 use crate::report::{Ledger, Tested};

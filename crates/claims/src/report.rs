@@ -1,4 +1,4 @@
-//! The findings: each entry with its tests, values, outcomes and verdict, as in `data/ledger.json`.
+//! The result of judging: each entry with its tests, values, outcomes and verdict, as `data/ledger.json` stores them.
 
 use crate::entry::{Claim, Erratum, Measure, Parameter, Verdict};
 use crate::measure;

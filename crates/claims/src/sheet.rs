@@ -1,4 +1,4 @@
-//! Tables as the ledger reads them: with the errors of their columns; two tables side by side.
+//! Tables as the ledger reads them: with errors for their columns, and with a second table joined to them.
 
 use files::table::{self, Cell, Value};
 use std::cmp::Ordering;

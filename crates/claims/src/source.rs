@@ -1,4 +1,4 @@
-//! Reads and checks the files written by hand: claims, errata, parameters.
+//! Reads and checks the three files that are written by hand: claims, errata, parameters.
 
 use crate::entry::{Claim, Erratum, Measure, Parameter};
 use checkout::disk;

@@ -1,4 +1,5 @@
-//! The tables that the ledger reads: where each lies, or that it was handed over, and what error is stated for its columns.
+//! The tables that the ledger reads: where each lies (or that the caller supplied it), and the errors stated for its
+//! columns.
 
 use crate::sheet::{Sheet, Stated};
 use checkout::failure::Failure;

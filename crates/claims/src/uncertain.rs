@@ -1,4 +1,4 @@
-//! A value with its error, arithmetic that carries the error along, and comparisons that may stay open.
+//! Values with errors: arithmetic propagates the error, and a comparison may be undecided.
 
 use math::number::Number;
 use serde::{Deserialize, Serialize};

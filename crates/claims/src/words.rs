@@ -1,4 +1,4 @@
-//! Words for a reader: a measure as a sentence, numbers with as many digits as their error carries, placeholders.
+//! Text for readers: a measure as a sentence, a number with the digits that its error supports, placeholders.
 
 use crate::check::Operand;
 use crate::entry::{Measure, Take};

@@ -1,5 +1,5 @@
-//! A TOML document as a tree that remembers its lines, and a reader that takes typed values from it: every complaint
-//! names file, line, key, the value found and what would be valid.
+//! A TOML document as a tree that keeps line numbers, and a reader that extracts typed values. Every error names file,
+//! line, key, the value found and what would be valid.
 
 use crate::text::hint_in;
 use std::collections::{BTreeMap, BTreeSet};
@@ -188,7 +188,8 @@ fn whole(digits: &str, radix: u32, line: usize) -> Result<f64, (usize, String)> 
     if nearest as i128 == i128::from(number) {
         Ok(nearest)
     } else {
-        let problem = format!("{digits} is a whole number that no double holds; the nearest is {}", nearest as i128);
+        let problem =
+            format!("{digits} is a whole number that a double cannot represent; the nearest is {}", nearest as i128);
         Err((line, problem))
     }
 }

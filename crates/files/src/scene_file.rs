@@ -1,5 +1,5 @@
-//! A scene file: title, source, and one panel for each set of numbers it asks for. Tables of the file (`[law]`,
-//! `[ring]`, ...) hold for every panel; `[panel.NAME.law]` and the like lie on top of them.
+//! A scene file: title, source, and one or several panels. Top-level tables (`[law]`, `[ring]`, ...) apply to every
+//! panel; tables such as `[panel.NAME.law]` override them.
 
 use crate::reader::{Entry, SceneError, Section, Value};
 use crate::text;

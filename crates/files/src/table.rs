@@ -1,5 +1,5 @@
-//! Tables: named columns and rows of cells, as CSV with LF and numbers in shortest round-trip form. The cells of a
-//! [`Table`] are numbers; those of a [`Sheet`] may be words or empty too.
+//! Tables with named columns, written as CSV with LF line ends and numbers in shortest round-trip form. The cells of a
+//! [`Table`] are numbers; those of a [`Sheet`] may also be words or empty.
 
 use crate::text;
 use crate::write;

@@ -1,4 +1,4 @@
-//! Checks text written by people and their programs; names what is wrong.
+//! Checks text that people or their programs wrote, and names what is wrong with it.
 
 use std::io;
 use std::path::Path;

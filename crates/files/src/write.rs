@@ -1,4 +1,4 @@
-//! Writing so that a reader never meets half a file, and the hash that names contents.
+//! Atomic writing, and the hash that identifies contents.
 
 use sha2::{Digest, Sha256};
 use std::collections::BTreeSet;

@@ -1,4 +1,4 @@
-//! Lists of nodes in which equal nodes are one.
+//! A list of nodes in which equal nodes are stored once.
 
 use crate::operation::{Binary, Id, Operation, Unary, Variable};
 use crate::place::Place;

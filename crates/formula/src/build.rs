@@ -1,4 +1,5 @@
-//! From trees to a graph: names replaced by what they stand for, sums written out, common parts shared.
+//! Builds a graph from syntax trees: names are replaced by their definitions, sums are expanded, common parts are
+//! shared.
 
 use crate::arena::Arena;
 use crate::graph::Symbol;

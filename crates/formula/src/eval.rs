@@ -1,4 +1,4 @@
-//! Evaluation: operations carried out in the order of the list, by numbers of any kind.
+//! Evaluates the list of operations in order, for any kind of number.
 
 use crate::Bound;
 use crate::operation::{Binary, Id, Operation, Unary, Variable};

@@ -1,4 +1,4 @@
-//! Constant folding: parameters become numbers, and parts without variables are computed.
+//! Constant folding: parameters become numbers, and parts without variables are evaluated.
 
 use crate::Bound;
 use crate::arena::Arena;

@@ -1,4 +1,4 @@
-//! Formulas whose parameters are still symbols.
+//! A law's formulas as a graph whose parameters are still symbols.
 
 use crate::Bound;
 use crate::arena::{Arena, Key, Node};

@@ -1,4 +1,4 @@
-//! The syntax tree: a list in the order of evaluation, so that nothing recurses over it however long a text is.
+//! The syntax tree, stored as a list in evaluation order, so that no code recurses over it, however long the text.
 
 use crate::operation::{Binary, Unary};
 use crate::place::Place;

@@ -1,4 +1,4 @@
-//! The second integration, twice, so that it tells its own error.
+//! The second integration. It is done twice, so that it estimates its own error.
 
 use math::double_double::DoubleDouble;
 use reference::flow::Form;

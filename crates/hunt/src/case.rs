@@ -1,4 +1,4 @@
-//! A run with its right values, for a third integration elsewhere (`checks/hunt.py`).
+//! A run with its correct values, for a third integration by `checks/hunt.py`.
 
 use crate::answer::{Answer, Numbers};
 use crate::bound::Bound;

@@ -1,4 +1,4 @@
-//! The verdicts over many scenes.
+//! Summarises the verdicts over many scenes.
 
 use crate::judge::{Ratio, Verdict, scene};
 use std::collections::BTreeMap;

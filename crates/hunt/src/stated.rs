@@ -1,4 +1,4 @@
-//! The errors that a run states, and how honest they are.
+//! The errors that a run states, compared with its true errors.
 
 use crate::answer::Answer;
 use crate::judge::{Ratio, is_beyond, is_blown_up, kind};

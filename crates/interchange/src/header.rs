@@ -1,4 +1,4 @@
-//! The header of both files: the run, the ring, and the units.
+//! The header of both output files: the run, the ring, and the units.
 
 use checkout::failure::Failure;
 use files::reader::{POSITIVE, Reader, SceneError};

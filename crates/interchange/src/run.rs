@@ -1,4 +1,4 @@
-//! The run that is exported: made by `simulate` with a sample for each frame.
+//! Has `simulate` make the run to export, with one sample for each frame.
 
 use crate::header::Header;
 use checkout::failure::Failure;

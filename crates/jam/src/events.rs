@@ -1,4 +1,4 @@
-//! Events of a run: overlap, negative speed, exchange of places, blow-up, each with its time and pedestrian.
+//! Events of a run (overlap, negative speed, exchange of places, blow-up), each with its time and pedestrian.
 
 mod quiet;
 

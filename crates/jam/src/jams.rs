@@ -1,4 +1,4 @@
-//! Jams in a snapshot: how many, how long; and how fast they travel from one snapshot to the next.
+//! Jams in a snapshot: their number and lengths, and their speed from one snapshot to the next.
 
 /// A jam: consecutive pedestrians that are all slower than a threshold.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,4 +1,4 @@
-//! Numbers that the figures draw.
+//! The quantities that the figures draw.
 
 use math::simd::{Kernel, dispatch};
 

@@ -1,4 +1,4 @@
-//! The uniform flow: equal gaps, equal and constant speeds.
+//! The uniform flow: equal spacings, equal and constant speeds.
 
 use crate::laws::{Formula, Model};
 
@@ -23,7 +23,7 @@ impl std::fmt::Display for NoUniformFlow {
         }
         write!(
             f,
-            "no uniform flow at headway L/N = {:?}: at no speed from -1e12 v_0 to v_0 does the drive balance the force with room left; a longer ring, fewer pedestrians or a weaker force has a uniform flow",
+            "no uniform flow at headway L/N = {:?}: at no speed from -1e12 v_0 to v_0 does the drive balance the force at a positive gap; a longer ring, fewer pedestrians or a weaker force has a uniform flow",
             self.headway
         )
     }

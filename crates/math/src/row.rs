@@ -1,4 +1,4 @@
-//! Functions of a row of numbers, in place, each as several short loops.
+//! Functions applied in place to a row of numbers, each as several short loops.
 //!
 //! A processor looks some hundred instructions ahead for work. The operations of one logarithm wait for each other over
 //! more than a hundred cycles, so a loop over whole logarithms shows it two or three of them at a time, and its units

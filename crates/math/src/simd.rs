@@ -1,4 +1,4 @@
-//! Runs a loop with the widest vector registers that the processor has.
+//! Runs a loop with the widest vector registers of the processor.
 //!
 //! The compiler turns a plain loop over [`lane`](crate::lane) functions into vector
 //! instructions, for the instruction set it may assume: on x86-64 two doubles at a

@@ -1,4 +1,4 @@
-//! Places where the rates bend sharply, and steps that would pass one unseen.
+//! Sharp bends of the right-hand side, and steps that would cross one unnoticed.
 //!
 //! A stage, a coefficient or an error estimate knows of a bend only what the step samples of it. A step from one side of a
 //! narrow bend to the other, or into it and back, may sample nothing: every estimate is then that of another equation.

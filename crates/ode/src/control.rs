@@ -1,4 +1,4 @@
-//! How long the steps are.
+//! Step size control.
 
 use crate::system::{Group, Measure, System};
 use crate::vector::{largest, smallest};

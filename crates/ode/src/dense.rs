@@ -1,4 +1,4 @@
-//! An accepted step as an observer sees it: states at both ends and the solution anywhere between.
+//! An accepted step as an observer sees it: the states at both ends, and the solution anywhere in between.
 
 use crate::control::Norm;
 use crate::system::System;

@@ -1,4 +1,4 @@
-//! Why an integration could not go on.
+//! Reasons why an integration cannot continue.
 
 use crate::methods::Method;
 
@@ -52,10 +52,10 @@ impl std::fmt::Display for Failure {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Failure::StepTooSmall { time, step } => {
-                write!(f, "at t = {time:?} the tolerance asks for a step of {step:e}, too small to go on")
+                write!(f, "at t = {time:?} the tolerance asks for a step of {step:e}, too small to continue")
             }
             Failure::TooManySteps { time, steps } => {
-                write!(f, "{steps} steps, as many as are allowed, reach t = {time:?} only")
+                write!(f, "{steps} steps, the limit, reach only t = {time:?}")
             }
             Failure::NotFinite { time, step } => {
                 write!(f, "in the step of {step:e} from t = {time:?} the state is no longer finite")

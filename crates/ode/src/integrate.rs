@@ -1,4 +1,4 @@
-//! The two drivers: steps of fixed length, and steps as long as the error allows.
+//! The two drivers: fixed steps, and steps adapted to the error.
 
 use crate::ballistic::Ballistic;
 use crate::bends::Bends;

@@ -1,6 +1,6 @@
-//! A small difference from a solution, carried over steps by the linearised equations, for systems that tell them
-//! ([`crate::System::tangent`]). A step whose solution has become slow may be long for a difference, which then takes more
-//! orders than the step, or is carried over it in several pieces.
+//! Propagates a small difference from a solution by the linearised equations, for systems that provide them
+//! ([`crate::System::tangent`]). A step may be too long for a difference when the solution itself has become slow. The
+//! difference is then computed with more orders than the step, or in several pieces.
 
 use crate::dense::Step;
 use crate::system::{System, Tangent};

@@ -1,4 +1,4 @@
-//! Looking at a solution while it is made: samples at regular times, the first crossing of zero.
+//! Observers: samples at regular times, and the first zero crossing of a quantity.
 
 use crate::dense::{Step, nearby};
 use crate::integrate::Statistics;

@@ -1,4 +1,4 @@
-//! The error of a solution by Taylor's method, carried along with it.
+//! Propagates the error of a solution by Taylor's method along with the solution.
 //!
 //! Each step tells its own error: how far the slope of its series is, at its end, from what the law says there. What
 //! becomes of these errors later the linearised equations tell ([`crate::linear`]), where the system knows them. Elsewhere a

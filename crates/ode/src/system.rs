@@ -1,4 +1,4 @@
-//! What a caller says about its equations.
+//! What a caller provides about its equations.
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! Taylor's method: the series of the solution about the start of a step, of an order that suits the tolerance.
+//! Taylor's method: the series of the solution about the start of a step, to an order that suits the tolerance.
 //!
 //! The system gives the coefficients by recurrence ([`crate::System::series`]). The last two of them tell how long the
 //! step may be before it is made, so that none is rejected, and the series itself is the solution inside the step
@@ -94,6 +94,11 @@ impl Stepper for Taylor {
         // an adaptive step has its series from the proposal of its length, a shorter try after a rejection too
         if norm.is_none() {
             self.expand(system, from.state, from.rates);
+        }
+        // a step may end far earlier than its series allows, which of a polynomial is never: in that unit the coefficients of
+        // the next expansion would overflow
+        if from.h < self.next_unit {
+            self.next_unit = power_of_two(from.h);
         }
         let h = from.h / self.unit;
         dispatch(Change::<false> { rows: &self.coefficients, n: self.dimension, from: 0, h, result: change });

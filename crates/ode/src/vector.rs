@@ -1,4 +1,4 @@
-//! Sums over stages, vectorised over components. The order of the additions is fixed: blocks of four stages.
+//! Sums over stages, vectorised over components. The order of the additions is fixed, in blocks of four stages.
 
 use crate::tableau::Row;
 use math::simd::{Kernel, dispatch};

@@ -1,4 +1,4 @@
-//! What supplements of planes of outcomes share: their tables, from the committed planes, and their pictures.
+//! Tables and pictures of the supplements on planes of outcomes, made from the committed planes.
 
 use crate::picture::{cells_of, grid};
 use figures::{Failure, Job};

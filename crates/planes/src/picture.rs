@@ -1,4 +1,4 @@
-//! Pictures of planes of outcomes: classes of cells in colours, with the exact criterion on top.
+//! Pictures of planes of outcomes: cells in the colours of their classes, with the exact criterion on top.
 
 use figures::failure::Failure;
 use figures::titles::symbol;

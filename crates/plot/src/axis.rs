@@ -1,4 +1,4 @@
-//! One axis: its range, its scale, and ticks at round numbers. For plotters it is a coordinate.
+//! An axis: its range, scale, and ticks at round numbers. It is a coordinate for plotters.
 
 use crate::error::PlotError;
 use crate::geometry::larger;

@@ -1,4 +1,4 @@
-//! A legend in words: swatches and samples of lines with their names.
+//! A legend panel: swatches and line samples with their names.
 
 use crate::color_scale::ColorScale;
 use crate::elements::Area;

@@ -1,4 +1,4 @@
-//! Panels of a matrix in colours with its zero contour, region names and curves over it.
+//! Map panels: a matrix in colours, with its zero contour, region names and curves on top.
 
 use crate::axis::Axis;
 use crate::color_scale::ColorScale;

@@ -1,4 +1,4 @@
-//! Panels of a plane cut into cells, each of one class: flat colours, with lines and the names of regions over them.
+//! Plane panels: cells in the flat colour of their class, with lines and region names on top.
 
 use crate::axis::{Axis, NOWHERE};
 use crate::color_scale::ColorScale;

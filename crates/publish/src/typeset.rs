@@ -1,4 +1,4 @@
-//! The typesetter: a `typst` on PATH of the pinned version, or the pinned wheel in a folder below target.
+//! The typesetter: a `typst` of the pinned version on PATH, or the pinned wheel installed below `target`.
 
 use checkout::disk;
 use checkout::failure::Failure;

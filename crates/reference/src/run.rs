@@ -1,4 +1,4 @@
-//! A run: from the start of a scene to one time after the other.
+//! A run from the start of a scene through a list of times.
 
 use crate::extrapolation::Extrapolation;
 use crate::ring::Ring;

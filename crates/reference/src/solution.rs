@@ -1,4 +1,4 @@
-//! A scene solved: samples, the first event of each kind, and how it ends.
+//! The solution of a scene: samples, the first event of each kind, and how the run ends.
 
 use crate::flow::{Flow, Form};
 use crate::formula::Formula;

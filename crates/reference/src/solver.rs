@@ -1,4 +1,4 @@
-//! Steps of [`crate::collocation`] for a [`Flow`], as long as their error allows and never over a kink unseen.
+//! Integrates a [`Flow`] by [`crate::collocation`], with steps adapted to the error that never cross a kink unnoticed.
 
 use crate::collocation::{Collocation, combine, rates_at, weights_at};
 use crate::flow::Flow;

@@ -1,4 +1,4 @@
-//! `[law]`: kind and parameters. A term whose parameter is not named is not computed.
+//! `[law]`: kind and parameters. A term without a named parameter is not computed.
 
 use files::reader::{About, Entry, NOT_NEGATIVE, POSITIVE, Reader, SceneError, Section, Value};
 use formula::{Definition, Given, Place};
@@ -72,8 +72,8 @@ fn parameters<L: Law>(reader: &mut Reader<'_>, fixed: &[(&str, Option<f64>)]) ->
 /// A model of tab:model; the parameters that it leaves open must be given, the others must not.
 fn preset(law: &mut Reader<'_>) -> Result<Algebraic, SceneError> {
     let preset = law.one_of("preset", &PRESETS.map(|preset| (preset.name, preset)))?;
-    let (delta, q) = (Some(preset.relative), Some(preset.power));
-    parameters(law, &[("mu", preset.strength), ("delta", delta), ("q", q), ("a_v", preset.widening)])
+    let (delta, q) = (Some(preset.delta), Some(preset.q));
+    parameters(law, &[("mu", preset.mu), ("delta", delta), ("q", q), ("a_v", preset.a_v)])
 }
 
 /// A law as formulas: every key but `kind` is a parameter or an expression.

@@ -1,4 +1,4 @@
-//! Values that replace those of a scene: from the command line those of `[run]`, from a program any.
+//! Values that override those of a scene: from the command line those of `[run]`, from a program any.
 
 use files::reader::{Entry, Section, Value};
 

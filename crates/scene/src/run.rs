@@ -1,4 +1,4 @@
-//! A scene in time, validated: `[law]`, `[ring]`, `[start]`, `[run]`.
+//! A validated time-dependent scene: `[law]`, `[ring]`, `[start]`, `[run]`.
 
 use crate::law;
 use files::reader::{FINITE, POSITIVE, Reader, SceneError, Section};
@@ -65,9 +65,9 @@ fn read_for(file: &str, tables: &Section, purpose: Purpose) -> Result<Scene, Sce
     let sample = run.number("sample", POSITIVE)?;
     let method = method(&mut run)?;
     let wanted = if run.has("state") { Some(run.one_of("state", &FORMS)?) } else { None };
-    let method = method.unwrap_or_else(|| usual_method(wanted, &model, ring, steady_speed));
+    let form = fitting(wanted, &model, ring, steady_speed);
+    let method = method.unwrap_or_else(|| usual_method(form, &model));
     let control = control(&mut run, method, TOLERANCE)?;
-    let form = fitting(wanted, &model, ring, steady_speed, method);
     if let Some((pedestrian, value)) = without_value(&*form.build(&model, ring), start, ring) {
         let problem = format!(
             "the formula has no value at the start: the acceleration of pedestrian {pedestrian} is {value:?}; it must be finite for every pedestrian"
@@ -75,10 +75,7 @@ fn read_for(file: &str, tables: &Section, purpose: Purpose) -> Result<Scene, Sce
         return Err(Reader::new(file, "start", top_start).complaint("shift", &problem));
     }
     if !method.suits(&*form.build(&model, ring)) {
-        let problem = format!(
-            "{} needs a force that depends on the gap alone (neither a_v nor delta is named) and the state \"deviations\", or the state \"gaps\"",
-            method.name()
-        );
+        let problem = format!("{} needs the state \"deviations\" or \"gaps\": positions have no series", method.name());
         return Err(run.complaint("method", &problem));
     }
     let keeps_trajectories = !run.has("record") || run.one_of("record", &[("std", false), ("trajectories", true)])?;
@@ -90,7 +87,7 @@ fn read_for(file: &str, tables: &Section, purpose: Purpose) -> Result<Scene, Sce
     }
     let most_steps = most_steps(&mut run, control, t_end, purpose)?;
     if matches!(control, Control::Adaptive { .. }) && t_end < SHORTEST_RUN {
-        let problem = format!("too short for steps of adaptive length; must be at least {SHORTEST_RUN:e}");
+        let problem = format!("too short for adaptive steps; must be at least {SHORTEST_RUN:e}");
         return Err(run.complaint("t_end", &problem));
     }
     let at_overlap = at_overlap(&mut run, &model)?;

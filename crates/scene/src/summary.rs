@@ -1,4 +1,4 @@
-//! What is told of a run or a map in the end, as JSON.
+//! The JSON summary of a run or a map.
 
 use crate::map::{Computed, Map};
 use crate::run::Scene;

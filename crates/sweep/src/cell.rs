@@ -1,4 +1,4 @@
-//! A cell of a sweep: its scene, and what becomes of it.
+//! A cell of a sweep: its scene and its outcome.
 
 use super::Sweep;
 use jam::outcome::{Class, Verdict};
@@ -136,7 +136,7 @@ impl Sweep {
             Ok(None) | Err(_) => return Ok(Err(Class::NoUniformFlow)),
         };
         let settings = &self.settings;
-        let form = fitting(settings.form, &model, ring, Some(steady_speed), settings.method);
+        let form = fitting(settings.form, &model, ring, Some(steady_speed));
         if without_value(&*form.build(&model, ring), start, ring).is_some() {
             return Ok(Err(Class::Undefined));
         }

@@ -1,4 +1,4 @@
-//! Several tiles at a time, each cell once.
+//! Computes several tiles at a time, each cell once.
 
 use super::tiles::{self, Found, Tile};
 use super::{Cell, Sweep};

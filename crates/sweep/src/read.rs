@@ -1,4 +1,4 @@
-//! Reading a sweep from the tables of a scene.
+//! Reads a sweep from the tables of a scene.
 
 use super::axis::{Axis, OF_THE_RUN};
 use super::{Settings, Sweep};

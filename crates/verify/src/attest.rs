@@ -1,5 +1,5 @@
-//! Attestations of bits: `data/attestations.jsonl`, a line of JSON for each machine and result. No name of a host or of a
-//! user, no path, no time.
+//! Attestations of bits (`data/attestations.jsonl`): one line of JSON for each machine and result. A line contains no
+//! host name, user name, path or time.
 
 use checkout::disk;
 use checkout::failure::Failure;

@@ -1,5 +1,5 @@
-//! Accepts outputs: shows them against the last commit, then writes their sums, samples, hashes of states and the ledger
-//! are written.
+//! Accepts outputs: shows how they differ from the last commit, then writes their sums, samples, state hashes and the
+//! ledger.
 
 use crate::reference::Reference;
 use crate::{golden, judgement, states, words};

@@ -1,4 +1,4 @@
-//! The committed costs of figures and claims as a document.
+//! Writes the committed costs of figures and claims as a document.
 
 use checkout::costs::{Cost, Costs, read};
 use checkout::disk;

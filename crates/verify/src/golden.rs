@@ -1,4 +1,4 @@
-//! Committed samples of tables: small enough for a repository, enough to say where a number moved.
+//! Committed samples of tables: small enough for a repository, and dense enough to show where a number moved.
 
 use checkout::disk;
 use checkout::failure::Failure;

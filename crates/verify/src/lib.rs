@@ -1,5 +1,5 @@
-//! Comparing what was made with what is committed, on four levels: bytes, numbers, pixels, claims. A program that the
-//! runner starts ([`cli`]).
+//! Compares what was made with what is committed, on four levels: bytes, numbers, pixels, claims. The runner starts
+//! this program ([`cli`]).
 //!
 //! [`mod@reference`] finds what is committed; [`tables`] with [`numbers`], [`states`], [`moved`] and [`pictures`] compare it
 //! with what was made; [`verdict`] says what that means together, [`words`], [`json`] and [`page`] (by [`html`]) tell it. The ledger is

@@ -1,4 +1,5 @@
-//! A verification as one HTML page: four levels, and the pictures that differ side by side. No request leaves it.
+//! A verification as one HTML page: the four levels, and differing pictures side by side. The page makes no network
+//! request.
 
 use crate::attest::Attestation;
 use crate::findings::Findings;

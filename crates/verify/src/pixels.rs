@@ -1,4 +1,4 @@
-//! Pixels of two pictures, and a picture of their difference.
+//! Compares the pixels of two pictures, and draws their difference.
 
 use serde::Serialize;
 use std::io::Cursor;

@@ -1,4 +1,4 @@
-//! Results of the tables of error against work: the cheapest method for an error, and the least error of each method.
+//! Results from the tables of error against work: the cheapest method for an error, and the least error of each method.
 
 use checkout::disk;
 use checkout::failure::Failure;

@@ -1,4 +1,4 @@
-//! The level of numbers: tables against the committed ones, or against the committed samples of them.
+//! The level of numbers: tables against the committed ones, or against committed samples of them.
 
 use crate::golden;
 use crate::numbers::{self, Distance, Tolerance};

@@ -1,4 +1,4 @@
-//! The binaries as a user meets them: sums, redrawing, exit codes, what is left behind.
+//! The programs as a user meets them: sums, redrawing, exit codes, files left behind.
 
 mod failures;
 mod formulas;

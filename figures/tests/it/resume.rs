@@ -1,4 +1,4 @@
-//! A run that is killed, and goes on: the same bytes as one that nobody disturbed.
+//! A run that is killed and resumed has the bytes of an uninterrupted one.
 
 use crate::root;
 use files::write::sha256_file;

@@ -1,4 +1,4 @@
-//! `bless`: has new sums and samples accepted, after it has seen that they come from committed sources.
+//! `bless`: has new sums and samples accepted once it has checked that they come from committed sources.
 
 use super::judge;
 use crate::cli::BlessArgs;

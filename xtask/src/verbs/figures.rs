@@ -224,9 +224,9 @@ pub fn forecast(nodes: &[Node], threads: usize, last: &dyn Fn(&Node) -> Option<f
 
 impl Display for Forecast {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
-        write!(f, "about {} as the last time", duration(self.seconds))?;
+        write!(f, "about {} judging by the last run", duration(self.seconds))?;
         if self.unknown > 0 {
-            write!(f, "; {} nodes not counted, they were not timed yet", self.unknown)
+            write!(f, "; {} nodes not counted because they have not been timed yet", self.unknown)
         } else {
             Ok(())
         }

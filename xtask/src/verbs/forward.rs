@@ -1,4 +1,4 @@
-//! Verbs whose arguments another program reads: it is built, then started with them.
+//! Verbs whose arguments another program reads: builds the program and starts it with them.
 
 use crate::cli::ForwardArgs;
 use crate::compile::{self, FIGURES, PLANES};

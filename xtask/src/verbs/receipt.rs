@@ -1,4 +1,4 @@
-//! `verify --receipt`: what a reader's browser says it computed, against the committed sums.
+//! `verify --receipt`: compares what a reader's browser computed with the committed sums.
 
 use checkout::disk;
 use checkout::failure::Failure;

@@ -137,7 +137,7 @@ impl<'a> Report<'a> {
     pub fn verdict(&self, paths: &Paths, whole: bool) -> Result<(), Failure> {
         let mut said: Vec<String> = self.lines.iter().flat_map(|line| line.flags.clone()).collect();
         if !said.is_empty() {
-            said.push(format!("errors above {FLAGGED_ABOVE:e} of the drawn range, or unknown: {}", said.len()));
+            said.push(format!("errors above {FLAGGED_ABOVE:e} of the data range, or unknown: {}", said.len()));
         }
         let absent = |line: &&Line<'_>| self.committed.list(line.figure.is_supplement()).is_none();
         if let Some(line) = self.lines.iter().find(absent) {

@@ -1,4 +1,4 @@
-//! Staleness: what a change of each kind of file leads to, and whether what is hashed is what is read.
+//! Staleness: the effect of a change in each kind of file, and whether what is hashed is what is read.
 
 use crate::shop::{Shop, blessed};
 use checkout::figure;

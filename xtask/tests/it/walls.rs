@@ -1,4 +1,5 @@
-//! Who may use whom, and where clocks may be read: the table of crates in ARCHITECTURE.md against manifests and sources.
+//! Dependencies between crates (the table in ARCHITECTURE.md against manifests and sources), and where clocks may be
+//! read.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;

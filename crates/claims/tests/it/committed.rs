@@ -1,4 +1,4 @@
-//! The committed ledger and its tables; tables in memory.
+//! The committed ledger on its tables, and tables in memory.
 
 use checkout::paths::{Paths, Scheme};
 use claims::again;

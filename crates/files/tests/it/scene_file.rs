@@ -1,4 +1,4 @@
-//! Scene files: panels, and what tells two scenes apart.
+//! Scene files: their panels, and what distinguishes two scenes.
 
 use files::scene_file::{Kind, SceneFile, parse};
 

@@ -78,7 +78,7 @@ impl<'a> Parser<'a> {
     fn expression(&mut self, weakest: u8) -> Result<(), Problem> {
         if self.depth == DEEPEST {
             let found = format!("brackets, signs or exponents more than {DEEPEST} deep");
-            return Err(Problem::new(self.next().place, found, "flatter expressions; named ones help"));
+            return Err(Problem::new(self.next().place, found, "less nesting; named expressions help"));
         }
         self.depth += 1;
         self.operand()?;

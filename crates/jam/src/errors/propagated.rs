@@ -1,4 +1,5 @@
-//! The errors of a run by Taylor's method, whose steps tell their own, carried along with it ([`ode::Shadow`]).
+//! Error estimates for Taylor's method: each step estimates its own error, and the linearised equations propagate these
+//! errors along the run ([`ode::Shadow`]).
 //!
 //! Some runs by this method are run a second time like those by others ([`super::errors`]): those by steps of fixed length,
 //! whose errors are roundings that they do not tell; those of laws with kinks, which a step may cross unseen; those whose

@@ -1,4 +1,4 @@
-//! Steps near a uniform flow, in which nothing can happen: seen from the sizes of the deviations alone.
+//! Recognises steps near a uniform flow in which no event can occur, from the size of the deviations alone.
 
 use super::Watch;
 use crate::states::FlowAlong;

@@ -1,4 +1,4 @@
-//! The force on all pedestrians of a ring at once: what the forms of a state ask of a law.
+//! The force on all pedestrians of a ring, as the forms of the state request it from a law.
 
 pub(crate) mod blocks;
 mod compiled;
@@ -88,6 +88,9 @@ pub struct Flow {
     /// The speed.
     pub speed: f64,
 }
+
+/// What added to any number leaves it as it is, a zero with its sign.
+pub(crate) const NOTHING: Flow = Flow { net_gap: -0.0, speed: -0.0 };
 
 /// Steps to be made: the length of the ring, the length of a step, their number, and the widest registers to use, on
 /// which the bits do not depend.

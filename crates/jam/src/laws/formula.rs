@@ -1,4 +1,4 @@
-//! A law that is written in a scene file, as formulas.
+//! A law given as formulas in a scene file.
 
 use crate::force::{Force, Interpreted, Prepared, Source};
 use crate::stability::Response;

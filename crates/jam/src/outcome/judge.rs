@@ -1,4 +1,4 @@
-//! Judging a run while it is made.
+//! Judges a run while it is integrated.
 
 use super::least::{Ends, highest, lowest};
 use super::repeats::{Repeats, Repetition};
@@ -293,7 +293,7 @@ impl Judge {
         match self.flow {
             None => format!("another law: {weak}, and the uniform flow has no linearised law"),
             Some(flow) if flow.margin.abs() <= NEAR_LINE => {
-                format!("another place: {weak}, and the margin of stability, {:.1e}, is too near to 0", flow.margin)
+                format!("other parameters: {weak}, and the stability margin, {:.1e}, is too close to 0", flow.margin)
             }
             Some(flow) if flow.growth_rate > 0.0 => {
                 format!("a longer t_end: {weak}, growing at a rate of {:.1e}", flow.growth_rate)

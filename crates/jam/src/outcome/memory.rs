@@ -1,4 +1,4 @@
-//! What a judge has seen, as numbers: for checkpoints.
+//! The state of a judge as numbers, for checkpoints.
 
 use super::repeats::{Reference, Repeats};
 use super::windows::Stretch;

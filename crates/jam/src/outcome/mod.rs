@@ -1,4 +1,4 @@
-//! The outcome of a run: back to the uniform flow, lasting waves, contact, blow-up; or undecided, and why.
+//! The outcome of a run: return to the uniform flow, lasting waves, contact or blow-up; or undecided, with the reason.
 //!
 //! The paper leaves the question to simulations ("it has to be verified by simulations whether this instability corresponds
 //! to realistic behavior"). [`Judge`] answers it for one run, step by step; the classes are [`Class`], in order of precedence.

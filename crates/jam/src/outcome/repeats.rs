@@ -1,4 +1,4 @@
-//! Whether a state repeats itself, shifted along the ring: then it does so for good.
+//! Tests whether a state repeats itself, shifted along the ring. If so, it will do so for ever.
 
 use crate::events::Watch;
 use ode::Step;

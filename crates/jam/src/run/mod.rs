@@ -1,4 +1,4 @@
-//! One run from its start to its end: samples, events, what it cost, the last state, and what became of it.
+//! A run from start to end: samples, events, cost, final state, outcome.
 //!
 //! [`Run`] says what is integrated and what is kept, [`run`] does it, [`Outcome`] is what it gives. A [`RunObserver`] looks on;
 //! [`Checkpoint`] is a run between two of its steps, as bytes, from which [`run_from`] goes on to the same bits.
@@ -97,8 +97,8 @@ impl Run {
             ));
         }
         let steady_speed = flow(&model, ring, None).map_err(|error| error.to_string())?;
-        let method = usual_method(None, &model, ring, steady_speed);
-        let form = fitting(None, &model, ring, steady_speed, method);
+        let form = fitting(None, &model, ring, steady_speed);
+        let method = usual_method(form, &model);
         if let Some((pedestrian, value)) = without_value(&*form.build(&model, ring), start, ring) {
             return Err(format!(
                 "the acceleration of pedestrian {pedestrian} is {value:?} at the start; must be finite"

@@ -1,4 +1,4 @@
-//! Looking on while a run is made.
+//! Observers of a run in progress.
 
 use super::{PartialRun, Sample};
 use crate::events::{Event, Watch};

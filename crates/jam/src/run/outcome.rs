@@ -1,4 +1,4 @@
-//! What a run gives, and why one goes no further.
+//! The result of a run, and the reasons why one can end early.
 
 use super::{AtOverlap, Samples, stops};
 use crate::events::Event;

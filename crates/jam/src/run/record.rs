@@ -1,4 +1,4 @@
-//! What is kept of a run while it is made: samples, and where the jams are.
+//! What is stored of a run while it is integrated: samples, and the positions of the jams.
 
 use super::{Run, Sample, Samples};
 use crate::jams;

@@ -1,4 +1,4 @@
-//! Making a run: leg after leg, step by step.
+//! Integrates a run leg by leg, step by step.
 
 use super::checkpoint::{Checkpoint, PartialRun, Remembered};
 use super::record::{FOLLOWED_EVERY, Record};

@@ -1,4 +1,4 @@
-//! The ends of a run that no step shows: at a wall of the force, and where a law has no value.
+//! Ends of a run that no step shows: a wall of the force, and states at which the law has no value.
 
 use super::recorder::Recorder;
 use crate::events::{Event, EventKind};

@@ -1,4 +1,4 @@
-//! The ring as a system of equations, in three forms of the same state.
+//! The ring as a system of equations, in three forms of the state.
 //!
 //! | form | state | for |
 //! |---|---|---|

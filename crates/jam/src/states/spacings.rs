@@ -1,5 +1,5 @@
-//! Spacings and speeds: `[s_0 - s_c .. s_{N-1} - s_c, v_0 .. v_{N-1}, x_0]` with the gap `s_c` at contact (2, or 0 for the
-//! logarithmic law): a gap that closes keeps all its digits.
+//! Spacings and speeds, `[s_0 - s_c .. s_{N-1} - s_c, v_0 .. v_{N-1}, x_0]`, with the spacing `s_c` at contact (2, or 0
+//! for the logarithmic law). A gap that closes keeps all its digits.
 
 use super::tangent::{fastest, series};
 use super::{LEAST_SIZE, RingSystem, closing_rates, displace};
@@ -51,7 +51,7 @@ impl System for Spacings {
 
     fn series(&self, order: usize, unit: f64, coefficients: &mut [f64]) {
         let (n, dimension) = (self.pedestrians, self.dimension());
-        self.force.series(Motion { flow: AT_REST, pedestrians: n, order, unit, dimension, coefficients });
+        self.force.series(Motion { flow: AT_REST, along: None, pedestrians: n, order, unit, dimension, coefficients });
         for k in 1..order {
             let (done, next) = coefficients[k * dimension..].split_at_mut(dimension);
             next[2 * n] = done[n] * (unit / (k + 1) as f64);

@@ -1,5 +1,5 @@
-//! How small differences of spacings and speeds move where the force depends on the own spacing alone:
-//! `du_n/dt = w_{n+1} - w_n`, `dw_n/dt = phi_n u_n - w_n` with the slopes `phi_n` of the acceleration along the solution.
+//! The linearised equations where the force depends on a pedestrian's own spacing and speed alone: `du_n/dt = w_{n+1} -
+//! w_n`, `dw_n/dt = phi_n u_n - w_n`, with the slopes `phi_n` of the acceleration along the solution.
 
 use math::simd::{Kernel, dispatch};
 use ode::Tangent;

@@ -1,4 +1,4 @@
-//! Jams in constructed snapshots, their drift, and the standard deviation.
+//! Jams in constructed snapshots, their speed, and the standard deviation.
 
 use jam::jams::{Drift, Jam, find, threshold};
 use jam::observe::spread;

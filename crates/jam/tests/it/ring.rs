@@ -1,4 +1,4 @@
-//! The ring: no pedestrian is special, the gaps sum to its length, its three forms are one.
+//! The ring: all pedestrians are equivalent, the spacings sum to its length, and its three forms agree.
 
 use crate::sample::{HEADWAYS, Random, laws, paper_laws};
 use jam::laws::Model;

@@ -1,11 +1,14 @@
-//! The difference of a formula from its value at a reference, without cancellation.
+//! The difference of a formula from its value at a reference state, without cancellation.
 //!
 //! A formula is carried out twice. First at the reference, with [`Reference`] numbers: every operation that is not linear
 //! leaves on a [`Tape`] what it needs of the reference. Then with [`Change`]s, as often as wanted: the operations take
 //! what they find on the tape, in the same order, and give the difference to a relative error of the order of rounding,
 //! however small it is (see [`rules`]).
 
+mod changed;
 pub mod rules;
+
+pub use changed::Changed;
 
 use crate::lanes::{Lanes, lane_by_lane};
 use crate::number::Number;

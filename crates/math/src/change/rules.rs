@@ -1,4 +1,5 @@
-//! How much an operation changes when its operands change: one rule for each, with what it keeps of the reference.
+//! Rules for differences: how much the result of an operation changes when its operands change, and what each rule
+//! stores of the reference.
 //!
 //! With a = a0 + da: the product changes by `da b + a0 db`, the quotient q by `(da - q0 db) / b`, the exponential by
 //! `e^a0 (e^da - 1)`, the logarithm by `ln(1 + da / a0)`. No rule subtracts two nearly equal numbers.

@@ -1,4 +1,4 @@
-//! Errors fall with the step, or follow the tolerance, as the method says.
+//! Errors decrease with the step or follow the tolerance, as each method's order requires.
 
 use crate::problems::{
     Equations, distance, driven, driven_solution, general_methods, kepler, oscillation, oscillator, planet, power,

@@ -1,4 +1,4 @@
-//! Taylor's method on a system that gives its series.
+//! Taylor's method on a system that provides its series.
 
 use crate::problems::oscillator;
 use ode::{Control, Failure, Group, Measure, Method, Problem, Statistics, Step, System, integrate};

@@ -1,4 +1,4 @@
-//! Putting shards together: the table of the plane, its picture, their sums.
+//! Combines shards: the table of the plane, its picture, and their sums.
 
 use super::journal::Shard;
 use super::{Arguments, Task};

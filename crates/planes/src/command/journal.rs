@@ -1,4 +1,4 @@
-//! A shard on its way: every cell is added to a file as it is found, so that a sweep that was killed goes on.
+//! The journal of a shard: each cell is appended as soon as it is known, so that a killed sweep can be resumed.
 
 use super::Task;
 use figures::failure::Failure;

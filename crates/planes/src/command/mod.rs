@@ -1,4 +1,5 @@
-//! Outcomes of the runs of a plane, from the command line: all of it, a shard, or the table and picture of all shards.
+//! Classifies the runs of a plane from the command line: the whole plane, one shard, or the table and picture of all
+//! shards.
 
 mod gather;
 mod journal;

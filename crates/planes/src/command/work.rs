@@ -1,4 +1,4 @@
-//! Computing the tiles of a shard, several at a time: what is found goes into its journal.
+//! Computes the tiles of a shard, several at a time, and appends the cells to its journal.
 
 use super::Task;
 use super::journal::{Journal, Shard};

@@ -1,4 +1,4 @@
-//! Axes that a plane cannot have.
+//! Axes that a plane cannot have are refused.
 
 use super::*;
 

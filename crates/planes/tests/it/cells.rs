@@ -1,4 +1,4 @@
-//! Cells: the same bytes however the plane is split, the outcomes that runs have.
+//! Cells: the same bytes however the plane is divided, and the outcomes of the corresponding runs.
 
 use super::*;
 

@@ -1,4 +1,4 @@
-//! Sweeps that are cut short: by a kill, a full disk, a folder that cannot be made.
+//! Sweeps cut short by a kill, a full disk, or a folder that cannot be created.
 
 use super::*;
 

@@ -1,4 +1,5 @@
-//! Sweeps: the same sums for any split, order, number of threads and kill; what does not belong together is refused.
+//! Sweeps: the same sums for any division, order, number of threads and kill; shards that do not belong together are
+//! refused.
 
 mod axes;
 mod cells;

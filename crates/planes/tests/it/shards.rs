@@ -1,4 +1,4 @@
-//! Shards: computed anywhere, refused where they do not belong.
+//! Shards: they can be computed anywhere, and foreign ones are refused.
 
 use super::*;
 

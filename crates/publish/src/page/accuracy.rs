@@ -1,4 +1,4 @@
-//! What an error costs, and how large errors are: tables of the report of accuracy and of the events.
+//! The cost of an error, and the size of the errors: accuracy tables and event tables as HTML.
 
 use super::html::{code, escape, measured, number, row};
 use super::source::Source;

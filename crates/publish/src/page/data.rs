@@ -1,5 +1,5 @@
-//! The numbers that the page carries: maps, curves, trajectories, published values, packed ([`super::pack`]); what they are
-//! stands in an index in JSON.
+//! The numbers in the page (maps, curves, trajectories, published values), packed ([`super::pack`]) and listed in a
+//! JSON index.
 
 use super::html::symbol;
 use super::pack::Numbers;

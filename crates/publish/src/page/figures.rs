@@ -1,4 +1,4 @@
-//! The figures: picture, caption, and what is known of each.
+//! The figures as HTML: picture, caption, and facts about each.
 
 use super::data;
 use super::formula::prose;

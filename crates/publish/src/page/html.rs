@@ -1,4 +1,4 @@
-//! Pieces of HTML: escaped text, numbers, symbols, tables.
+//! HTML building blocks: escaped text, numbers, symbols, tables.
 
 use super::formula::{GREEK, prose};
 use base64::Engine as _;

@@ -1,4 +1,4 @@
-//! Scenes that a reader can start from: those of the gallery, and the runs of the figures.
+//! The scenes offered as starting points: those of the gallery, and the runs of the figures.
 
 use super::figures::name;
 use super::source::Source;

@@ -1,4 +1,4 @@
-//! Parameters of a figure, from its scene.
+//! The parameters of a figure, read from its scene.
 
 use super::html::symbol;
 use files::scene_file::{Panel, SceneFile};

@@ -1,4 +1,4 @@
-//! What the page is made from: figures, manifest, descriptions of columns, tables, the ledger. Read once.
+//! The inputs of the page (figures, manifest, column descriptions, tables, the ledger), each read once.
 
 use super::html;
 use checkout::disk;

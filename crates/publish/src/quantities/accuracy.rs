@@ -1,4 +1,4 @@
-//! What the tables of accuracy say of error against work, and the fastest growing waves.
+//! Numbers from the accuracy tables: error against work, and the fastest-growing waves.
 
 use super::{Quantities, Source, table};
 use checkout::failure::Failure;

@@ -1,4 +1,4 @@
-//! Named measures of the ledger of claims, and how many claims there are of each verdict.
+//! Named measures from the ledger of claims, and the number of claims with each verdict.
 
 use super::form::Form;
 use super::{Quantities, Source};

@@ -1,5 +1,5 @@
-//! The numbers that the document says, each under a name, with where it comes from and how it is written. The only place
-//! where they are collected; the document reads `paper/numbers.json`, LaTeX `paper/numbers.tex`.
+//! The numbers in the article, each with a name, its source and its written form. This is the only place that collects
+//! them; the article reads `paper/numbers.json`, and LaTeX reads `paper/numbers.tex`.
 
 mod accuracy;
 pub mod form;

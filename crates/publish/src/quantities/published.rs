@@ -1,4 +1,4 @@
-//! How far the regenerated curves are from the published ones, and how well those can be read.
+//! Distances between the regenerated and the published curves, and the reading errors of the latter.
 
 use super::{Quantities, Source, largest, numbers, table};
 use checkout::disk;

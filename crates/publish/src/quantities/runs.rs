@@ -1,4 +1,4 @@
-//! What the runs of the figures say: events, errors, and single values of their curves.
+//! Numbers from the runs of the figures: events, errors, and single values of their curves.
 
 use super::{Quantities, Source, largest, least, numbers, table};
 use checkout::disk;

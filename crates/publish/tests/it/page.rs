@@ -1,5 +1,5 @@
-//! The page: its sources hold no measured number, what it repeats of other crates is what they have, and it is made
-//! from good figures only. What it shows is tested in a browser (`checks/browser`).
+//! The page: its sources contain no measured number, what it repeats from other crates agrees with them, and it is made
+//! from verified figures only. A browser tests its display (`checks/browser`).
 
 use publish::page::{SCRIPTS, TEMPLATE, WORKER};
 use std::collections::BTreeSet;

@@ -1,4 +1,4 @@
-//! Runs: two methods against each other, events, what a run records.
+//! Runs: two methods against each other, events, and what a run records.
 
 use crate::project::{figure, jams, scene, with_check};
 use files::table::Table;

@@ -1,4 +1,4 @@
-//! What is looked at while the waves run.
+//! The quantities observed while the waves run.
 
 use super::Scheme;
 use crate::hard::rows::{Rows, row};

@@ -1,6 +1,6 @@
-//! How far the jams of figures 11 to 13 depend on what was chosen: the run of those figures with one number changed at a
-//! time. Every row is computed by two methods that share no coefficients; the columns that end in `_error` are the
-//! differences of the two.
+//! How the jams of figures 11 to 13 depend on the choices made: the run of those figures with one number changed at a
+//! time. Two methods without common coefficients compute every row; the columns that end in `_error` hold their
+//! differences.
 
 pub mod jammed;
 

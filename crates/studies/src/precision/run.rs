@@ -1,4 +1,4 @@
-//! One run: what it costs and how far it is from the solution.
+//! One run: its cost, and its distance from the solution.
 
 use super::scenes::Instant;
 use cpu_time::ProcessTime;

@@ -1,5 +1,5 @@
-//! Studies of errors: what rounding does to Heun's scheme, growth rates of waves against the linear theory, and how far
-//! an error grows (the numerical supplement of the report tells what the tables say).
+//! Studies of errors: the effect of rounding on Heun's scheme, growth rates of waves against the linear theory, and the
+//! growth of errors (discussed in the numerical supplement of the article).
 
 mod error_growth;
 mod heun;

@@ -1,4 +1,4 @@
-//! The reference solution of figure 4's stable run, and states of all forms as it writes them.
+//! The reference solution of figure 4's stable run, and its states in every form.
 
 use super::{Run, State};
 use figures::failure::Failure;

@@ -1,5 +1,5 @@
-//! The standard deviation of figure 4, stable panel, by the scheme of the paper in positions, unwrapped and wrapped into the
-//! ring, beside the true one.
+//! The standard deviation of figure 4, stable panel, by the scheme of the paper in positions, unwrapped and wrapped
+//! into the ring, beside the true values.
 
 use super::heun::Adding;
 use super::{Extent, Run, State, solution};

@@ -1,4 +1,4 @@
-//! Random laws: whether the criterion for long waves tells the stability of all of them, and what the two roots are.
+//! Random laws: whether the criterion for long waves decides the stability of all of them, and the two roots.
 
 use super::critical::{algebraic, wave_numbers};
 use crate::draw::Draw;
@@ -41,13 +41,13 @@ fn random_exponential(draw: &mut Draw, has_contact: bool) -> Option<Case> {
     let (strength, range) = (draw.between(0.0, 10.0), draw.between(0.1, 3.0));
     let (contact, widening) = (draw.between(0.0, 5.0), draw.between(0.0, 1.5));
     let contact = if has_contact { contact } else { 0.0 };
-    let law = Exponential { strength, range, contact, widening, epsilon: 0.1, desired_speed: 3.0 };
+    let law = Exponential { a: strength, b: range, c: contact, a_v: widening, epsilon: 0.1, v0: 3.0 };
     let gap = draw.between(0.05, 3.0);
     Some(Case { linear: law.linearise(gap), criterion: criteria::exponential(&law, gap) })
 }
 
 fn random_logarithmic(draw: &mut Draw) -> Option<Case> {
-    let law = Logarithmic { desired_speed: draw.between(0.1, 6.0), widening: draw.between(0.0, 1.0), epsilon: 0.01 };
+    let law = Logarithmic { v0: draw.between(0.1, 6.0), a_v: draw.between(0.0, 1.0), epsilon: 0.01 };
     let headway = draw.between(0.5, 2.5);
     let speed = steady_speed(&Model::Logarithmic(law), headway).ok()?;
     // the paper supposes a headway below the critical distance; with eps > 0 this means well below it

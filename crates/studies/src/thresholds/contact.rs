@@ -1,5 +1,5 @@
-//! Contacts of the logarithmic law: how speed relaxes once force and drive cancel, when pedestrians first touch, and from
-//! which desired speed on they do.
+//! Contacts under the logarithmic law: how the speed relaxes once force and drive cancel, when pedestrians first touch,
+//! and from which desired speed on.
 
 use crate::hard::rows::{Rows, row};
 use crate::hard::run::{Case, Leg, two_methods};

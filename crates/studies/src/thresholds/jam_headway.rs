@@ -1,5 +1,5 @@
-//! How close pedestrians of the logarithmic law come to each other in jams, and from which desired speed on they touch, at
-//! other densities: whether the headway in a jam, and the desired speed at which it closes, depend on the density.
+//! The least headway in jams of the logarithmic law, and the desired speed from which on pedestrians touch, at several
+//! densities: whether either depends on the density.
 
 use super::contact::bracket;
 use crate::hard::rows::{Rows, row};

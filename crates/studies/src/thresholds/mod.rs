@@ -1,5 +1,5 @@
-//! Where stability ends, exactly, and what the source says about it: critical values for all waves and for those of a
-//! ring, criteria against growth rates in random cases, what the laws do beyond the linear theory.
+//! Where stability ends, exactly, compared with what the source says: critical values for all waves and for those of a
+//! ring, criteria against growth rates in random cases, and behaviour beyond the linear theory.
 
 pub mod all_waves;
 mod contact;

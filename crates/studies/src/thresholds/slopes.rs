@@ -1,4 +1,4 @@
-//! Slopes that the source uses: that of the smooth ramp, and that of the optimal velocity.
+//! Slopes that the source uses: of the smooth ramp, and of the optimal velocity.
 
 use crate::hard::rows::{Rows, row};
 use figures::failure::Failure;
@@ -35,7 +35,7 @@ pub fn optimal_velocity() -> Result<Rows, Failure> {
         Rows::new(&["headway", "v0", "xi", "paper_xi", "slope", "difference", "unstable", "slope_above_half"]);
     for v0 in [0.5, 0.8, 0.83, 0.84, 1.0, 2.0, 3.0] {
         for headway in [0.5, 1.0, 1.5, 200.0 / 133.0, 1.9, 2.0, 2.2] {
-            let law = Logarithmic { desired_speed: v0, widening: 0.0, epsilon: 0.01 };
+            let law = Logarithmic { v0, a_v: 0.0, epsilon: 0.01 };
             let velocity = |s: f64| v0 * (1.0 - math::ln_1p(C * smooth_ramp(0.5 * s - 1.0, law.epsilon)));
             // four points: the third power of h is left, times a fifth derivative of 1 / eps^4
             let h = 1e-4;

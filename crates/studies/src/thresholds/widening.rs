@@ -1,5 +1,5 @@
-//! What a space requirement that grows with speed does to stability: at a given effective distance, as the figures of
-//! the paper show it, and at a given density, where it takes away distance.
+//! The effect of velocity-dependent size on stability: at a given effective gap, as in the figures of the paper, and at
+//! a given density, where it reduces the gap.
 
 use super::critical::{algebraic, exponential};
 use crate::hard::rows::{Rows, row};
@@ -162,7 +162,7 @@ pub fn safety() -> Result<Rows, Failure> {
     let mut rows = Rows::new(&["varied", "a_0", "tau", "v0", "headway", "xi", "margin", "unstable"]);
     let mut push = |varied: &str, a_0: f64, tau: f64| {
         let (desired_speed, headway) = (1.2 * tau / a_0, 0.9 / a_0);
-        let linear = Logarithmic { desired_speed, widening: 0.0, epsilon: 0.01 }.linearise(headway, 0.0);
+        let linear = Logarithmic { v0: desired_speed, a_v: 0.0, epsilon: 0.01 }.linearise(headway, 0.0);
         let margin = linear.long_wave_margin();
         rows.push(row![varied, a_0, tau, desired_speed, headway, linear.phi, margin, usize::from(margin > 0.0)]);
     };
@@ -172,5 +172,5 @@ pub fn safety() -> Result<Rows, Failure> {
 }
 
 fn logarithmic(desired_speed: f64, widening: f64) -> Model {
-    Model::Logarithmic(Logarithmic { desired_speed, widening, epsilon: 0.01 })
+    Model::Logarithmic(Logarithmic { v0: desired_speed, a_v: widening, epsilon: 0.01 })
 }

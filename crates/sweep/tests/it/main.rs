@@ -1,4 +1,5 @@
-//! Several tiles at a time: each cell once, the same cells with any number of threads, and an end when it is asked for.
+//! Parallel tiles: each cell is computed once, the cells are the same for any number of threads, and a request to stop
+//! is obeyed.
 
 use files::scene_file;
 use std::sync::Mutex;

@@ -1,4 +1,4 @@
-//! A formula as a list of instructions on registers, each of which holds a number for every pedestrian of a row.
+//! A formula as a list of instructions on registers, each of which holds one number for every pedestrian of a row.
 
 use formula::{Binary, Bound, Id, Operation, Unary, Variable};
 use math::number::Number;

@@ -1,4 +1,4 @@
-//! A program carried out for a row of pedestrians: instruction by instruction, each a short loop.
+//! Executes a program for a row of pedestrians: each instruction is a short loop.
 
 use super::program::{Action, Program, Source};
 use formula::Unary;

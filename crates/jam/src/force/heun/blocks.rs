@@ -1,4 +1,4 @@
-//! Rings larger than a cache: block by block, each many steps at a time, and on several threads.
+//! Heun's scheme on rings larger than a cache: block by block, many steps per block, on several threads.
 //!
 //! A step of Heun's scheme asks for two pedestrians ahead, never for one behind. So a block that is to make `m` steps
 //! takes `2 m` more from ahead with it as they are at the beginning, and makes some of their steps again: their last two

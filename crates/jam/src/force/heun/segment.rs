@@ -1,4 +1,4 @@
-//! A segment of the ring: pedestrians of whom each follows the next element, and the two halves of a step of Heun's scheme.
+//! A segment of the ring, in which each pedestrian follows the next element, and the two halves of a Heun step.
 
 use crate::force::blocks::along;
 use crate::force::compiled::Values;
