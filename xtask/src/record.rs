@@ -35,7 +35,7 @@ impl Record {
     }
 }
 
-/// All figures as they were made, by folder of tables (which tells the schemes apart).
+/// All figures as they were made, by folder of tables (which distinguishes the schemes).
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Records {
     /// By the name of the folder of tables, `data/fig04`.

@@ -45,7 +45,7 @@ pub struct Memory {
 }
 
 impl Memory {
-    /// Makes room for so many blocks, with histories of this size.
+    /// Allocates the given number of blocks, with histories of this size.
     fn reserve(&mut self, blocks: usize, size: usize) {
         if self.histories.len() < blocks * size {
             self.histories.resize(blocks * size, Block::default());
@@ -77,7 +77,7 @@ impl Memory {
         [&self.spacings[from..], &self.speeds[from..], &self.speeds[from + 1..]].map(Lanes::of)
     }
 
-    /// Goes on to the next order, whose speeds are there; writes its spacings to `row`, too.
+    /// Advances to the next order, whose speeds are known; also writes its spacings to `row`.
     #[inline(always)]
     fn advance(&mut self, share: f64, row: &mut [f64]) {
         let n = row.len();
@@ -95,7 +95,7 @@ impl Memory {
     }
 }
 
-/// The coefficients under a law that is compiled, of which so many operations keep something.
+/// The coefficients under a compiled law, with the number of operations that store values.
 pub(super) fn compiled<L: Law>(law: L, operations: usize, motion: Motion<'_>, memory: &mut Memory) {
     dispatch(Coefficients { law, operations, motion, memory });
 }

@@ -30,10 +30,9 @@ pub(super) struct Window {
     pub largest_speed: f64,
 }
 
-/// Successive windows, so many and so long, of a run from a state at a time, and its last state.
+/// Successive windows of a run from a given state and time, with the given number and length, and its last state.
 ///
-/// # Errors
-/// The run failed, or somebody was touched.
+/// # Errors The run failed, or two pedestrians touched.
 pub(super) fn windows(
     case: &Case,
     start: &[f64],

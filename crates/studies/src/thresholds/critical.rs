@@ -12,7 +12,7 @@ use std::f64::consts::{E, LN_2, PI};
 pub enum Waves {
     /// All: the long ones are the first.
     All,
-    /// Those of a ring of so many pedestrians.
+    /// The waves of a ring of N pedestrians.
     Ring(usize),
 }
 
@@ -88,7 +88,7 @@ struct Asked {
 }
 
 impl Asked {
-    /// A row: found for so many pedestrians, 0 for all waves.
+    /// A row for a number of pedestrians, or 0 for all waves.
     fn row(&self, count: usize, found: Option<(f64, f64)>) -> Vec<Cell> {
         let Asked { quantity, law, delta, q, a_v, b, v0, d_gap, headway, closed } = *self;
         let (value, error) = (found.map(|found| found.0), found.map(|found| (found.0 - found.1).abs()));

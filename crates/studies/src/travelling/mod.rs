@@ -30,7 +30,7 @@ const FINER: f64 = 1.5;
 const FIRST: [f64; 2] = [2e-4, 1e-4];
 /// A branch ends this far above the threshold, or at this amplitude.
 const LAST: [f64; 2] = [0.009, 0.4];
-/// And after so many tries.
+/// Largest number of tries.
 const TRIES: usize = 200;
 /// Steps of the amplitude grow by this factor where Newton's method needs few steps, and shrink where it fails.
 const GROWTH: f64 = 1.18;
