@@ -2,8 +2,8 @@
 //! over relative speed and strength (between its first and second class). The tables are committed, as in supplement
 //! 18.
 
-use figures::outcomes::{self, Titled};
 use figures::{Failure, Job, figure};
+use planes::outcomes::{self, Titled};
 use plot::Picture;
 use plot::style::FULL_WIDTH;
 use std::process::ExitCode;

@@ -77,7 +77,7 @@ fn methods() -> String {
     let names = |is_meant: fn(&Method) -> bool| Method::ALL.into_iter().filter(is_meant).map(Method::name);
     let list = |names: Vec<&str>| names.join(", ");
     format!(
-        "{} (with --dt); {} (with --tol or --dt); taylor needs a force that depends on the gap alone, or state = \"gaps\"",
+        "{} (with --dt); {} (with --tol or --dt); taylor has no state = \"positions\"",
         list(names(|method| !method.is_adaptive()).collect()),
         list(names(|method| method.is_adaptive()).collect())
     )

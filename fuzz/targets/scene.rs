@@ -33,7 +33,7 @@ fn accepted(recipe: &SceneFile, text: &str) {
             Kind::Curve => scene::curve::table(&recipe.file, &panel.tables).map(|table| {
                 assert!(table.rows().flatten().all(|number| number.is_finite()), "{table:?}");
             }),
-            Kind::Sweep => scene::sweep::read(&recipe.file, &panel.tables).map(|_| ()),
+            Kind::Sweep => sweep::read(&recipe.file, &panel.tables).map(|_| ()),
             Kind::Drawing => Ok(()),
         };
         tables.unwrap_or_else(|error| refused(&error, text));

@@ -28,17 +28,20 @@ pub struct Package {
     pub name: &'static str,
     /// Programs beside those of figures.
     pub tools: &'static [&'static str],
-    /// Whether its figures are the supplements.
-    pub supplements: bool,
+    /// Whether its figures are the supplements; `None` if it makes no figure.
+    pub supplements: Option<bool>,
 }
 
 /// The figures of the paper, and what runs scenes.
-pub const FIGURES: Package = Package { name: "figures", tools: &["simulate", "map", "sweep"], supplements: false };
+pub const FIGURES: Package = Package { name: "figures", tools: &["simulate", "map"], supplements: Some(false) };
+/// Planes of outcomes.
+pub const PLANES: Package = Package { name: "planes", tools: &["sweep"], supplements: None };
 /// The supplements, and the tables of accuracy.
-pub const STUDIES: Package = Package { name: "studies", tools: &["precision", "hard", "studies"], supplements: true };
+pub const STUDIES: Package =
+    Package { name: "studies", tools: &["precision", "hard", "studies"], supplements: Some(true) };
 
 /// Removes what is built of our own sources.
-const CLEAN: &str = "clean --quiet --release --locked -p math -p ode -p jam -p files -p scene -p plot -p reference -p figures -p studies";
+const CLEAN: &str = "clean --quiet --release --locked -p math -p ode -p jam -p files -p scene -p sweep -p plot -p reference -p figures -p planes -p studies";
 
 /// What was built: the hashes of the sources, and size and date of each program, so that one that was built by hand since
 /// then is not taken for ours.
@@ -63,7 +66,7 @@ impl Package {
     }
 
     fn programs(self, all: &[Figure]) -> impl Iterator<Item = &str> {
-        let figures = all.iter().filter(move |figure| figure.is_supplement() == self.supplements);
+        let figures = all.iter().filter(move |figure| Some(figure.is_supplement()) == self.supplements);
         self.tools.iter().copied().chain(figures.map(|figure| figure.slug.as_str()))
     }
 

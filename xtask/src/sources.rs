@@ -35,8 +35,15 @@ const SHARED_SOURCES: [&str; 10] = [
     "data/reference/",
 ];
 /// Sources that supplements share: no figure of the paper reads them.
-const SUPPLEMENT_SOURCES: [&str; 5] =
-    ["crates/reference/", "crates/studies/", "data/accuracy/", "data/outcomes/", "data/timing/"];
+const SUPPLEMENT_SOURCES: [&str; 7] = [
+    "crates/planes/",
+    "crates/reference/",
+    "crates/studies/",
+    "crates/sweep/",
+    "data/accuracy/",
+    "data/outcomes/",
+    "data/timing/",
+];
 /// Folders that are searched for sources.
 const SOURCE_FOLDERS: [&str; 6] =
     ["crates", "figures", "data/accuracy", "data/outcomes", "data/reference", "data/timing"];
@@ -103,9 +110,12 @@ impl Sources {
 
     /// What determines the numbers of a run besides its scene.
     pub fn numeric(&self) -> String {
-        let mut inputs = self.below(&[&NUMERIC_SOURCES[..], &SINGLE_SOURCES].concat());
-        inputs.extend(self.pins.clone());
-        hashing::digest(&inputs)
+        hashing::digest(&self.numbers_from(&[]))
+    }
+
+    /// What determines the numbers of a plane besides its scene.
+    pub fn sweep(&self) -> String {
+        hashing::digest(&self.numbers_from(&["crates/sweep/"]))
     }
 
     /// What a figure is made from: shared sources, its own folder, and its runs by panel and key.
@@ -117,6 +127,12 @@ impl Sources {
         inputs.extend(self.pins.clone());
         inputs.extend(self.keys.get(&figure.slug).cloned().unwrap_or_default());
         inputs.extend(runs.iter().map(|(panel, key)| (format!("run {panel}"), key.clone())));
+        inputs
+    }
+
+    fn numbers_from(&self, more: &[&str]) -> Inputs {
+        let mut inputs = self.below(&[&NUMERIC_SOURCES[..], &SINGLE_SOURCES, more].concat());
+        inputs.extend(self.pins.clone());
         inputs
     }
 

@@ -48,6 +48,7 @@ mod parse;
 mod place;
 mod token;
 mod tree;
+mod written;
 
 pub use bound::{Bound, Kink};
 pub use expression::Expression;
@@ -55,3 +56,4 @@ pub use graph::{Graph, Parameter, Stencil};
 pub use law::{Definition, Given, law};
 pub use operation::{Binary, Id, Operation, Unary, Variable};
 pub use place::{Error, Place};
+pub use written::{Term, Writer};

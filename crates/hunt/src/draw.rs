@@ -89,7 +89,7 @@ fn by_taylor(text: &str, random: &mut Random) -> String {
         recipe.is_ok_and(|recipe| {
             recipe.panels.iter().any(|panel| {
                 let scene = scene::run::read("scene.toml", &panel.tables);
-                scene.is_err_and(|error| error.to_string().contains("needs a force"))
+                scene.is_err_and(|error| error.to_string().contains("positions have no series"))
             })
         })
     };

@@ -127,7 +127,7 @@ fn judge_panel(text: &str, panel: &scene_file::Panel) -> Verdict {
 fn refused(verdict: &mut Verdict, problem: &str, question: &Question) {
     let known = [
         ("no uniform flow", "refused: no uniform flow"),
-        ("needs a force that depends on the gap alone", "refused: taylor has no series"),
+        ("positions have no series", "refused: taylor has no series"),
         ("closes a gap", "refused: shift closes a gap"),
         ("gaps are closed", "refused: closed gaps"),
         ("give either dt or tolerance", "refused: dt and tolerance"),

@@ -63,8 +63,12 @@ fn variants() -> Vec<Variant> {
         let Some(model) = law(name) else { continue };
         variants.push(named(&format!("step-{name}"), pedestrians, heun(model, pedestrians)));
     }
-    for (name, pedestrians) in STEPS.into_iter().filter(|(name, _)| PLAIN.contains(name)) {
+    for (name, pedestrians) in STEPS {
         let Some(model) = law(name) else { continue };
+        if !PLAIN.contains(&name) {
+            variants.push(named(&format!("series-{name}"), pedestrians, series(model, pedestrians)));
+            continue;
+        }
         variants.push(named(
             &format!("gaps/{name}"),
             pedestrians,
@@ -96,15 +100,9 @@ const STEPS: [(&str, usize); 6] = [
 const PLAIN: [&str; 3] = ["algebraic-q2", "exponential", "logarithmic"];
 
 fn laws() -> Vec<(&'static str, Model)> {
-    let algebraic = |relative, power, widening| {
-        let (strength, epsilon, desired_speed) = (0.45, 0.1, 3.0);
-        Model::Algebraic(Algebraic { strength, relative, power, widening, epsilon, desired_speed })
-    };
-    let exponential = |contact, widening| {
-        let (strength, range, epsilon, desired_speed) = (1.5, 1.5, 0.1, 3.0);
-        Model::Exponential(Exponential { strength, range, contact, widening, epsilon, desired_speed })
-    };
-    let logarithmic = |widening| Model::Logarithmic(Logarithmic { desired_speed: 1.0, widening, epsilon: 0.01 });
+    let algebraic = |delta, q, a_v| Model::Algebraic(Algebraic { mu: 0.45, delta, q, a_v, epsilon: 0.1, v0: 3.0 });
+    let exponential = |c, a_v| Model::Exponential(Exponential { a: 1.5, b: 1.5, c, a_v, epsilon: 0.1, v0: 3.0 });
+    let logarithmic = |a_v| Model::Logarithmic(Logarithmic { v0: 1.0, a_v, epsilon: 0.01 });
     vec![
         ("algebraic-all", algebraic(1.0, 1.5, 0.1)),
         ("algebraic-relative-q2", algebraic(1.0, 2.0, 0.0)),

@@ -39,7 +39,7 @@
 //! ```
 //! use jam::laws::{Logarithmic, Model};
 //!
-//! let law = Model::Logarithmic(Logarithmic { desired_speed: 1.0, widening: 0.0, epsilon: 0.01 });
+//! let law = Model::Logarithmic(Logarithmic { v0: 1.0, a_v: 0.0, epsilon: 0.01 });
 //! assert_eq!(law.parameters(), ["a_v", "epsilon", "v0"]);
 //! let faster = law.with("v0", 1.5)?;
 //! assert_eq!(faster.desired_speed(), 1.5);

@@ -95,6 +95,11 @@ impl Stepper for Taylor {
         if norm.is_none() {
             self.expand(system, from.state, from.rates);
         }
+        // a step may end far earlier than its series allows, which of a polynomial is never: in that unit the coefficients of
+        // the next expansion would overflow
+        if from.h < self.next_unit {
+            self.next_unit = power_of_two(from.h);
+        }
         let h = from.h / self.unit;
         dispatch(Change::<false> { rows: &self.coefficients, n: self.dimension, from: 0, h, result: change });
         norm.map_or(0.0, |_| (0..self.order).fold(self.last_size, |error, _| error * h))

@@ -1,4 +1,4 @@
-//! From a scene file to tables: validated scenes ([`law`], [`run`], [`map`], [`curve`], [`sweep`]), their numbers in
+//! From a scene file to tables: validated scenes ([`law`], [`run`], [`map`], [`curve`]), their numbers in
 //! memory, and their summaries ([`summary`]). A time-dependent scene is a [`jam::run::Run`]. This crate opens no files,
 //! so tables can be computed wherever Rust runs.
 
@@ -8,7 +8,6 @@ pub mod map;
 pub mod overrides;
 pub mod run;
 pub mod summary;
-pub mod sweep;
 pub mod tables;
 pub mod uniform;
 

@@ -64,9 +64,9 @@ fn read_for(file: &str, tables: &Section, purpose: Purpose) -> Result<Scene, Sce
     let sample = run.number("sample", POSITIVE)?;
     let method = method(&mut run)?;
     let wanted = if run.has("state") { Some(run.one_of("state", &FORMS)?) } else { None };
-    let method = method.unwrap_or_else(|| usual_method(wanted, &model, ring, steady_speed));
+    let form = fitting(wanted, &model, ring, steady_speed);
+    let method = method.unwrap_or_else(|| usual_method(form, &model));
     let control = control(&mut run, method, TOLERANCE)?;
-    let form = fitting(wanted, &model, ring, steady_speed, method);
     if let Some((pedestrian, value)) = without_value(&*form.build(&model, ring), start, ring) {
         let problem = format!(
             "the formula has no value at the start: the acceleration of pedestrian {pedestrian} is {value:?}; it must be finite for every pedestrian"
@@ -74,10 +74,7 @@ fn read_for(file: &str, tables: &Section, purpose: Purpose) -> Result<Scene, Sce
         return Err(Reader::new(file, "start", top_start).complaint("shift", &problem));
     }
     if !method.suits(&*form.build(&model, ring)) {
-        let problem = format!(
-            "{} needs a force that depends on the gap alone (neither a_v nor delta is named) and the state \"deviations\", or the state \"gaps\"",
-            method.name()
-        );
+        let problem = format!("{} needs the state \"deviations\" or \"gaps\": positions have no series", method.name());
         return Err(run.complaint("method", &problem));
     }
     let keeps_trajectories = !run.has("record") || run.one_of("record", &[("std", false), ("trajectories", true)])?;
@@ -112,7 +109,7 @@ fn read_for(file: &str, tables: &Section, purpose: Purpose) -> Result<Scene, Sce
 }
 
 /// Names of the forms of the state.
-pub(crate) const FORMS: [(&str, StateVariables); 3] = [
+pub const FORMS: [(&str, StateVariables); 3] = [
     ("deviations", StateVariables::Deviations),
     ("gaps", StateVariables::Spacings),
     ("positions", StateVariables::Positions),
@@ -121,7 +118,11 @@ pub(crate) const FORMS: [(&str, StateVariables); 3] = [
 /// A run by adaptive steps is at least as long: far longer than the shortest of them.
 const SHORTEST_RUN: f64 = 1e-250;
 
-pub(crate) fn at_overlap(run: &mut Reader<'_>, model: &Model) -> Result<AtOverlap, SceneError> {
+/// What happens at an overlap: `stop`, or `continue`, which a force that is infinite at contact does not allow.
+///
+/// # Errors
+/// Another word, or a law that cannot continue.
+pub fn at_overlap(run: &mut Reader<'_>, model: &Model) -> Result<AtOverlap, SceneError> {
     if !run.has("at_overlap") {
         return Ok(AtOverlap::Stop);
     }
@@ -137,7 +138,10 @@ pub(crate) fn at_overlap(run: &mut Reader<'_>, model: &Model) -> Result<AtOverla
 }
 
 /// The steady speed that is meant, where a formula has several.
-pub(crate) fn uniform_speed(file: &str, section: &Section) -> Result<Option<f64>, SceneError> {
+///
+/// # Errors
+/// Not a finite number, or an unknown key.
+pub fn uniform_speed(file: &str, section: &Section) -> Result<Option<f64>, SceneError> {
     let mut reader = Reader::new(file, "uniform", section);
     let speed = reader.optional_number("speed", FINITE)?;
     reader.finish()?;
@@ -186,7 +190,10 @@ fn most_steps(run: &mut Reader<'_>, control: Control, t_end: f64, purpose: Purpo
 }
 
 /// The method that a scene names. One with steps of fixed length must name it.
-pub(crate) fn method(run: &mut Reader<'_>) -> Result<Option<Method>, SceneError> {
+///
+/// # Errors
+/// An unknown method, or `dt` without one.
+pub fn method(run: &mut Reader<'_>) -> Result<Option<Method>, SceneError> {
     if run.has("method") || run.has("dt") {
         return run.one_of("method", &Method::ALL.map(|method| (method.name(), method))).map(Some);
     }
@@ -194,7 +201,10 @@ pub(crate) fn method(run: &mut Reader<'_>) -> Result<Option<Method>, SceneError>
 }
 
 /// `tolerance` for methods that choose their steps, `usual` if nothing is named; `dt` for any.
-pub(crate) fn control(run: &mut Reader<'_>, method: Method, usual: f64) -> Result<Control, SceneError> {
+///
+/// # Errors
+/// Out of range, both, or one that the method does not have.
+pub fn control(run: &mut Reader<'_>, method: Method, usual: f64) -> Result<Control, SceneError> {
     let tolerance = run.optional_number("tolerance", 1e-15..=1e-2)?;
     let step = run.optional_number("dt", POSITIVE)?;
     match (tolerance, step) {

@@ -26,17 +26,17 @@ fn laws() -> [(&'static str, Model); 5] {
 
 fn algebraic(strength: f64, power: f64, desired_speed: f64) -> Model {
     let (relative, widening, epsilon) = (0.0, 0.0, 0.1);
-    Model::Algebraic(Algebraic { strength, relative, power, widening, epsilon, desired_speed })
+    Model::Algebraic(Algebraic { mu: strength, delta: relative, q: power, a_v: widening, epsilon, v0: desired_speed })
 }
 
 fn exponential_at(strength: f64, desired_speed: f64) -> Model {
     let mut law = exponential(strength, 1.5, 0.0);
-    law.desired_speed = desired_speed;
+    law.v0 = desired_speed;
     Model::Exponential(law)
 }
 
 fn logarithmic(desired_speed: f64, widening: f64) -> Model {
-    Model::Logarithmic(Logarithmic { desired_speed, widening, epsilon: 0.01 })
+    Model::Logarithmic(Logarithmic { v0: desired_speed, a_v: widening, epsilon: 0.01 })
 }
 
 /// The optimal velocity `V(s)` of each law and its slope, over headways from contact of the bodies (of the centres for the

@@ -5,7 +5,6 @@ mod formulas;
 mod pictures;
 mod resume;
 mod sums;
-mod sweep;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

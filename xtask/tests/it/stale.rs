@@ -166,7 +166,7 @@ fn what_the_compiler_read_is_what_is_hashed() {
         let unread: Vec<&String> = unread.collect();
         assert!(unread.is_empty(), "{}: hashed and not read: {unread:?}", figure.slug);
     }
-    for tool in compile::FIGURES.tools.iter().chain(compile::STUDIES.tools) {
+    for tool in compile::FIGURES.tools.iter().chain(compile::PLANES.tools).chain(compile::STUDIES.tools) {
         let missing: Vec<String> =
             compiled_from(&paths, tool).into_iter().filter(|name| !sources.files.contains_key(name)).collect();
         assert!(missing.is_empty(), "{tool}: read and not hashed: {missing:?}");

@@ -3,3 +3,4 @@
 mod judge;
 mod scenes;
 mod seeds;
+mod shifts;

@@ -56,7 +56,7 @@ pub(crate) const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 /// use jam::ring::{Ring, Start};
 /// use jam::run::Run;
 ///
-/// let law = Model::Logarithmic(Logarithmic { desired_speed: 1.0, widening: 0.0, epsilon: 0.01 });
+/// let law = Model::Logarithmic(Logarithmic { v0: 1.0, a_v: 0.0, epsilon: 0.01 });
 /// let run = Run::new(law, Ring { pedestrians: 20, length: 30.0 }, Start { shift: 0.1 }, 50.0)?;
 /// let (outcome, errors) = jam::errors::stated(&run)?;
 /// let error = errors.std.expect("both runs came to the end");

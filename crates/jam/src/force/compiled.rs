@@ -3,16 +3,18 @@
 use super::blocks::{Block, Pace, around};
 use super::heun::{self, Cut};
 use super::series::{Memory, Motion};
-use super::{Flow, Force, Rows, Steps};
+use super::{Flow, Force, Interpreted, Prepared, Rows, Steps};
 use crate::laws::{Chosen, Law};
 use crate::ramp::Bend;
+use formula::{Variable, Writer};
 use math::affine::Affine;
 use math::change::{Player, Recorder, Tape};
 use math::dual::Dual;
 use math::lanes::Lanes;
 use math::simd::{Kernel, dispatch};
 use ode::Batch;
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
+use std::sync::Arc;
 
 /// The force of a law.
 #[derive(Clone, Debug)]
@@ -23,6 +25,8 @@ pub struct Compiled<L: Law> {
     /// The uniform flow asked for last: once it is steady it is asked for again and again.
     reference: RefCell<Reference>,
     memory: RefCell<Memory>,
+    /// The law as a list of operations, for work that is not worth compiling.
+    interpreted: OnceCell<Interpreted>,
 }
 
 /// What the formula keeps of a uniform flow.
@@ -47,8 +51,22 @@ impl<L: Law> Compiled<L> {
     /// The force of this law.
     pub fn new(law: L) -> Compiled<L> {
         let reference = RefCell::new(Reference::new(&law, Flow { net_gap: 1.0, speed: 0.0 }));
-        Compiled { law, speed_slopes: speed_slopes(&law), reference, memory: RefCell::default() }
+        let speed_slopes = speed_slopes(&law);
+        Compiled { law, speed_slopes, reference, memory: RefCell::default(), interpreted: OnceCell::new() }
     }
+
+    fn interpreted(&self) -> &Interpreted {
+        self.interpreted.get_or_init(|| interpreted(&self.law))
+    }
+}
+
+/// The law as a list of operations.
+fn interpreted<L: Law>(law: &L) -> Interpreted {
+    let writer = Writer::default();
+    let [speed, ahead] = [0, 1].map(|j| writer.variable(Variable::Speed(j)));
+    let acceleration = law.acceleration(writer.variable(Variable::Spacing(0)) - L::CONTACT, speed, ahead);
+    let bound = writer.finish(acceleration);
+    Interpreted::new(Arc::new(Prepared::new(&bound, bound.acceleration(), L::CONTACT)), None, L::SINGULAR)
 }
 
 fn speed_slopes<L: Law>(law: &L) -> Option<[f64; 2]> {
@@ -111,6 +129,9 @@ impl<L: Law> Force for Compiled<L> {
     }
 
     fn series(&self, motion: Motion<'_>) {
+        if motion.along.is_some() {
+            return self.interpreted().series(motion);
+        }
         let operations = self.reference.borrow().tape.histories();
         super::series::compiled(self.law, operations, motion, &mut self.memory.borrow_mut());
     }

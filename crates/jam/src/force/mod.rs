@@ -89,6 +89,9 @@ pub struct Flow {
     pub speed: f64,
 }
 
+/// What added to any number leaves it as it is, a zero with its sign.
+pub(crate) const NOTHING: Flow = Flow { net_gap: -0.0, speed: -0.0 };
+
 /// Steps to be made: the length of the ring, the length of a step, their number, and the widest registers to use, on
 /// which the bits do not depend.
 #[derive(Clone, Copy, Debug)]

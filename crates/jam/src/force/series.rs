@@ -5,7 +5,7 @@
 //! gives from those of spacing and speeds up to the order `k` ([`math::series`]). An order costs a few sums of products;
 //! no stage is evaluated.
 
-use super::Flow;
+use super::{Flow, NOTHING};
 use crate::laws::Law;
 use math::lanes::Lanes;
 use math::series::{Block, Jet, Place, ROWS};
@@ -15,8 +15,10 @@ use math::simd::{Kernel, dispatch};
 #[derive(Debug)]
 pub struct Motion<'a> {
     /// What is added to spacings and speeds of order 0: those of the uniform flow, if the rows hold deviations from it.
-    /// Then the speed of that flow is steady, or the force does not depend on speeds.
     pub flow: Flow,
+    /// Where in a row the speed of that flow stands, whose coefficients are then written, too, and those of the deviations
+    /// without cancellation. `None` where the flow is steady, or the force does not depend on speeds.
+    pub along: Option<usize>,
     /// How many pedestrians.
     pub pedestrians: usize,
     /// The last order.
@@ -37,7 +39,7 @@ const W: usize = 24;
 #[derive(Clone, Debug, Default)]
 pub struct Memory {
     /// What the operations keep, one block of pedestrians after another.
-    histories: Vec<Block<W>>,
+    histories: Vec<Block<Lanes<W>>>,
     /// Coefficients of one order, and of the next.
     spacings: Vec<f64>,
     speeds: Vec<f64>,
@@ -123,7 +125,7 @@ impl<L: Law> Kernel for Coefficients<'_, '_, L> {
 impl<L: Law> Coefficients<'_, '_, L> {
     #[inline(always)]
     fn of(self, law: &L) {
-        let Motion { flow, pedestrians: n, order, unit, dimension, coefficients } = self.motion;
+        let Motion { flow, pedestrians: n, order, unit, dimension, coefficients, .. } = self.motion;
         let (memory, blocks, size) = (self.memory, n.div_ceil(W), self.operations * ROWS * order);
         let (states, rates) = coefficients.split_at_mut(dimension);
         memory.reserve(blocks, size);
@@ -131,7 +133,7 @@ impl<L: Law> Coefficients<'_, '_, L> {
         for block in 0..blocks {
             let place = Place::new(&memory.histories[block * size..(block + 1) * size], order, 0);
             let [s, v, w] = memory.variables(block * W);
-            law.acceleration::<Jet<W, true>>(place.variable(s), place.variable(v), place.variable(w));
+            law.acceleration::<Jet<Lanes<W>, true>>(place.variable(s), place.variable(v), place.variable(w));
         }
         memory.take(&rates[..n], &rates[n..2 * n], NOTHING);
         for k in 1..order {
@@ -149,6 +151,3 @@ impl<L: Law> Coefficients<'_, '_, L> {
         }
     }
 }
-
-/// What leaves any number as it is, a zero with its sign.
-const NOTHING: Flow = Flow { net_gap: -0.0, speed: -0.0 };

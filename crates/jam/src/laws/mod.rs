@@ -60,24 +60,24 @@ const RAMP_WIDTH: f64 = 0.1;
 /// /// `dv_n/dt = v_0 (1 - exp(-(s_n - 2) / l)) - v_n`.
 /// #[derive(Clone, Copy, Debug, Default)]
 /// struct Relaxing {
-///     desired_speed: f64,
+///     v0: f64,
 ///     length: f64,
 /// }
 ///
 /// impl Law for Relaxing {
 ///     const PARAMETERS: &'static [Parameter<Relaxing>] = &[
-///         Parameter { name: "v0", range: Range::Positive, default: None, place: |law| &mut law.desired_speed },
+///         Parameter { name: "v0", range: Range::Positive, default: None, place: |law| &mut law.v0 },
 ///         Parameter { name: "l", range: Range::Positive, default: None, place: |law| &mut law.length },
 ///     ];
 ///     const CONTACT: f64 = 2.0;
 ///
 ///     #[inline(always)]
 ///     fn acceleration<X: Number>(&self, net_gap: X, speed: X, _ahead: X) -> X {
-///         -(net_gap * (-1.0 / self.length)).exp_m1() * self.desired_speed - speed
+///         -(net_gap * (-1.0 / self.length)).exp_m1() * self.v0 - speed
 ///     }
 /// }
 ///
-/// let law = Model::own(Relaxing { desired_speed: 1.0, length: 3.0 })?;
+/// let law = Model::own(Relaxing { v0: 1.0, length: 3.0 })?;
 /// // stable where the slope V'(s) of the steady speed is below 1/2: V' = exp(-(s - 2)/l) v0/l
 /// let speed = steady_speed(&law, 4.0)?;
 /// assert!((speed - (1.0 - math::exp(-2.0 / 3.0))).abs() < 1e-15);
@@ -243,7 +243,7 @@ impl Model {
 
     /// The size of speeds, if the law has one.
     pub fn speed_scale(&self) -> Option<f64> {
-        each!(self, law => Some(law.desired_speed), formula => formula.speed_scale(), own => own.speed_scale())
+        each!(self, law => Some(law.v0), formula => formula.speed_scale(), own => own.speed_scale())
     }
 
     /// The names of the parameters.

@@ -10,28 +10,24 @@ const LEAST_RESPONSE: f64 = 1e-280;
 
 /// The form of the state: deviations from the uniform flow of this speed if none is `wanted` and they can hold the run, else
 /// spacings.
-pub fn fitting(
-    wanted: Option<StateVariables>,
-    model: &Model,
-    ring: Ring,
-    speed: Option<f64>,
-    method: Method,
-) -> StateVariables {
+pub fn fitting(wanted: Option<StateVariables>, model: &Model, ring: Ring, speed: Option<f64>) -> StateVariables {
     let form = wanted.unwrap_or(StateVariables::Deviations);
-    let has_no_series = wanted.is_none() && !method.suits(&*form.build(model, ring));
-    if form == StateVariables::Deviations && (!has_deviations(model, ring, speed) || has_no_series) {
+    if form == StateVariables::Deviations && !has_deviations(model, ring, speed) {
         StateVariables::Spacings
     } else {
         form
     }
 }
 
-/// The method of a run that names none: Taylor's, or `dop853` where only that method keeps the state in deviations, in which a
-/// small perturbation loses no digits.
-pub fn usual_method(wanted: Option<StateVariables>, model: &Model, ring: Ring, speed: Option<f64>) -> Method {
-    // dop853 suits every form
-    let variables = fitting(wanted, model, ring, speed, Method::Dop853);
-    if Method::Taylor.suits(&*variables.build(model, ring)) { Method::Taylor } else { Method::Dop853 }
+/// The method of a run that names none: Taylor's, or `dop853` in positions, which have no series, and where a series would have
+/// to end on kinks: of a formula, and of a law of your own that depends on speeds, of whose kinks nobody knows.
+pub fn usual_method(form: StateVariables, model: &Model) -> Method {
+    let has_series = form != StateVariables::Positions;
+    let may_meet_kinks = match model {
+        Model::Formula(law) => law.has_kinks(),
+        model => model.may_have_kinks() && model.force().uses_speeds(),
+    };
+    if has_series && !may_meet_kinks { Method::Taylor } else { Method::Dop853 }
 }
 
 /// Whether a ring has a uniform flow that its state can deviate from.

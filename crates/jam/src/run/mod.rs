@@ -99,8 +99,8 @@ impl Run {
             ));
         }
         let steady_speed = flow(&model, ring, None).map_err(|error| error.to_string())?;
-        let method = usual_method(None, &model, ring, steady_speed);
-        let form = fitting(None, &model, ring, steady_speed, method);
+        let form = fitting(None, &model, ring, steady_speed);
+        let method = usual_method(form, &model);
         if let Some((pedestrian, value)) = without_value(&*form.build(&model, ring), start, ring) {
             return Err(format!(
                 "the acceleration of pedestrian {pedestrian} is {value:?} at the start; must be finite"

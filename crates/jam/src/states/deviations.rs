@@ -66,23 +66,26 @@ impl System for Deviations {
     }
 
     fn has_series(&self) -> bool {
-        !self.force.uses_speeds()
+        true
     }
 
-    /// Where the force depends on the gap alone, the uniform flow only relaxes: `dV/dt = f(Delta y) - V` with a constant, for
-    /// other laws with another factor of `V`.
+    /// Where the force depends on speeds, the uniform flow has a series like everybody else. Else it only relaxes:
+    /// `dV/dt = f(Delta y) - V` with a constant, for other laws with another factor of `V`.
     fn series(&self, order: usize, unit: f64, coefficients: &mut [f64]) {
         let (n, dimension) = (self.pedestrians, self.dimension());
         let (first, distance, speed) = self.extras();
         let flow = self.flow(coefficients);
-        self.force.series(Motion { flow, pedestrians: n, order, unit, dimension, coefficients });
-        let relaxation = self.force.relaxation(flow);
+        let relaxation = (!self.force.uses_speeds()).then(|| self.force.relaxation(flow));
+        let along = relaxation.is_none().then_some(speed);
+        self.force.series(Motion { flow, along, pedestrians: n, order, unit, dimension, coefficients });
         for k in 1..order {
             let (done, next) = coefficients[k * dimension..].split_at_mut(dimension);
             let share = unit / (k + 1) as f64;
             next[first] = done[n] * share;
             next[distance] = done[speed] * share;
-            next[speed] = relaxation * done[speed] * share;
+            if let Some(relaxation) = relaxation {
+                next[speed] = relaxation * done[speed] * share;
+            }
         }
     }
 

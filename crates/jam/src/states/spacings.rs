@@ -51,7 +51,7 @@ impl System for Spacings {
 
     fn series(&self, order: usize, unit: f64, coefficients: &mut [f64]) {
         let (n, dimension) = (self.pedestrians, self.dimension());
-        self.force.series(Motion { flow: AT_REST, pedestrians: n, order, unit, dimension, coefficients });
+        self.force.series(Motion { flow: AT_REST, along: None, pedestrians: n, order, unit, dimension, coefficients });
         for k in 1..order {
             let (done, next) = coefficients[k * dimension..].split_at_mut(dimension);
             next[2 * n] = done[n] * (unit / (k + 1) as f64);

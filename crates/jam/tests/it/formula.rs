@@ -26,31 +26,31 @@ fn as_formula(model: &Model) -> Model {
             ("acceleration", Given::Text("v0 - v - (mu + delta*ramp(v[1] - v, epsilon))^2*d^(-q)")),
             ("d", Given::Text("s - body - a_v*(v + v[1])")),
             ("gap", Given::Text("d")),
-            ("mu", number(p.strength)),
-            ("delta", number(p.relative)),
-            ("q", number(p.power)),
-            ("a_v", number(p.widening)),
+            ("mu", number(p.mu)),
+            ("delta", number(p.delta)),
+            ("q", number(p.q)),
+            ("a_v", number(p.a_v)),
             ("epsilon", number(p.epsilon)),
-            ("v0", number(p.desired_speed)),
+            ("v0", number(p.v0)),
             ("body", number(2.0)),
         ]),
         Model::Exponential(p) => law(&[
             ("acceleration", Given::Text("v0 - v - a*exp(-d/b) - c*ramp(d, epsilon)")),
             ("d", Given::Text("s - body - a_v*(v + v[1])")),
             ("gap", Given::Text("d")),
-            ("a", number(p.strength)),
-            ("b", number(p.range)),
-            ("c", number(p.contact)),
-            ("a_v", number(p.widening)),
+            ("a", number(p.a)),
+            ("b", number(p.b)),
+            ("c", number(p.c)),
+            ("a_v", number(p.a_v)),
             ("epsilon", number(p.epsilon)),
-            ("v0", number(p.desired_speed)),
+            ("v0", number(p.v0)),
             ("body", number(2.0)),
         ]),
         Model::Logarithmic(p) => law(&[
             ("acceleration", Given::Text("v0*(1 - ln_1p((e - 1)*ramp(s/(2 + a_v*(v + v[1])) - 1, epsilon))) - v")),
-            ("a_v", number(p.widening)),
+            ("a_v", number(p.a_v)),
             ("epsilon", number(p.epsilon)),
-            ("v0", number(p.desired_speed)),
+            ("v0", number(p.v0)),
             ("body", number(0.0)),
         ]),
         Model::Formula(_) | Model::Own(_) => model.clone(),
@@ -122,7 +122,7 @@ fn series_of_formulas_have_the_bits_of_compiled_laws() {
             for (coefficients, model) in both.iter_mut().zip([model.clone(), as_formula(&model)]) {
                 let flow = Flow { net_gap: 0.0, speed: 0.0 };
                 let (pedestrians, order, unit) = (count, ORDER, 0.25);
-                model.force().series(Motion { flow, pedestrians, order, unit, dimension, coefficients });
+                model.force().series(Motion { flow, along: None, pedestrians, order, unit, dimension, coefficients });
             }
             assert_eq!(bits(&both[0]), bits(&both[1]), "{model:?}, {count}");
             assert!(both[0].iter().all(|value| value.is_finite()), "{model:?}");

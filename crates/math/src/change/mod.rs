@@ -5,7 +5,10 @@
 //! what they find on the tape, in the same order, and give the difference to a relative error of the order of rounding,
 //! however small it is (see [`rules`]).
 
+mod changed;
 pub mod rules;
+
+pub use changed::Changed;
 
 use crate::lanes::{Lanes, lane_by_lane};
 use crate::number::Number;

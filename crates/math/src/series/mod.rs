@@ -6,44 +6,70 @@
 
 pub mod recurrences;
 
-use crate::lanes::Lanes;
+use crate::lanes::{Lanes, lane_by_lane};
 use crate::number::Number;
 use recurrences as next;
 use std::cell::Cell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// The coefficients of one order, of `W` pedestrians. Aligned as the widest registers are: a load across two cache lines
-/// costs two of them.
-#[derive(Clone, Debug)]
-#[repr(align(64))]
-pub struct Block<const W: usize>(Cell<[f64; W]>);
+/// What series have as coefficients: numbers, whose functions are needed at order 0 only.
+pub trait Coefficient: Number + Default {
+    /// The first where the sign is not negative, else the second.
+    fn choose(sign: Self, first: Self, second: Self) -> Self;
 
-impl<const W: usize> Default for Block<W> {
-    fn default() -> Block<W> {
-        Block(Cell::new([0.0; W]))
+    /// The sign that is known, 1 or -1; where it is 0, that of a number.
+    fn sign(known: Self, number: Self) -> Self;
+}
+
+/// 1, -1 or 0.
+#[inline(always)]
+pub(crate) fn sign_of(a: f64) -> f64 {
+    let positive = if a > 0.0 { 1.0 } else { 0.0 };
+    if a < 0.0 { -1.0 } else { positive }
+}
+
+impl<const W: usize> Coefficient for Lanes<W> {
+    #[inline(always)]
+    fn choose(sign: Self, first: Self, second: Self) -> Self {
+        let mut chosen = first;
+        for lane in 0..W {
+            chosen.0[lane] = if sign.0[lane] < 0.0 { second.0[lane] } else { first.0[lane] };
+        }
+        chosen
+    }
+
+    #[inline(always)]
+    fn sign(known: Self, number: Self) -> Self {
+        lane_by_lane!(known of known, a of number => if known == 0.0 { sign_of(a) } else { known })
     }
 }
 
-impl<const W: usize> Block<W> {
+/// The coefficients of one order, of the pedestrians of a block. Aligned as the widest registers are: a load across two
+/// cache lines costs two of them.
+#[derive(Clone, Debug, Default)]
+#[repr(align(64))]
+pub struct Block<C: Copy>(Cell<C>);
+
+impl<C: Coefficient> Block<C> {
     #[inline(always)]
-    fn get(&self) -> Lanes<W> {
-        Lanes(self.0.get())
+    fn get(&self) -> C {
+        self.0.get()
     }
 
     #[inline(always)]
-    fn set(&self, coefficients: Lanes<W>) {
-        self.0.set(coefficients.0);
+    fn set(&self, coefficients: C) {
+        self.0.set(coefficients);
     }
 }
 
 /// The memory of an operation that is not linear: a number of rows of a block for each order.
 pub const ROWS: usize = recurrences::ROWS;
 
-/// Where the operations of a formula keep earlier coefficients, for `W` pedestrians: [`ROWS`] rows for each operation that
+/// Where the operations of a formula keep earlier coefficients: [`ROWS`] rows for each operation that
 /// is not linear, each as long as the series.
 #[derive(Debug)]
-pub struct Place<'t, const W: usize> {
-    memory: &'t [Block<W>],
+pub struct Place<'t, C: Copy> {
+    memory: &'t [Block<C>],
     /// Coefficients of a series.
     length: usize,
     /// The order that is computed.
@@ -51,49 +77,49 @@ pub struct Place<'t, const W: usize> {
     next: Cell<usize>,
 }
 
-impl<'t, const W: usize> Place<'t, W> {
+impl<'t, C: Coefficient> Place<'t, C> {
     /// For the coefficients of this order of series of `length`.
     #[inline(always)]
-    pub fn new(memory: &'t [Block<W>], length: usize, order: usize) -> Place<'t, W> {
+    pub fn new(memory: &'t [Block<C>], length: usize, order: usize) -> Place<'t, C> {
         Place { memory, length, order, next: Cell::new(0) }
     }
 
     /// A variable: its coefficient of this order.
     #[inline(always)]
-    pub fn variable<const START: bool>(&self, coefficient: Lanes<W>) -> Jet<'_, W, START> {
+    pub fn variable<const START: bool>(&self, coefficient: C) -> Jet<'_, C, START> {
         Jet { place: self, coefficient }
     }
 
     /// The memory of the next operation.
     #[inline(always)]
-    fn history(&self) -> next::History<'t, W> {
+    fn history(&self) -> next::History<'t, C> {
         let from = self.next.get();
         self.next.set(from + ROWS * self.length);
         next::History::new(&self.memory[from..from + ROWS * self.length], self.length, self.order)
     }
 }
 
-/// A coefficient of a series. `START` at order 0, where functions are evaluated; from order 1 on there are recurrences.
+/// Coefficients of a series. `START` at order 0, where functions are evaluated; from order 1 on there are recurrences.
 #[derive(Clone, Copy, Debug)]
-pub struct Jet<'t, const W: usize, const START: bool> {
-    place: &'t Place<'t, W>,
-    coefficient: Lanes<W>,
+pub struct Jet<'t, C: Copy, const START: bool> {
+    place: &'t Place<'t, C>,
+    coefficient: C,
 }
 
-impl<const W: usize, const START: bool> Jet<'_, W, START> {
+impl<C: Coefficient, const START: bool> Jet<'_, C, START> {
     /// The coefficients of this order.
     #[inline(always)]
-    pub fn coefficient(self) -> Lanes<W> {
+    pub fn coefficient(self) -> C {
         self.coefficient
     }
 
     #[inline(always)]
-    fn with(self, coefficient: Lanes<W>) -> Self {
+    fn with(self, coefficient: C) -> Self {
         Jet { coefficient, ..self }
     }
 }
 
-impl<const W: usize, const START: bool> Neg for Jet<'_, W, START> {
+impl<C: Coefficient, const START: bool> Neg for Jet<'_, C, START> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -101,7 +127,7 @@ impl<const W: usize, const START: bool> Neg for Jet<'_, W, START> {
     }
 }
 
-impl<const W: usize, const START: bool> Add for Jet<'_, W, START> {
+impl<C: Coefficient, const START: bool> Add for Jet<'_, C, START> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -109,7 +135,7 @@ impl<const W: usize, const START: bool> Add for Jet<'_, W, START> {
     }
 }
 
-impl<const W: usize, const START: bool> Sub for Jet<'_, W, START> {
+impl<C: Coefficient, const START: bool> Sub for Jet<'_, C, START> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -117,7 +143,7 @@ impl<const W: usize, const START: bool> Sub for Jet<'_, W, START> {
     }
 }
 
-impl<const W: usize, const START: bool> Add<f64> for Jet<'_, W, START> {
+impl<C: Coefficient, const START: bool> Add<f64> for Jet<'_, C, START> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: f64) -> Self {
@@ -125,7 +151,7 @@ impl<const W: usize, const START: bool> Add<f64> for Jet<'_, W, START> {
     }
 }
 
-impl<const W: usize, const START: bool> Sub<f64> for Jet<'_, W, START> {
+impl<C: Coefficient, const START: bool> Sub<f64> for Jet<'_, C, START> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: f64) -> Self {
@@ -133,7 +159,7 @@ impl<const W: usize, const START: bool> Sub<f64> for Jet<'_, W, START> {
     }
 }
 
-impl<const W: usize, const START: bool> Mul<f64> for Jet<'_, W, START> {
+impl<C: Coefficient, const START: bool> Mul<f64> for Jet<'_, C, START> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: f64) -> Self {
@@ -141,7 +167,7 @@ impl<const W: usize, const START: bool> Mul<f64> for Jet<'_, W, START> {
     }
 }
 
-impl<const W: usize, const START: bool> Div<f64> for Jet<'_, W, START> {
+impl<C: Coefficient, const START: bool> Div<f64> for Jet<'_, C, START> {
     type Output = Self;
     #[inline(always)]
     fn div(self, other: f64) -> Self {
@@ -149,19 +175,19 @@ impl<const W: usize, const START: bool> Div<f64> for Jet<'_, W, START> {
     }
 }
 
-impl<const W: usize, const START: bool> Mul for Jet<'_, W, START> {
+impl<C: Coefficient, const START: bool> Mul for Jet<'_, C, START> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        self.with(next::product::<W, START>(self.place.history(), self.coefficient, other.coefficient))
+        self.with(next::product::<C, START>(self.place.history(), self.coefficient, other.coefficient))
     }
 }
 
-impl<const W: usize, const START: bool> Div for Jet<'_, W, START> {
+impl<C: Coefficient, const START: bool> Div for Jet<'_, C, START> {
     type Output = Self;
     #[inline(always)]
     fn div(self, other: Self) -> Self {
-        self.with(next::quotient::<W, START>(self.place.history(), self.coefficient, other.coefficient))
+        self.with(next::quotient::<C, START>(self.place.history(), self.coefficient, other.coefficient))
     }
 }
 
@@ -170,38 +196,38 @@ macro_rules! functions {
     ($($name:ident)*) => {
         $(#[inline(always)]
         fn $name(self) -> Self {
-            self.with(next::$name::<W, START>(self.place.history(), self.coefficient))
+            self.with(next::$name::<C, START>(self.place.history(), self.coefficient))
         })*
     };
 }
 
-impl<const W: usize, const START: bool> Number for Jet<'_, W, START> {
+impl<C: Coefficient, const START: bool> Number for Jet<'_, C, START> {
     functions!(recip exp exp_m1 ln ln_1p sqrt tanh softplus abs);
 
     #[inline(always)]
     fn powi(self, n: i32) -> Self {
         match n {
-            0 => self.with(if START { Lanes::splat(1.0) } else { Lanes::default() }),
+            0 => self.with(if START { C::default() + 1.0 } else { C::default() }),
             1 => self,
             -1 => self.recip(),
             // products, because the number may pass through 0
             2.. => (1..n).fold(self, |product, _| product * self),
-            _ => self.with(next::whole_power::<W, START>(self.place.history(), self.coefficient, n)),
+            _ => self.with(next::whole_power::<C, START>(self.place.history(), self.coefficient, n)),
         }
     }
 
     #[inline(always)]
     fn powf(self, q: f64) -> Self {
-        self.with(next::power::<W, START>(self.place.history(), self.coefficient, q))
+        self.with(next::power::<C, START>(self.place.history(), self.coefficient, q))
     }
 
     #[inline(always)]
     fn min(self, other: Self) -> Self {
-        self.with(next::min::<W, START>(self.place.history(), self.coefficient, other.coefficient))
+        self.with(next::min::<C, START>(self.place.history(), self.coefficient, other.coefficient))
     }
 
     #[inline(always)]
     fn max(self, other: Self) -> Self {
-        self.with(next::max::<W, START>(self.place.history(), self.coefficient, other.coefficient))
+        self.with(next::max::<C, START>(self.place.history(), self.coefficient, other.coefficient))
     }
 }

@@ -5,53 +5,50 @@
 //! Moore, *Interval Analysis*, 1966, chapter 11; E. Hairer, S. P. Norsett, G. Wanner, *Solving Ordinary Differential
 //! Equations I*, section I.8). With `a' = sum k a_k t^(k-1)` the numbers `k a_k` are called rates below.
 
-use super::Block;
-use crate::lane;
-use crate::lanes::{Lanes, lane_by_lane};
-use crate::number::Number;
+use super::{Block, Coefficient};
 
 /// Rows of memory of an operation.
 pub const ROWS: usize = 4;
 
 /// The memory of one operation, and the order that is computed.
 #[derive(Clone, Copy, Debug)]
-pub struct History<'t, const W: usize> {
-    rows: &'t [Block<W>],
+pub struct History<'t, C: Copy> {
+    rows: &'t [Block<C>],
     length: usize,
     order: usize,
 }
 
 /// A row: the coefficients of one series.
-type Row<'t, const W: usize> = &'t [Block<W>];
+type Row<'t, C> = &'t [Block<C>];
 
-impl<'t, const W: usize> History<'t, W> {
+impl<'t, C: Coefficient> History<'t, C> {
     /// [`ROWS`] rows of `length` coefficients.
     #[inline(always)]
-    pub fn new(rows: Row<'t, W>, length: usize, order: usize) -> History<'t, W> {
+    pub fn new(rows: Row<'t, C>, length: usize, order: usize) -> History<'t, C> {
         History { rows, length, order }
     }
 
     #[inline(always)]
-    fn row(self, index: usize) -> Row<'t, W> {
+    fn row(self, index: usize) -> Row<'t, C> {
         &self.rows[index * self.length..(index + 1) * self.length]
     }
 
     /// Writes the coefficient of this order.
     #[inline(always)]
-    fn write(self, index: usize, value: Lanes<W>) {
+    fn write(self, index: usize, value: C) {
         self.row(index)[self.order].set(value);
     }
 
     /// A coefficient of order 0.
     #[inline(always)]
-    fn first(self, index: usize) -> Lanes<W> {
+    fn first(self, index: usize) -> C {
         self.row(index)[0].get()
     }
 
     /// `a_1 b_{k-1} + ... + a_{k-1} b_1`: the coefficient of this order of a product, less its ends.
     #[inline(always)]
-    fn inner(self, a: usize, b: usize) -> Lanes<W> {
-        let mut sum = Lanes::default();
+    fn inner(self, a: usize, b: usize) -> C {
+        let mut sum = C::default();
         if self.order > 1 {
             let (a, b) = (&self.row(a)[1..self.order], &self.row(b)[1..self.order]);
             // by index: iterators that run against each other cost several times the sum
@@ -71,7 +68,7 @@ impl<'t, const W: usize> History<'t, W> {
 
 /// Of a b.
 #[inline(always)]
-pub fn product<const W: usize, const START: bool>(h: History<'_, W>, a: Lanes<W>, b: Lanes<W>) -> Lanes<W> {
+pub fn product<C: Coefficient, const START: bool>(h: History<'_, C>, a: C, b: C) -> C {
     h.write(0, a);
     h.write(1, b);
     if START { a * b } else { (h.first(0) * b + a * h.first(1)) + h.inner(0, 1) }
@@ -79,7 +76,7 @@ pub fn product<const W: usize, const START: bool>(h: History<'_, W>, a: Lanes<W>
 
 /// Of c = a / b, from `c b = a`.
 #[inline(always)]
-pub fn quotient<const W: usize, const START: bool>(h: History<'_, W>, a: Lanes<W>, b: Lanes<W>) -> Lanes<W> {
+pub fn quotient<C: Coefficient, const START: bool>(h: History<'_, C>, a: C, b: C) -> C {
     h.write(0, b);
     if START {
         h.write(2, b.recip());
@@ -94,7 +91,7 @@ pub fn quotient<const W: usize, const START: bool>(h: History<'_, W>, a: Lanes<W
 
 /// Of c = 1 / a, from `c a = 1`.
 #[inline(always)]
-pub fn recip<const W: usize, const START: bool>(h: History<'_, W>, a: Lanes<W>) -> Lanes<W> {
+pub fn recip<C: Coefficient, const START: bool>(h: History<'_, C>, a: C) -> C {
     h.write(0, a);
     let c = if START { a.recip() } else { -((h.first(1) * a + h.inner(1, 0)) * h.first(1)) };
     h.write(1, c);
@@ -103,18 +100,18 @@ pub fn recip<const W: usize, const START: bool>(h: History<'_, W>, a: Lanes<W>) 
 
 /// Of a^n for a negative n, where a does not vanish.
 #[inline(always)]
-pub fn whole_power<const W: usize, const START: bool>(h: History<'_, W>, a: Lanes<W>, n: i32) -> Lanes<W> {
+pub fn whole_power<C: Coefficient, const START: bool>(h: History<'_, C>, a: C, n: i32) -> C {
     if START { start_power(h, a, a.powi(n)) } else { next_power(h, a, f64::from(n)) }
 }
 
 /// Of a^q, a > 0.
 #[inline(always)]
-pub fn power<const W: usize, const START: bool>(h: History<'_, W>, a: Lanes<W>, q: f64) -> Lanes<W> {
+pub fn power<C: Coefficient, const START: bool>(h: History<'_, C>, a: C, q: f64) -> C {
     if START { start_power(h, a, a.powf(q)) } else { next_power(h, a, q) }
 }
 
 #[inline(always)]
-fn start_power<const W: usize>(h: History<'_, W>, a: Lanes<W>, f: Lanes<W>) -> Lanes<W> {
+fn start_power<C: Coefficient>(h: History<'_, C>, a: C, f: C) -> C {
     h.write(0, a);
     h.write(1, f);
     h.write(2, a.recip());
@@ -123,7 +120,7 @@ fn start_power<const W: usize>(h: History<'_, W>, a: Lanes<W>, f: Lanes<W>) -> L
 
 /// From `a f' = q f a'`: `k a_0 f_k = sum (q (k - j) - j) a_{k-j} f_j` over `j < k`.
 #[inline(always)]
-fn next_power<const W: usize>(h: History<'_, W>, a: Lanes<W>, q: f64) -> Lanes<W> {
+fn next_power<C: Coefficient>(h: History<'_, C>, a: C, q: f64) -> C {
     h.write(0, a);
     let (k, order) = (h.k(), h.order);
     let mut sum = h.first(1) * a * (q * k);
@@ -144,7 +141,7 @@ fn next_power<const W: usize>(h: History<'_, W>, a: Lanes<W>, q: f64) -> Lanes<W
 
 /// Of f = e^a.
 #[inline(always)]
-pub fn exp<const W: usize, const START: bool>(h: History<'_, W>, a: Lanes<W>) -> Lanes<W> {
+pub fn exp<C: Coefficient, const START: bool>(h: History<'_, C>, a: C) -> C {
     if START {
         let f = a.exp();
         h.write(0, f);
@@ -155,7 +152,7 @@ pub fn exp<const W: usize, const START: bool>(h: History<'_, W>, a: Lanes<W>) ->
 
 /// Of e^a - 1.
 #[inline(always)]
-pub fn exp_m1<const W: usize, const START: bool>(h: History<'_, W>, a: Lanes<W>) -> Lanes<W> {
+pub fn exp_m1<C: Coefficient, const START: bool>(h: History<'_, C>, a: C) -> C {
     if START {
         h.write(0, a.exp());
         return a.exp_m1();
@@ -165,7 +162,7 @@ pub fn exp_m1<const W: usize, const START: bool>(h: History<'_, W>, a: Lanes<W>)
 
 /// From `f' = f a'`: `k f_k = sum f_j (k - j) a_{k-j}` over `j < k`.
 #[inline(always)]
-fn next_exp<const W: usize>(h: History<'_, W>, a: Lanes<W>) -> Lanes<W> {
+fn next_exp<C: Coefficient>(h: History<'_, C>, a: C) -> C {
     let rate = a * h.k();
     h.write(1, rate);
     let f = (h.first(0) * rate + h.inner(0, 1)) * (1.0 / h.k());
@@ -175,7 +172,7 @@ fn next_exp<const W: usize>(h: History<'_, W>, a: Lanes<W>) -> Lanes<W> {
 
 /// Of ln a.
 #[inline(always)]
-pub fn ln<const W: usize, const START: bool>(h: History<'_, W>, a: Lanes<W>) -> Lanes<W> {
+pub fn ln<C: Coefficient, const START: bool>(h: History<'_, C>, a: C) -> C {
     if START {
         h.write(1, a.recip());
         return a.ln();
@@ -185,7 +182,7 @@ pub fn ln<const W: usize, const START: bool>(h: History<'_, W>, a: Lanes<W>) -> 
 
 /// Of ln(1 + a).
 #[inline(always)]
-pub fn ln_1p<const W: usize, const START: bool>(h: History<'_, W>, a: Lanes<W>) -> Lanes<W> {
+pub fn ln_1p<C: Coefficient, const START: bool>(h: History<'_, C>, a: C) -> C {
     if START {
         h.write(1, (a + 1.0).recip());
         return a.ln_1p();
@@ -195,7 +192,7 @@ pub fn ln_1p<const W: usize, const START: bool>(h: History<'_, W>, a: Lanes<W>) 
 
 /// From `a f' = a'` (`(1 + a) f' = a'`): `a_0 k f_k = k a_k - sum a_{k-j} j f_j` over `0 < j < k`.
 #[inline(always)]
-fn next_ln<const W: usize>(h: History<'_, W>, a: Lanes<W>) -> Lanes<W> {
+fn next_ln<C: Coefficient>(h: History<'_, C>, a: C) -> C {
     h.write(0, a);
     let rate = (a * h.k() - h.inner(2, 0)) * h.first(1);
     h.write(2, rate);
@@ -204,7 +201,7 @@ fn next_ln<const W: usize>(h: History<'_, W>, a: Lanes<W>) -> Lanes<W> {
 
 /// Of f = sqrt(a), from `f^2 = a`.
 #[inline(always)]
-pub fn sqrt<const W: usize, const START: bool>(h: History<'_, W>, a: Lanes<W>) -> Lanes<W> {
+pub fn sqrt<C: Coefficient, const START: bool>(h: History<'_, C>, a: C) -> C {
     if START {
         let f = a.sqrt();
         h.write(0, f);
@@ -218,12 +215,14 @@ pub fn sqrt<const W: usize, const START: bool>(h: History<'_, W>, a: Lanes<W>) -
 
 /// Of f = tanh a, from `f' = p a'`, `p = 1 - f^2`.
 #[inline(always)]
-pub fn tanh<const W: usize, const START: bool>(h: History<'_, W>, a: Lanes<W>) -> Lanes<W> {
+pub fn tanh<C: Coefficient, const START: bool>(h: History<'_, C>, a: C) -> C {
     if START {
         let f = a.tanh();
         h.write(0, f);
-        // 1 - tanh^2 without cancellation
-        h.write(1, lane_by_lane!(a of a => 4.0 * (lane::sigmoid(2.0 * a) * lane::sigmoid(-2.0 * a))));
+        // 1 - tanh^2 without cancellation: 4 e / (1 + e)^2 with e = exp(-|2 a|)
+        let decay = (-(a * 2.0).abs()).exp();
+        let inverse = (decay + 1.0).recip();
+        h.write(1, (decay * inverse) * (inverse * 4.0));
         return f;
     }
     let rate = a * h.k();
@@ -236,22 +235,23 @@ pub fn tanh<const W: usize, const START: bool>(h: History<'_, W>, a: Lanes<W>) -
 
 /// Of ln(1 + e^y) = h + max(y, 0), `h = ln(1 + e)`, `e = exp(-|y|)`: from `e' = -|y|' e` and `(1 + e) h' = e'`.
 #[inline(always)]
-pub fn softplus<const W: usize, const START: bool>(h: History<'_, W>, y: Lanes<W>) -> Lanes<W> {
+pub fn softplus<C: Coefficient, const START: bool>(h: History<'_, C>, y: C) -> C {
     const DECAY: usize = 0;
     const EXPONENT_RATE: usize = 1;
     const REST_RATE: usize = 2;
     const INVERSE: usize = 3;
     if START {
-        let decay = lane_by_lane!(y of y => lane::exp(-y.abs()));
+        let decay = (-y.abs()).exp();
         h.write(DECAY, decay);
         // at order 0 there is no rate: the sign of the exponent stands there
-        h.write(EXPONENT_RATE, lane_by_lane!(y of y => if y > 0.0 { -1.0 } else { 1.0 }));
+        let one = C::default() + 1.0;
+        h.write(EXPONENT_RATE, C::choose(-y, one, -one));
         h.write(INVERSE, (decay + 1.0).recip());
         return y.softplus();
     }
     let (k, sign) = (h.k(), h.first(EXPONENT_RATE));
     let y_rate = y * k;
-    let above = lane_by_lane!(sign of sign, rate of y_rate => if sign < 0.0 { rate } else { 0.0 });
+    let above = C::choose(sign, C::default(), y_rate);
     let exponent_rate = sign * y_rate;
     let decay_rate = h.first(DECAY) * exponent_rate + h.inner(DECAY, EXPONENT_RATE);
     let rest_rate = (decay_rate - h.inner(REST_RATE, DECAY)) * h.first(INVERSE);
@@ -263,44 +263,27 @@ pub fn softplus<const W: usize, const START: bool>(h: History<'_, W>, y: Lanes<W
 
 /// Of |a|: the series on the side that it enters.
 #[inline(always)]
-pub fn abs<const W: usize, const START: bool>(h: History<'_, W>, a: Lanes<W>) -> Lanes<W> {
-    a * side::<W, START>(h, a)
+pub fn abs<C: Coefficient, const START: bool>(h: History<'_, C>, a: C) -> C {
+    a * side::<C, START>(h, a)
 }
 
 /// Of the smaller of a and b, on the side that they enter.
 #[inline(always)]
-pub fn min<const W: usize, const START: bool>(h: History<'_, W>, a: Lanes<W>, b: Lanes<W>) -> Lanes<W> {
-    choose(side::<W, START>(h, b - a), a, b)
+pub fn min<C: Coefficient, const START: bool>(h: History<'_, C>, a: C, b: C) -> C {
+    C::choose(side::<C, START>(h, b - a), a, b)
 }
 
 /// Of the larger of a and b, on the side that they enter.
 #[inline(always)]
-pub fn max<const W: usize, const START: bool>(h: History<'_, W>, a: Lanes<W>, b: Lanes<W>) -> Lanes<W> {
-    choose(side::<W, START>(h, a - b), a, b)
-}
-
-/// The first where the sign is not negative, else the second.
-#[inline(always)]
-fn choose<const W: usize>(sign: Lanes<W>, a: Lanes<W>, b: Lanes<W>) -> Lanes<W> {
-    let mut chosen = a;
-    for lane in 0..W {
-        chosen.0[lane] = if sign.0[lane] < 0.0 { b.0[lane] } else { a.0[lane] };
-    }
-    chosen
-}
-
-/// 1, -1 or 0.
-#[inline(always)]
-fn sign_of(a: f64) -> f64 {
-    let positive = if a > 0.0 { 1.0 } else { 0.0 };
-    if a < 0.0 { -1.0 } else { positive }
+pub fn max<C: Coefficient, const START: bool>(h: History<'_, C>, a: C, b: C) -> C {
+    C::choose(side::<C, START>(h, a - b), a, b)
 }
 
 /// The sign of a series for small times: that of its first coefficient which does not vanish, 0 before there is one.
 #[inline(always)]
-fn side<const W: usize, const START: bool>(h: History<'_, W>, a: Lanes<W>) -> Lanes<W> {
-    let known = if START { Lanes::default() } else { h.first(0) };
-    let sign = lane_by_lane!(known of known, a of a => if known == 0.0 { sign_of(a) } else { known });
+fn side<C: Coefficient, const START: bool>(h: History<'_, C>, a: C) -> C {
+    let known = if START { C::default() } else { h.first(0) };
+    let sign = C::sign(known, a);
     h.row(0)[0].set(sign);
     sign
 }

@@ -52,7 +52,7 @@ fn complaint(text: &str) -> Option<String> {
         let read = match panel.kind {
             Kind::Run => scene::run::read(&parsed.file, &panel.tables).map(|_| ()),
             Kind::Map => scene::map::read(&parsed.file, &panel.tables).map(|_| ()),
-            Kind::Sweep => scene::sweep::read(&parsed.file, &panel.tables).map(|_| ()),
+            Kind::Sweep => sweep::read(&parsed.file, &panel.tables).map(|_| ()),
             Kind::Curve => scene::curve::table(&parsed.file, &panel.tables).map(|_| ()),
             Kind::Drawing => Ok(()),
         };

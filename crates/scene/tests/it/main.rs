@@ -14,7 +14,6 @@ mod hard;
 mod maps;
 mod outcome;
 mod overrides;
-mod pool;
 mod project;
 mod properties;
 mod published;

@@ -4,12 +4,12 @@
 
 use clap::{Parser, ValueEnum};
 use figures::failure::{Failure, exit, print};
-use figures::planes::cells_of;
 use files::scene_file;
 use jam::outcome::Class;
-use scene::sweep::{self, DecidedBy};
+use planes::picture::cells_of;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use sweep::DecidedBy;
 
 /// What the command line asks for.
 #[derive(Debug, Parser)]

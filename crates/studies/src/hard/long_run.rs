@@ -17,9 +17,8 @@ const END: f64 = 1e5;
 
 /// A stable ring, which settles, and one with a jam, which does not.
 fn rings() -> [(&'static str, Model, Ring); 2] {
-    let stable =
-        Algebraic { strength: 0.45, relative: 0.0, power: 2.0, widening: 0.0, epsilon: 0.1, desired_speed: 3.0 };
-    let jammed = Logarithmic { desired_speed: 1.0, widening: 0.0, epsilon: 0.01 };
+    let stable = Algebraic { mu: 0.45, delta: 0.0, q: 2.0, a_v: 0.0, epsilon: 0.1, v0: 3.0 };
+    let jammed = Logarithmic { v0: 1.0, a_v: 0.0, epsilon: 0.01 };
     [
         ("algebraic", Model::Algebraic(stable), Ring { pedestrians: 10, length: 30.0 }),
         ("logarithmic", Model::Logarithmic(jammed), Ring { pedestrians: 10, length: 15.0 }),

@@ -88,7 +88,7 @@ impl Observer for Looking<'_> {
 /// The law of figure 4, `<mu, 0, 2, 0>`, with this `mu`.
 pub fn figure_4(strength: f64) -> Model {
     let (relative, power, widening, epsilon, desired_speed) = (0.0, 2.0, 0.0, 0.1, 3.0);
-    Model::Algebraic(Algebraic { strength, relative, power, widening, epsilon, desired_speed })
+    Model::Algebraic(Algebraic { mu: strength, delta: relative, q: power, a_v: widening, epsilon, v0: desired_speed })
 }
 
 impl Case {

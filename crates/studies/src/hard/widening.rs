@@ -13,12 +13,12 @@ use jam::uniform::steady_speed;
 
 fn algebraic(strength: f64, widening: f64) -> Model {
     let power = 2.0;
-    Model::Algebraic(Algebraic { strength, relative: 0.0, power, widening, epsilon: 0.1, desired_speed: 3.0 })
+    Model::Algebraic(Algebraic { mu: strength, delta: 0.0, q: power, a_v: widening, epsilon: 0.1, v0: 3.0 })
 }
 
 fn exponential(strength: f64, widening: f64) -> Model {
     let (range, contact) = (0.5, 0.0);
-    Model::Exponential(Exponential { strength, range, contact, widening, epsilon: 0.1, desired_speed: 3.0 })
+    Model::Exponential(Exponential { a: strength, b: range, c: contact, a_v: widening, epsilon: 0.1, v0: 3.0 })
 }
 
 /// Stability against `a_v`, and what a pair does that walks backwards.
@@ -68,7 +68,7 @@ fn stability(quick: bool) -> Result<Rows, Failure> {
 fn negative() -> Rows {
     let mut rows = Rows::new(&["law", "v", "space", "room", "acceleration"]);
     let a_v = 0.5;
-    let logarithmic = Model::Logarithmic(Logarithmic { desired_speed: 3.0, widening: a_v, epsilon: 0.01 });
+    let logarithmic = Model::Logarithmic(Logarithmic { v0: 3.0, a_v, epsilon: 0.01 });
     for model in [algebraic(0.55, a_v), exponential(3.0, a_v), logarithmic] {
         for off in [1.0, 1e-1, 1e-3, 1e-6, 0.0, -1e-6, -1e-3, -1e-1, -1.0] {
             let v = -1.0 / a_v + off;
@@ -86,7 +86,7 @@ fn backwards() -> Result<Rows, Failure> {
     let mut rows =
         Rows::new(&["law", "state", "start_speed", "event", "t", "n", "gap", "least_speed_at_10", "uncertainty"]);
     let a_v = 0.5;
-    let logarithmic = Model::Logarithmic(Logarithmic { desired_speed: 1.0, widening: a_v, epsilon: 0.01 });
+    let logarithmic = Model::Logarithmic(Logarithmic { v0: 1.0, a_v, epsilon: 0.01 });
     for model in [algebraic(0.55, a_v), exponential(1.0, a_v), logarithmic] {
         for speed in [-1.0, -4.0] {
             let ring = Ring { pedestrians: 5, length: 30.0 };

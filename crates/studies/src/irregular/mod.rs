@@ -16,7 +16,7 @@ use ode::{Control, Method};
 
 /// `<0.45, 0, 2, 0.3>` at `v0' = 3` on the ring of figure 4.
 fn case() -> Case {
-    let law = Algebraic { strength: 0.45, relative: 0.0, power: 2.0, widening: 0.3, epsilon: 0.1, desired_speed: 3.0 };
+    let law = Algebraic { mu: 0.45, delta: 0.0, q: 2.0, a_v: 0.3, epsilon: 0.1, v0: 3.0 };
     let ring = Ring { pedestrians: 67, length: LENGTH };
     Case { model: Model::Algebraic(law), ring, kind: StateVariables::Spacings }
 }
@@ -174,8 +174,7 @@ mod tests {
     /// certified run of supplement 19.
     #[test]
     fn windows_of_a_regular_wave_agree_with_the_run_of_supplement_19() {
-        let law =
-            Algebraic { strength: 0.32, relative: 1.0, power: 2.0, widening: 0.0, epsilon: 0.1, desired_speed: 3.0 };
+        let law = Algebraic { mu: 0.32, delta: 1.0, q: 2.0, a_v: 0.0, epsilon: 0.1, v0: 3.0 };
         let ring = Ring { pedestrians: 67, length: 167.5 };
         let case = Case { model: Model::Algebraic(law), ring, kind: StateVariables::Spacings };
         let scheme = (Method::Dop853, Control::Adaptive { tolerance: 1e-8 });

@@ -55,7 +55,7 @@ impl Run {
     /// The law.
     pub fn model(&self) -> Model {
         let (desired_speed, epsilon) = (self.desired_speed, self.epsilon);
-        Model::Logarithmic(Logarithmic { desired_speed, widening: 0.0, epsilon })
+        Model::Logarithmic(Logarithmic { v0: desired_speed, a_v: 0.0, epsilon })
     }
 
     /// The ring.

@@ -38,7 +38,7 @@ const FEW: usize = 6;
 
 /// `<mu, 1, 2, 0>` at `v0' = 3`.
 fn law(strength: f64) -> Algebraic {
-    Algebraic { strength, relative: 1.0, power: 2.0, widening: 0.0, epsilon: 0.1, desired_speed: 3.0 }
+    Algebraic { mu: strength, delta: 1.0, q: 2.0, a_v: 0.0, epsilon: 0.1, v0: 3.0 }
 }
 
 /// The linearised law at this strength, with the steady speed.

@@ -34,7 +34,7 @@ pub(super) fn table() -> Result<Rows, Failure> {
     let mut rows =
         Rows::new(&["preset", "mu", "delta", "q", "a_v", "margin", "outcome", "t", "least_gap", "least_speed", "std"]);
     for preset in PRESETS {
-        let strength = match preset.strength {
+        let strength = match preset.mu {
             Some(strength) => strength,
             None => threshold(&preset)?.map_or(OTHERWISE, |threshold| BEYOND * threshold),
         };
@@ -60,10 +60,10 @@ pub(super) fn table() -> Result<Rows, Failure> {
         let verdict = outcome.verdict.ok_or_else(|| Failure::work("a run without an outcome"))?;
         rows.push(row![
             preset.name,
-            law.strength,
-            law.relative,
-            law.power,
-            law.widening,
+            law.mu,
+            law.delta,
+            law.q,
+            law.a_v,
             margin(&preset, strength)?,
             verdict.class.name(),
             verdict.time,

@@ -7,13 +7,16 @@ mod series;
 
 use super::{Cut, Flow, Force, Motion, Steps};
 use formula::{Bound, Id, Unary};
+use math::change::Changed;
 use math::change::rules::Kept;
 use math::dual::Dual;
+use math::lanes::Lanes;
 use math::simd::dispatch;
 use ode::Batch;
 pub use program::Source;
 use program::{Action, Instruction, Program};
 use rows::{Machine, Neighbours, Reach, Rows};
+use series::Along;
 use std::cell::RefCell;
 use std::sync::Arc;
 
@@ -22,6 +25,7 @@ use std::sync::Arc;
 pub struct Prepared {
     contact: f64,
     program: Program,
+    variables: Vec<Source>,
     reach: Reach,
     /// How many operations keep something of earlier orders of a series.
     operations: usize,
@@ -35,7 +39,8 @@ impl Prepared {
         let reach = Reach::of(&program);
         let operations = program.instructions.iter().map(|instruction| instruction.action.histories()).sum();
         let uses_speeds = !relaxes_only(&program);
-        Prepared { contact, program, reach, operations, uses_speeds }
+        let variables = program.variables();
+        Prepared { contact, program, variables, reach, operations, uses_speeds }
     }
 
     /// The instructions.
@@ -53,6 +58,12 @@ impl Prepared {
             neighbours.fill(reach, &net_gaps[..speeds.len()], speeds, self.contact);
             dispatch(Rows { program, kept: None, neighbours: &neighbours, machine: &mut machine, result });
         }
+    }
+
+    fn series<C: Along>(&self, motion: Motion<'_>, memory: &mut series::Memory<C>) {
+        let Prepared { program, variables, reach, operations, contact, .. } = self;
+        let (reach, operations, contact) = (*reach, *operations, *contact);
+        dispatch(series::Coefficients { program, variables, reach, operations, contact, motion, memory });
     }
 
     /// How far it looks behind and ahead, in pedestrians.
@@ -100,7 +111,9 @@ struct Scratch {
     machine: Machine,
     reference: Option<(Flow, f64)>,
     kept: Vec<Kept>,
-    memory: series::Memory,
+    memory: series::Memory<Lanes<{ series::W }>>,
+    /// For series of differences from a uniform flow that changes.
+    memory_along: series::Memory<Changed<{ series::W }>>,
 }
 
 impl Interpreted {
@@ -195,10 +208,11 @@ impl Force for Interpreted {
     }
 
     fn series(&self, motion: Motion<'_>) {
-        let Prepared { program, reach, operations, contact, .. } = &*self.prepared;
-        let memory = &mut self.scratch.borrow_mut().memory;
-        let (reach, operations, contact) = (*reach, *operations, *contact);
-        dispatch(series::Coefficients { program, reach, operations, contact, motion, memory });
+        let Scratch { memory, memory_along, .. } = &mut *self.scratch.borrow_mut();
+        match motion.along {
+            None => self.prepared.series(motion, memory),
+            Some(_) => self.prepared.series(motion, memory_along),
+        }
     }
 
     fn heun(&self, _steps: Steps, _cut: Option<Cut>, _state: &mut [f64]) -> Batch {

@@ -3,34 +3,67 @@
 
 use super::program::{Action, Program, Source};
 use super::rows::{Neighbours, Reach};
-use crate::force::Motion;
+use crate::force::{Flow, Motion, NOTHING};
 use formula::Unary;
+use math::change::Changed;
 use math::lanes::Lanes;
 use math::series::recurrences::{self as next, History};
-use math::series::{Block, ROWS};
+use math::series::{Block, Coefficient, ROWS};
 use math::simd::Kernel;
 
 /// Pedestrians per iteration.
 pub const W: usize = 16;
 
-/// A row of a block for each order.
-type Blocks = [[f64; W]];
+/// Coefficients of a block of pedestrians: as they are, or that of the uniform flow with the differences from it.
+pub trait Along: Coefficient {
+    /// From the coefficient of the uniform flow and the differences from it.
+    fn of(flow: f64, differences: Lanes<W>) -> Self;
+
+    /// The coefficient of the uniform flow, if there is one, and the differences from it.
+    fn parts(self) -> (f64, Lanes<W>);
+}
+
+impl Along for Lanes<W> {
+    #[inline(always)]
+    fn of(flow: f64, differences: Lanes<W>) -> Self {
+        differences + flow
+    }
+
+    #[inline(always)]
+    fn parts(self) -> (f64, Lanes<W>) {
+        (0.0, self)
+    }
+}
+
+impl Along for Changed<W> {
+    #[inline(always)]
+    fn of(flow: f64, differences: Lanes<W>) -> Self {
+        Changed { value: flow, change: differences }
+    }
+
+    #[inline(always)]
+    fn parts(self) -> (f64, Lanes<W>) {
+        (self.value, self.change)
+    }
+}
 
 /// Memory that is kept from step to step.
 #[derive(Clone, Debug, Default)]
-pub struct Memory {
+pub struct Memory<C: Copy> {
     /// What the operations keep: for each of them, for each block, [`ROWS`] rows of coefficients.
-    histories: Vec<Block<W>>,
-    registers: Vec<Vec<[f64; W]>>,
+    histories: Vec<Block<C>>,
+    /// One order, for each block.
+    registers: Vec<Vec<C>>,
+    variables: Vec<Vec<C>>,
     neighbours: Neighbours,
-    spacings: Vec<f64>,
-    speeds: Vec<f64>,
 }
 
 /// The coefficients of a motion under a program.
-pub struct Coefficients<'a, 'b> {
+pub struct Coefficients<'a, 'b, C: Copy> {
     /// The program.
     pub program: &'a Program,
+    /// Its variables.
+    pub variables: &'a [Source],
     /// How far it looks.
     pub reach: Reach,
     /// How many operations keep something, products of whole powers counted one by one.
@@ -40,48 +73,37 @@ pub struct Coefficients<'a, 'b> {
     /// What is known of the motion, and where the rest goes.
     pub motion: Motion<'b>,
     /// Memory.
-    pub memory: &'a mut Memory,
+    pub memory: &'a mut Memory<C>,
 }
 
-impl Kernel for Coefficients<'_, '_> {
+impl<C: Along> Kernel for Coefficients<'_, '_, C> {
     type Output = ();
 
     #[inline(always)]
-    fn run(self) {
-        let Coefficients { program, reach, operations, contact, motion, memory } = self;
-        let Motion { flow, pedestrians: n, order, unit, dimension, coefficients } = motion;
+    fn run(mut self) {
+        let Motion { pedestrians: n, order, unit, dimension, along, .. } = self.motion;
         let blocks = n.div_ceil(W);
-        let Memory { histories, registers, neighbours, spacings, speeds } = memory;
-        let needed = operations * blocks * ROWS * order;
-        if histories.len() < needed {
-            histories.resize(needed, Block::default());
-        }
-        registers.resize(program.registers, Vec::new());
-        registers.iter_mut().for_each(|register| register.resize(blocks, [0.0; W]));
-        for k in 0..order {
-            let (rows, next) = coefficients.split_at_mut((k + 1) * dimension);
-            let row = &rows[k * dimension..];
-            let mut carrying = Order { program, registers, histories, length: order, k, blocks };
-            if k == 0 {
-                // the coefficients of order 0 with the uniform flow; row 1 is given
-                spacings.clear();
-                spacings.extend(row[..n].iter().map(|spacing| spacing + flow.net_gap));
-                speeds.clear();
-                speeds.extend(row[n..2 * n].iter().map(|speed| speed + flow.speed));
-                neighbours.fill(reach, spacings, speeds, contact);
-                carrying.run::<true>(neighbours);
-                continue;
-            }
-            let (spacings, speeds) = (&row[..n], &row[n..2 * n]);
-            neighbours.fill(reach, spacings, speeds, 0.0);
-            carrying.run::<false>(neighbours);
-            let result = match program.result {
-                Source::Register(register) => registers[register].as_flattened(),
-                variable => neighbours.row(variable, 0, blocks * W),
+        self.reserve(blocks);
+        self.take::<true>(0);
+        self.order::<true>(0, blocks);
+        for k in 1..order {
+            self.take::<false>(k);
+            self.order::<false>(k, blocks);
+            let result = match self.program.result {
+                Source::Register(register) => &self.memory.registers[register],
+                variable => &self.memory.variables[place(self.variables, variable)],
             };
             let share = unit / (k + 1) as f64;
-            for (to, acceleration) in next[n..2 * n].iter_mut().zip(result) {
-                *to = acceleration * share;
+            let (rows, next) = self.motion.coefficients.split_at_mut((k + 1) * dimension);
+            let speeds = &rows[k * dimension + n..k * dimension + 2 * n];
+            for (to, result) in next[n..2 * n].chunks_mut(W).zip(result) {
+                let (_, accelerations) = result.parts();
+                for (to, acceleration) in to.iter_mut().zip(accelerations.0) {
+                    *to = acceleration * share;
+                }
+            }
+            if let Some(speed) = along {
+                next[speed] = result[0].parts().0 * share;
             }
             for (to, pair) in next.iter_mut().zip(speeds.windows(2)) {
                 *to = (pair[1] - pair[0]) * share;
@@ -91,102 +113,140 @@ impl Kernel for Coefficients<'_, '_> {
     }
 }
 
-/// One order.
-struct Order<'a> {
-    program: &'a Program,
-    registers: &'a mut Vec<Vec<[f64; W]>>,
-    histories: &'a [Block<W>],
-    /// Coefficients of a series.
-    length: usize,
-    /// The order.
-    k: usize,
-    blocks: usize,
+/// Where a variable stands.
+#[inline(always)]
+fn place(variables: &[Source], variable: Source) -> usize {
+    variables.iter().position(|own| *own == variable).unwrap_or(0)
 }
 
-impl Order<'_> {
+impl<C: Along> Coefficients<'_, '_, C> {
+    /// Makes room.
+    fn reserve(&mut self, blocks: usize) {
+        let needed = self.operations * blocks * ROWS * self.motion.order;
+        let Memory { histories, registers, variables, .. } = &mut *self.memory;
+        if histories.len() < needed {
+            histories.resize(needed, Block::default());
+        }
+        for (rows, count) in [(registers, self.program.registers), (variables, self.variables.len())] {
+            rows.resize(count, Vec::new());
+            rows.iter_mut().for_each(|row| row.resize(blocks, C::default()));
+        }
+    }
+
+    /// Takes the variables of an order: at order 0 with the uniform flow, whose speed may have coefficients of other orders.
     #[inline(always)]
-    fn run<const START: bool>(&mut self, neighbours: &Neighbours) {
+    fn take<const START: bool>(&mut self, k: usize) {
+        let Motion { flow, pedestrians: n, dimension, along, .. } = self.motion;
+        let row = &self.motion.coefficients[k * dimension..(k + 1) * dimension];
+        let Memory { variables, neighbours, .. } = &mut *self.memory;
+        neighbours.fill(Reach { spacings: false, ..self.reach }, &row[..n], &row[n..2 * n], 0.0);
+        let flow = match along {
+            _ if START => flow,
+            Some(speed) => Flow { speed: row[speed], ..NOTHING },
+            None => NOTHING,
+        };
+        for (variable, blocks) in self.variables.iter().zip(variables) {
+            let (source, flow, more) = match *variable {
+                Source::Spacing { j, net } => {
+                    let more = if net || !START { NOTHING.net_gap } else { self.contact };
+                    (Source::Spacing { j, net: true }, flow.net_gap, more)
+                }
+                other => (other, flow.speed, NOTHING.speed),
+            };
+            let lanes = neighbours.row(source, 0, blocks.len() * W);
+            for (block, lanes) in blocks.iter_mut().zip(lanes.chunks_exact(W)) {
+                *block = C::of(flow, Lanes::of(lanes)) + more;
+            }
+        }
+    }
+
+    /// Carries the program out for an order.
+    #[inline(always)]
+    fn order<const START: bool>(&mut self, k: usize, blocks: usize) {
+        let Memory { histories, registers, variables, .. } = &mut *self.memory;
+        let histories = Histories { memory: histories, blocks, length: self.motion.order, order: k };
         let mut used = 0;
         for instruction in &self.program.instructions {
             // beyond order 0 a constant adds nothing
             if let (Action::AddConstant(_), Some(spent), false) = (instruction.action, instruction.spent, START) {
-                self.registers.swap(instruction.into, spent);
+                registers.swap(instruction.into, spent);
                 continue;
             }
-            let mut target = std::mem::take(&mut self.registers[instruction.into]);
-            let registers = &self.registers;
-            let size = self.blocks * W;
+            let mut target = std::mem::take(&mut registers[instruction.into]);
             let get = |source: Source| match source {
                 Source::Register(register) => &registers[register][..],
-                variable => neighbours.row(variable, 0, size).as_chunks::<W>().0,
+                variable => &variables[place(self.variables, variable)][..],
             };
             let x = get(instruction.of);
             let y = instruction.action.second().map_or(x, get);
-            let histories =
-                Histories { memory: self.histories, blocks: self.blocks, length: self.length, order: self.k };
-            used += next_order::<START>(instruction.action, histories.of(used), x, y, &mut target);
-            self.registers[instruction.into] = target;
+            used += next_order::<C, START>(instruction.action, histories.of(used), x, y, &mut target);
+            registers[instruction.into] = target;
         }
     }
 }
 
 /// The histories of operations.
-#[derive(Clone, Copy)]
-struct Histories<'a> {
-    memory: &'a [Block<W>],
+struct Histories<'a, C: Copy> {
+    memory: &'a [Block<C>],
     blocks: usize,
     length: usize,
     order: usize,
 }
 
-impl<'a> Histories<'a> {
+impl<'a, C: Coefficient> Histories<'a, C> {
     /// Those of the operation with this number and the ones behind it.
     #[inline(always)]
-    fn of(self, operation: usize) -> Histories<'a> {
-        Histories { memory: &self.memory[operation * self.blocks * ROWS * self.length..], ..self }
+    fn of(&self, operation: usize) -> Histories<'a, C> {
+        Histories { memory: &self.memory[operation * self.blocks * ROWS * self.length..], ..*self }
     }
 
     /// The history of a block.
     #[inline(always)]
-    fn block(self, block: usize) -> History<'a, W> {
+    fn block(&self, block: usize) -> History<'a, C> {
         let size = ROWS * self.length;
         History::new(&self.memory[block * size..(block + 1) * size], self.length, self.order)
     }
 }
 
-/// A loop over pedestrians, or over blocks with their histories.
+/// A loop over blocks, with their histories where needed.
 macro_rules! each {
     ($target:ident, $x:ident => $value:expr) => {
-        for (target, $x) in $target.as_flattened_mut().iter_mut().zip($x.as_flattened()) {
+        for (target, $x) in $target.iter_mut().zip($x) {
+            let $x = *$x;
             *target = $value;
         }
     };
     ($target:ident, $x:ident, $y:ident => $value:expr) => {
-        let pairs = $x.as_flattened().iter().zip($y.as_flattened());
-        for (target, ($x, $y)) in $target.as_flattened_mut().iter_mut().zip(pairs) {
+        for ((target, $x), $y) in $target.iter_mut().zip($x).zip($y) {
+            let ($x, $y) = (*$x, *$y);
             *target = $value;
         }
     };
     ($target:ident, $histories:ident, $h:ident, $x:ident => $value:expr) => {
-        for (block, (target, x)) in $target.iter_mut().zip($x).enumerate() {
-            let ($h, $x) = ($histories.block(block), Lanes(*x));
-            *target = $value.0;
+        for (block, (target, $x)) in $target.iter_mut().zip($x).enumerate() {
+            let ($h, $x) = ($histories.block(block), *$x);
+            *target = $value;
         }
     };
     ($target:ident, $histories:ident, $h:ident, $x:ident, $y:ident => $value:expr) => {
-        for (block, ((target, x), y)) in $target.iter_mut().zip($x).zip($y).enumerate() {
-            let ($h, $x, $y) = ($histories.block(block), Lanes(*x), Lanes(*y));
-            *target = $value.0;
+        for (block, ((target, $x), $y)) in $target.iter_mut().zip($x).zip($y).enumerate() {
+            let ($h, $x, $y) = ($histories.block(block), *$x, *$y);
+            *target = $value;
         }
     };
 }
 
 /// One instruction; returns how many histories it used.
 #[inline(always)]
-fn next_order<const START: bool>(action: Action, hs: Histories<'_>, x: &Blocks, y: &Blocks, row: &mut Blocks) -> usize {
-    let constant = |c: f64| if START { c } else { 0.0 };
+fn next_order<C: Along, const START: bool>(
+    action: Action,
+    hs: Histories<'_, C>,
+    x: &[C],
+    y: &[C],
+    row: &mut [C],
+) -> usize {
     match action {
-        Action::Constant(c) => row.fill([constant(c); W]),
+        Action::Constant(c) => row.fill(if START { C::default() + c } else { C::default() }),
         Action::AddConstant(c) if START => each!(row, x => x + c),
         Action::AddConstant(_) => row.copy_from_slice(x),
         Action::MulConstant(c) => each!(row, x => x * c),
@@ -197,33 +257,33 @@ fn next_order<const START: bool>(action: Action, hs: Histories<'_>, x: &Blocks, 
         Action::Sub(_) => {
             each!(row, x, y => x - y);
         }
-        Action::Mul(_) => each!(row, hs, h, x, y => next::product::<W, START>(h, x, y)),
-        Action::Div(_) => each!(row, hs, h, x, y => next::quotient::<W, START>(h, x, y)),
-        Action::Min(_) => each!(row, hs, h, x, y => next::min::<W, START>(h, x, y)),
-        Action::Max(_) => each!(row, hs, h, x, y => next::max::<W, START>(h, x, y)),
-        Action::Recip => each!(row, hs, h, x => next::recip::<W, START>(h, x)),
-        Action::Power(q) => each!(row, hs, h, x => next::power::<W, START>(h, x, q)),
-        Action::Whole(n) if n < 0 => each!(row, hs, h, x => next::whole_power::<W, START>(h, x, n)),
+        Action::Mul(_) => each!(row, hs, h, x, y => next::product::<C, START>(h, x, y)),
+        Action::Div(_) => each!(row, hs, h, x, y => next::quotient::<C, START>(h, x, y)),
+        Action::Min(_) => each!(row, hs, h, x, y => next::min::<C, START>(h, x, y)),
+        Action::Max(_) => each!(row, hs, h, x, y => next::max::<C, START>(h, x, y)),
+        Action::Recip => each!(row, hs, h, x => next::recip::<C, START>(h, x)),
+        Action::Power(q) => each!(row, hs, h, x => next::power::<C, START>(h, x, q)),
+        Action::Whole(n) if n < 0 => each!(row, hs, h, x => next::whole_power::<C, START>(h, x, n)),
         Action::Whole(n) => {
             // products, because the number may pass through 0
             row.copy_from_slice(x);
             for factor in 1..n as usize {
                 let hs = hs.of(factor - 1);
                 for (block, (row, x)) in row.iter_mut().zip(x).enumerate() {
-                    *row = next::product::<W, START>(hs.block(block), Lanes(*row), Lanes(*x)).0;
+                    *row = next::product::<C, START>(hs.block(block), *row, *x);
                 }
             }
         }
         Action::Unary(unary) => match unary {
             Unary::Neg => each!(row, x => -x),
-            Unary::Exp => each!(row, hs, h, x => next::exp::<W, START>(h, x)),
-            Unary::ExpM1 => each!(row, hs, h, x => next::exp_m1::<W, START>(h, x)),
-            Unary::Ln => each!(row, hs, h, x => next::ln::<W, START>(h, x)),
-            Unary::Ln1p => each!(row, hs, h, x => next::ln_1p::<W, START>(h, x)),
-            Unary::Sqrt => each!(row, hs, h, x => next::sqrt::<W, START>(h, x)),
-            Unary::Tanh => each!(row, hs, h, x => next::tanh::<W, START>(h, x)),
-            Unary::Softplus => each!(row, hs, h, x => next::softplus::<W, START>(h, x)),
-            Unary::Abs => each!(row, hs, h, x => next::abs::<W, START>(h, x)),
+            Unary::Exp => each!(row, hs, h, x => next::exp::<C, START>(h, x)),
+            Unary::ExpM1 => each!(row, hs, h, x => next::exp_m1::<C, START>(h, x)),
+            Unary::Ln => each!(row, hs, h, x => next::ln::<C, START>(h, x)),
+            Unary::Ln1p => each!(row, hs, h, x => next::ln_1p::<C, START>(h, x)),
+            Unary::Sqrt => each!(row, hs, h, x => next::sqrt::<C, START>(h, x)),
+            Unary::Tanh => each!(row, hs, h, x => next::tanh::<C, START>(h, x)),
+            Unary::Softplus => each!(row, hs, h, x => next::softplus::<C, START>(h, x)),
+            Unary::Abs => each!(row, hs, h, x => next::abs::<C, START>(h, x)),
         },
     }
     action.histories()

@@ -15,11 +15,11 @@ pub use cell::{Cell, DecidedBy, Exact, NUMBERS, Place};
 pub use pool::Pool;
 pub use read::read;
 
-use crate::run::AtOverlap;
 use jam::laws::Model;
 use jam::ring::{Ring, Start};
 use jam::states::StateVariables;
 use ode::{Control, Method};
+use scene::run::AtOverlap;
 
 /// A plane of runs.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,13 +1,13 @@
 //! A cell of a sweep: its scene and its outcome.
 
 use super::Sweep;
-use crate::run::Scene;
 use jam::outcome::{Class, Verdict};
 use jam::ring::{Ring, Start};
 use jam::run::{Judging, fitting, flow, run_from, too_wide, without_value};
 use jam::stability::Waves;
 use jam::uniform;
 use ode::Control;
+use scene::run::Scene;
 
 /// What is known of a cell without a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -136,7 +136,7 @@ impl Sweep {
             Ok(None) | Err(_) => return Ok(Err(Class::NoUniformFlow)),
         };
         let settings = &self.settings;
-        let form = fitting(settings.form, &model, ring, Some(steady_speed), settings.method);
+        let form = fitting(settings.form, &model, ring, Some(steady_speed));
         if without_value(&*form.build(&model, ring), start, ring).is_some() {
             return Ok(Err(Class::Undefined));
         }

@@ -2,8 +2,8 @@
 
 use clap::Parser;
 use figures::failure::exit;
-use figures::gallery::{Arguments, main as gallery};
 use std::process::ExitCode;
+use studies::gallery::{Arguments, main as gallery};
 
 fn main() -> ExitCode {
     exit(gallery(&Arguments::parse()))

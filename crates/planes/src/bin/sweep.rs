@@ -2,7 +2,7 @@
 
 use clap::Parser;
 use figures::failure::exit;
-use figures::sweep::{Arguments, main as sweep};
+use planes::command::{Arguments, main as sweep};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {

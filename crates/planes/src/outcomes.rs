@@ -1,14 +1,33 @@
 //! Tables and pictures of the supplements on planes of outcomes, made from the committed planes.
 
-use crate::planes::grid;
-use crate::{Failure, Job};
+use crate::picture::{cells_of, grid};
+use figures::{Failure, Job};
 use files::table::{Cell, Sheet};
+use files::write::with_path;
 use jam::outcome::Class;
 use plot::Picture;
-use scene::sweep::{self, Sweep};
+use sweep::Sweep;
 
 /// A panel with its title.
 pub type Titled<'a> = (&'a str, &'a str);
+
+/// The sweep of a panel, and its cells as committed: a plane takes minutes. The table is taken over under the panel's name.
+///
+/// # Errors
+/// It is missing, or not one of this sweep.
+fn take(job: &Job, panel: &str) -> Result<(Sweep, Vec<sweep::Cell>), Failure> {
+    job.take_committed("outcomes", panel)?;
+    plane(job, panel)
+}
+
+/// The sweep of a panel, and its cells from the table of the figure.
+fn plane(job: &Job, panel: &str) -> Result<(Sweep, Vec<sweep::Cell>), Failure> {
+    let sweep = sweep::read(&job.recipe.file, &job.panel(panel)?.tables)?;
+    let file = job.table_file(panel);
+    let text = std::fs::read_to_string(&file).map_err(|error| with_path(error, &file))?;
+    let cells = cells_of(&file.display().to_string(), &text, &sweep)?;
+    Ok((sweep, cells))
+}
 
 /// Takes the planes over, and writes which part of their unstable and of their stable cells has which outcome: `shares`.
 ///
@@ -17,8 +36,7 @@ pub type Titled<'a> = (&'a str, &'a str);
 pub fn tables(job: &Job, planes: &[Titled<'_>]) -> Result<(), Failure> {
     let mut shares = Sheet::new(&["plane", "flow", "outcome", "cells", "share", "error"]);
     for (panel, _) in planes {
-        job.take_outcomes(panel)?;
-        let (sweep, cells) = job.plane(panel)?;
+        let (sweep, cells) = take(job, panel)?;
         let is_unstable = unstable(&sweep)?;
         for flow in ["unstable", "stable"] {
             let of_flow = cells.iter().zip(&is_unstable).filter(|(_, unstable)| **unstable == (flow == "unstable"));
@@ -62,7 +80,7 @@ pub fn bands(job: &Job, panels: &[&str]) -> Result<(), Failure> {
         "error",
     ]);
     for panel in panels {
-        let (sweep, cells) = job.plane(panel)?;
+        let (sweep, cells) = plane(job, panel)?;
         for (column, cells) in cells.chunks(sweep.y.cells).enumerate() {
             let words = [*panel, &sweep.x.parameter].map(Cell::from);
             let numbers = band(&sweep, column, cells)?.map(|number| number.map_or(Cell::Empty, Cell::Number));
@@ -122,7 +140,7 @@ fn threshold(sweep: &Sweep, place: f64) -> Result<Option<f64>, Failure> {
 /// # Errors
 /// The committed table is missing or lacks a column.
 pub fn how_sure(job: &mut Job, planes: &[Titled<'_>]) -> Result<(), Failure> {
-    job.take_of_planes("how_sure")?;
+    job.take_committed("outcomes", "how_sure")?;
     let table = job.read_rows("how_sure")?;
     let columns = ["plane", "change", "cells", "differ", "decided_differ"].map(|name| table.place(name));
     let [plane, change, cells, differ, decided] = columns.into_iter().collect::<Result<Vec<_>, _>>()?[..] else {
@@ -146,7 +164,7 @@ pub fn how_sure(job: &mut Job, planes: &[Titled<'_>]) -> Result<(), Failure> {
 /// # Errors
 /// A table is missing, or not that of its panel.
 pub fn picture(job: &Job, planes: &[Titled<'_>], columns: usize, size: [f64; 2]) -> Result<Picture, Failure> {
-    let found = planes.iter().map(|(panel, _)| job.plane(panel)).collect::<Result<Vec<_>, Failure>>()?;
+    let found = planes.iter().map(|(panel, _)| plane(job, panel)).collect::<Result<Vec<_>, Failure>>()?;
     let named = planes.iter().zip(&found).map(|((_, title), (sweep, cells))| (*title, sweep, &cells[..]));
     grid(&named.collect::<Vec<_>>(), columns, size)
 }

@@ -1,14 +1,14 @@
 //! The journal of a shard: each cell is appended as soon as it is known, so that a killed sweep can be resumed.
 
 use super::Task;
-use crate::failure::Failure;
+use figures::failure::Failure;
 use files::write::{atomic, with_path};
-use scene::sweep::tiles::{Found, Tile, of_shard, tiles};
-use scene::sweep::{Cell, table};
 use std::fs::File;
 use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
+use sweep::tiles::{Found, Tile, of_shard, tiles};
+use sweep::{Cell, table};
 
 /// Which shard, from 1.
 pub(super) struct Shard {
@@ -111,7 +111,7 @@ impl Journal {
 }
 
 fn is_run(cell: &Cell) -> bool {
-    cell.decided_by != scene::sweep::DecidedBy::Neighbours
+    cell.decided_by != sweep::DecidedBy::Neighbours
 }
 
 fn text(head: &str, cells: &[Found]) -> String {

@@ -5,14 +5,14 @@ mod gather;
 mod journal;
 mod work;
 
-use crate::failure::{Failure, print};
+use figures::failure::{Failure, print};
 use files::scene_file::{self, Kind, SceneFile};
 use files::write::{sha256, sha256_file, with_path};
 use journal::Shard;
-use scene::sweep::tiles::tiles;
-use scene::sweep::{self, Sweep};
 use serde_json::json;
 use std::path::PathBuf;
+use sweep::Sweep;
+use sweep::tiles::tiles;
 
 /// What the command line asks for.
 #[derive(Debug, clap::Parser)]

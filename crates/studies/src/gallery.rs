@@ -1,8 +1,8 @@
 //! The gallery's contact sheet: one run of every law, position over time, coloured by speed.
 
-use crate::failure::{Failure, print};
-use crate::panels::trajectories;
 use clap::Parser;
+use figures::failure::{Failure, print};
+use figures::panels::trajectories;
 use files::scene_file;
 use files::write::atomic_all;
 use jam::run::{Outcome, run};

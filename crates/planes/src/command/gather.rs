@@ -2,14 +2,14 @@
 
 use super::journal::Shard;
 use super::{Arguments, Task};
-use crate::failure::{Failure, print};
+use figures::failure::{Failure, print};
 use files::write::{atomic_all, sha256, with_path};
 use jam::outcome::Class;
-use scene::sweep::{Cell, DecidedBy, table};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::io::ErrorKind;
 use std::path::PathBuf;
+use sweep::{Cell, DecidedBy, table};
 
 /// Gathers the shards in the folder.
 ///
@@ -21,7 +21,7 @@ pub(super) fn gather(task: &Task, arguments: &Arguments) -> Result<(), Failure> 
     let summary = summary(task, &cells);
     let mut files: Vec<(PathBuf, Vec<u8>)> = vec![(task.out.join("cells.csv"), csv.into_bytes())];
     if !arguments.tables_only {
-        let rendered = crate::planes::picture(&task.sweep, &cells)?.render().map_err(Failure::work)?;
+        let rendered = crate::picture::picture(&task.sweep, &cells)?.render().map_err(Failure::work)?;
         files.push((task.out.join("sweep.png"), rendered.png));
         files.push((task.out.join("sweep.svg"), rendered.svg));
     }

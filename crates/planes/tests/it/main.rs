@@ -6,13 +6,17 @@ mod cells;
 mod kills;
 mod shards;
 
-use crate::{binary, root};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
+
+/// The root of the repository.
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
 
 /// A plane with contact, decay, waves and undecided cells, of six tiles; some seconds of one processor.
 const PLANE: &str = r#"
@@ -84,7 +88,7 @@ impl Place {
 
     /// A sweep of the scene into a folder.
     fn command(&self, out: &str, words: &[&str]) -> Command {
-        let mut command = Command::new(binary("sweep"));
+        let mut command = Command::new(env!("CARGO_BIN_EXE_sweep"));
         command.arg(self.path("scene.toml")).arg("--out").arg(self.path(out)).arg("--tables-only").args(words);
         if !words.iter().any(|word| word.starts_with("--program")) {
             command.arg("--program=tests");

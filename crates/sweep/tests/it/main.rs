@@ -2,9 +2,9 @@
 //! is obeyed.
 
 use files::scene_file;
-use scene::sweep::tiles::{Found, tiles};
-use scene::sweep::{Pool, Sweep, read};
 use std::sync::Mutex;
+use sweep::tiles::{Found, tiles};
+use sweep::{Pool, Sweep, read};
 
 /// 30 x 28 cells in four tiles, each cell a run of a moment.
 fn sweep() -> Sweep {

@@ -1,11 +1,11 @@
 //! Pictures of planes of outcomes: cells in the colours of their classes, with the exact criterion on top.
 
-use crate::failure::Failure;
-use crate::titles::symbol;
+use figures::failure::Failure;
+use figures::titles::symbol;
 use jam::outcome::Class;
 use plot::style::COLUMN_WIDTH;
 use plot::{Axis, Fill, Key, Picture, Plane};
-use scene::sweep::{self, Cell, Exact, Sweep, table};
+use sweep::{Cell, Exact, Sweep, table};
 
 /// Classes in the order of keys, with their colours: those that touch most often differ most in lightness.
 const LOOKS: [(Class, Fill); 9] = [
@@ -135,7 +135,7 @@ fn axis(axis: &sweep::Axis, is_labelled: bool) -> Axis {
 mod tests {
     use super::*;
     use files::scene_file;
-    use scene::sweep::DecidedBy;
+    use sweep::DecidedBy;
 
     /// A plane of the algebraic law whose uniform flow is stable and unstable, forwards and backwards.
     fn sweep() -> Sweep {
@@ -144,7 +144,7 @@ mod tests {
                     x = { parameter = \"mu\", from = 0.2, to = 1.0, cells = 4 }\n\
                     y = { parameter = \"headway\", from = 2.2, to = 4.0, cells = 3, scale = \"log\" }\n";
         let parsed = scene_file::parse("plane.toml", text).expect("a scene");
-        scene::sweep::read(&parsed.file, &parsed.panels[0].tables).expect("a sweep")
+        sweep::read(&parsed.file, &parsed.panels[0].tables).expect("a sweep")
     }
 
     /// Cells of some classes, one of them with a number.

@@ -2,12 +2,12 @@
 
 use super::Task;
 use super::journal::{Journal, Shard};
-use crate::failure::Failure;
-use scene::sweep::tiles::{self, Tile};
-use scene::sweep::{Pool, Sweep};
+use figures::failure::Failure;
 use std::io::{IsTerminal as _, Write as _};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
+use sweep::tiles::{self, Tile};
+use sweep::{Pool, Sweep};
 
 /// Between two words about progress.
 const SILENCE: Duration = Duration::from_secs(1);

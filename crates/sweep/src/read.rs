@@ -2,12 +2,12 @@
 
 use super::axis::{Axis, OF_THE_RUN};
 use super::{Settings, Sweep};
-use crate::law;
-use crate::run::{self, AtOverlap, FORMS};
 use files::reader::{Entry, FINITE, POSITIVE, Reader, SceneError, Section, Value};
 use jam::laws::Model;
 use jam::ring::{Ring, Start};
 use ode::{Control, Method};
+use scene::law;
+use scene::run::{self, AtOverlap, FORMS};
 
 /// As many cells as a sweep may have: 100 bytes each.
 const MOST_CELLS: usize = 400_000_000;

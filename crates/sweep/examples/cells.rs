@@ -11,8 +11,8 @@
 use files::reader::Section;
 use jam::run::{Judging, run, run_from};
 use scene::run::Scene;
-use scene::sweep::{self, Sweep};
 use std::time::Instant;
+use sweep::Sweep;
 
 fn main() -> Result<(), String> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
