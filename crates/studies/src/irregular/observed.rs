@@ -4,7 +4,7 @@ use super::Scheme;
 use crate::hard::rows::{Rows, row};
 use crate::hard::run::{Case, difference};
 use figures::failure::Failure;
-use jam::observe::spread;
+use jam::observe::speed_std;
 use jam::ring::Start;
 use jam::states::RingSystem;
 use ode::{Observer, Problem, Sampler, Step, integrate};
@@ -56,7 +56,7 @@ pub(super) fn windows(
                 window.least_gap = (0..gaps.len()).map(room).fold(window.least_gap, math::smaller);
                 window.least_speed = speeds.iter().copied().fold(window.least_speed, math::smaller);
                 window.largest_speed = speeds.iter().copied().fold(window.largest_speed, math::larger);
-                window.std += spread(speeds);
+                window.std += speed_std(speeds);
                 moments += 1.0;
             })?;
             window.std /= moments;
