@@ -70,8 +70,9 @@ impl CheckpointOptions {
         let (from, before) = keeper.load(scene).unzip();
         let (steps, done) = from.as_ref().map_or((0, 0.0), |from| (from.steps(), from.fraction(scene)));
         keeper.start(done, before.unwrap_or(0.0));
-        let has_errors = is_checked && from.is_none() && scene.method.needs_series();
-        let propagated = has_errors.then(|| Propagated::new(scene));
+        // a checkpoint does not keep the errors before it
+        let is_whole = from.is_none() || !scene.method.needs_series();
+        let propagated = (is_checked && is_whole).then(|| Propagated::new(scene));
         let mut timed = Timed { propagated, spent: Duration::ZERO };
         let (outcome, broken) = match run_from(scene, from, &mut (&mut keeper, &mut timed)) {
             Ok(outcome) => (outcome, None),
@@ -81,6 +82,11 @@ impl CheckpointOptions {
         let own = clock.elapsed().saturating_sub(timed.spent).as_secs_f64();
         let (seconds, propagated) = (before.unwrap_or(0.0) + own, timed.propagated);
         Ok(Ended { outcome, broken, seconds, resumed_steps: steps, propagated })
+    }
+
+    /// Whether the outcome of the run is judged.
+    pub fn judging(&self) -> Judging {
+        if self.no_outcome { Judging::No } else { Judging::Along }
     }
 
     /// Removes the checkpoint of a run whose results are safe.
@@ -185,7 +191,7 @@ impl<'a> CheckpointWriter<'a> {
 
 impl RunObserver for CheckpointWriter<'_> {
     fn judging(&self) -> Judging {
-        if self.care.no_outcome { Judging::No } else { Judging::Along }
+        self.care.judging()
     }
 
     fn between(&mut self, underway: &PartialRun<'_>) {

@@ -29,9 +29,6 @@ struct Arguments {
     /// Folder of values from outside
     #[arg(long, default_value = "data/reference")]
     reference: PathBuf,
-    /// Folder of archived timings
-    #[arg(long, default_value = "data/timing")]
-    timing: PathBuf,
     /// File for what is known of the tables' accuracy
     #[arg(long)]
     report: Option<PathBuf>,
@@ -188,7 +185,7 @@ impl Job {
     /// # Errors
     /// It is missing or damaged.
     pub fn reference(&self, name: &str) -> Result<Table, Failure> {
-        Ok(Table::read(&self.arguments.reference.join(format!("{name}.csv")))?)
+        Ok(Table::read(&self.committed("reference", name)?)?)
     }
 
     /// Reads an accuracy table, which is committed.
@@ -196,7 +193,7 @@ impl Job {
     /// # Errors
     /// It is missing.
     pub fn accuracy(&self, name: &str) -> Result<Sheet, Failure> {
-        Ok(Sheet::read(&self.arguments.reference.with_file_name("accuracy").join(format!("{name}.csv")))?)
+        Ok(Sheet::read(&self.committed("accuracy", name)?)?)
     }
 
     /// Takes a table that is committed below `data`, in this folder, as it is.
@@ -204,7 +201,16 @@ impl Job {
     /// # Errors
     /// It is missing, or the copy cannot be written.
     pub fn take_committed(&self, folder: &str, name: &str) -> Result<(), Failure> {
-        self.copy(&self.arguments.reference.with_file_name(folder).join(format!("{name}.csv")), name)
+        self.copy(&self.committed(folder, name)?, name)
+    }
+
+    /// A committed table, which the scene must name: a figure is stale when one of those has changed.
+    fn committed(&self, folder: &str, name: &str) -> Result<PathBuf, Failure> {
+        let table = format!("{folder}/{name}");
+        match self.recipe.reads.contains(&table) {
+            true => Ok(self.arguments.reference.with_file_name(table + ".csv")),
+            false => Err(Failure::input(format!("{}: reads: must name {table}", self.recipe.file))),
+        }
     }
 
     fn copy(&self, file: &Path, target: &str) -> Result<(), Failure> {
@@ -222,7 +228,7 @@ impl Job {
     /// # Errors
     /// It is missing or damaged.
     pub fn timing(&self, name: &str) -> Result<Table, Failure> {
-        Ok(Table::read(&self.arguments.timing.join(format!("{name}.csv")))?)
+        Ok(Table::read(&self.committed("timing", name)?)?)
     }
 
     /// Reads a table of archived timings that has words.
@@ -230,7 +236,7 @@ impl Job {
     /// # Errors
     /// It is missing.
     pub fn timing_rows(&self, name: &str) -> Result<Sheet, Failure> {
-        Ok(Sheet::read(&self.arguments.timing.join(format!("{name}.csv")))?)
+        Ok(Sheet::read(&self.committed("timing", name)?)?)
     }
 
     /// The panel of this name.

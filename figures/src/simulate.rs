@@ -7,7 +7,7 @@ use crate::uniform;
 use files::scene_file::{self, Kind};
 use files::table::Table;
 use files::write::atomic_all;
-use jam::errors::{self, Errors};
+use jam::errors::Errors;
 use jam::events::Event;
 use jam::outcome::{Decision, Verdict};
 use jam::run::Outcome;
@@ -90,8 +90,8 @@ fn methods() -> String {
 pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     let scene = read_scene(arguments)?;
     let is_checked = !(arguments.no_check || arguments.check);
-    let ended = arguments.care.run(&scene, is_checked)?;
-    let errors = is_checked.then(|| errors::errors_of(&scene, &ended.outcome, ended.propagated.as_ref(), &mut ()));
+    let mut ended = arguments.care.run(&scene, is_checked)?;
+    let errors = is_checked.then(|| ended.checked(&scene, &mut (), &mut arguments.care.judging()));
     let errors = errors.as_ref();
     let flow = stability(&scene);
     let summary = summary::of_run(&scene, &ended, flow, errors);

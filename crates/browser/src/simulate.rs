@@ -40,9 +40,9 @@ pub fn run_kept(text: &str, hearer: &mut dyn Hearer) -> Result<(Value, Ran), Val
     let panel = panel(text)?;
     let scene = scene::run::read(FILE, &panel.tables).map_err(|error| complaint(&error))?;
     let mut watch = Watch { numbers: Vec::new(), hearer };
-    let ended = end(&scene, &mut watch);
+    let mut ended = end(&scene, &mut watch);
     watch.hearer.checking();
-    let errors = errors::errors_of(&scene, &ended.outcome, ended.propagated.as_ref(), &mut ());
+    let errors = ended.checked(&scene, &mut (), &mut Judging::Along);
     let mut told = summary::of_run(&scene, &ended, stability(&scene), Some(&errors));
     let mut sums = json!({ "std.csv": sha256(&tables::std(&ended.outcome.samples).to_csv()) });
     if scene.keeps_trajectories {
@@ -62,7 +62,7 @@ fn end(scene: &Scene, watch: &mut Watch<'_>) -> Ended {
         Ok(outcome) => (outcome, None),
         Err(broken) => (*broken.outcome.clone(), Some(broken)),
     };
-    Ended { outcome, broken, seconds: 0.0, resumed_steps: 0, propagated }
+    Ended { outcome, broken, seconds: 0.0, resumed_steps: 0, propagated: Some(propagated) }
 }
 
 /// Tells what is seen.

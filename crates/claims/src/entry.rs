@@ -119,36 +119,38 @@ pub struct Measure {
     pub less: Option<toml::Value>,
 }
 
-/// A statement of the source.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+/// A statement of the source: as its file has it, with measures as tests, or with what these gave.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Claim {
+pub struct Claim<T = Measure> {
     /// Small letters, digits and hyphens.
     pub id: String,
     /// The LaTeX label near which it stands.
     pub label: String,
     /// The statement in our words.
     pub says: String,
-    /// The verdict that is expected.
+    /// The verdict that is recorded.
     pub verdict: Verdict,
+    /// The verdict of the tests; none in a file written by hand.
+    pub verdict_found: Option<Verdict>,
     /// Under which condition it holds.
     pub condition: Option<String>,
     /// Why it cannot be decided.
     pub why: Option<String>,
-    /// What is found, with placeholders.
+    /// What is found, with placeholders, or with the numbers in their places.
     pub finding: String,
-    /// Tests of the statement as it is written.
-    #[serde(default, rename = "test")]
-    pub tests: Vec<Measure>,
+    /// Tests of the statement as it is written; those that were carried out, with those under the condition.
+    #[serde(default = "Vec::new", alias = "test")]
+    pub tests: Vec<T>,
     /// Tests of the statement under the condition.
-    #[serde(default)]
-    pub under: Vec<Measure>,
+    #[serde(default = "Vec::new", skip_serializing_if = "Vec::is_empty")]
+    pub under: Vec<T>,
 }
 
 /// A slip in the source.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Erratum {
+pub struct Erratum<T = Measure> {
     /// Small letters, digits and hyphens.
     pub id: String,
     /// The LaTeX label near which it stands.
@@ -157,20 +159,22 @@ pub struct Erratum {
     pub says: String,
     /// The corrected text.
     pub should: String,
-    /// The derivation, or the number that shows it, with placeholders.
+    /// The derivation, or the number that shows it; as a finding.
     pub why: String,
     /// Figures that it touches.
     #[serde(default)]
     pub touches: Vec<String>,
+    /// Whether all its tests hold; none without one, where the derivation stands alone, and in a file written by hand.
+    pub confirmed: Option<bool>,
     /// Tests that show it; each must hold.
-    #[serde(default, rename = "test")]
-    pub tests: Vec<Measure>,
+    #[serde(default = "Vec::new", alias = "test")]
+    pub tests: Vec<T>,
 }
 
 /// A constant of the reproduction.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Parameter {
+pub struct Parameter<T = Measure> {
     /// Small letters, digits and hyphens.
     pub id: String,
     /// LaTeX.
@@ -185,9 +189,11 @@ pub struct Parameter {
     pub scenes: Vec<String>,
     /// A label of the source, or `chosen: why`.
     pub source: String,
-    /// What depends on it, with placeholders.
+    /// What depends on it; as a finding.
     pub influence: String,
+    /// Whether all its tests hold; as that of an erratum.
+    pub confirmed: Option<bool>,
     /// Tests; each must hold.
-    #[serde(default, rename = "test")]
-    pub tests: Vec<Measure>,
+    #[serde(default = "Vec::new", alias = "test")]
+    pub tests: Vec<T>,
 }

@@ -43,84 +43,17 @@ pub struct Tested {
     pub outcome: Option<Outcome>,
 }
 
-/// A claim and what is found of it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct JudgedClaim {
-    /// Its id.
-    pub id: String,
-    /// Its LaTeX label.
-    pub label: String,
-    /// The statement in our words.
-    pub says: String,
-    /// The verdict that is recorded.
-    pub verdict: Verdict,
-    /// The verdict of the tests.
-    pub verdict_found: Verdict,
-    /// Under which condition it holds.
-    pub condition: Option<String>,
-    /// Why it cannot be decided.
-    pub why: Option<String>,
-    /// What is found, numbers filled in.
-    pub finding: String,
-    /// Its tests.
-    pub tests: Vec<Tested>,
-}
-
-/// An erratum and its tests.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct JudgedErratum {
-    /// Its id.
-    pub id: String,
-    /// Its LaTeX label.
-    pub label: String,
-    /// What the source has.
-    pub says: String,
-    /// The corrected text.
-    pub should: String,
-    /// The derivation or the number, filled in.
-    pub why: String,
-    /// Figures that it touches.
-    pub touches: Vec<String>,
-    /// Whether all its tests hold; `null` without tests, when only the derivation supports it.
-    pub confirmed: Option<bool>,
-    /// Its tests.
-    pub tests: Vec<Tested>,
-}
-
-/// A parameter and its tests.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct JudgedParameter {
-    /// Its id.
-    pub id: String,
-    /// LaTeX.
-    pub symbol: String,
-    /// In words.
-    pub name: String,
-    /// Figures that it enters.
-    pub figures: Vec<String>,
-    /// Its location.
-    pub scenes: Vec<String>,
-    /// A label, or `chosen: why`.
-    pub source: String,
-    /// What depends on it, numbers filled in.
-    pub influence: String,
-    /// Whether all its tests hold; `null` without one.
-    pub confirmed: Option<bool>,
-    /// Its tests.
-    pub tests: Vec<Tested>,
-}
-
 /// The ledger.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Ledger {
     /// The form of the file.
     pub schema_version: u32,
     /// In the order of their file.
-    pub claims: Vec<JudgedClaim>,
+    pub claims: Vec<Claim<Tested>>,
     /// In the order of their file.
-    pub errata: Vec<JudgedErratum>,
+    pub errata: Vec<Erratum<Tested>>,
     /// In the order of their file.
-    pub parameters: Vec<JudgedParameter>,
+    pub parameters: Vec<Parameter<Tested>>,
 }
 
 impl Ledger {
@@ -196,7 +129,7 @@ pub(crate) fn verdict_of(tests: &[(bool, Option<Outcome>)]) -> Verdict {
     }
 }
 
-fn claim(claim: &Claim, tables: &Tables<'_>) -> Result<JudgedClaim, Failure> {
+fn claim(claim: &Claim, tables: &Tables<'_>) -> Result<Claim<Tested>, Failure> {
     let (place, id) = (claim.place(), &claim.id);
     let all = claim.all_tests();
     let tests = tested(&all, id, tables, &place)?;
@@ -206,23 +139,24 @@ fn claim(claim: &Claim, tables: &Tables<'_>) -> Result<JudgedClaim, Failure> {
     let fill = |text: &Option<String>, key: &str| {
         text.as_ref().map(|text| filled(text, &tests, &place, key, &known)).transpose()
     };
-    Ok(JudgedClaim {
+    Ok(Claim {
         id: id.clone(),
         label: claim.label.clone(),
         says: claim.says.clone(),
         verdict: claim.verdict,
-        verdict_found: verdict(&tests),
+        verdict_found: Some(verdict(&tests)),
         condition: fill(&claim.condition, "condition")?,
         why: fill(&claim.why, "why")?,
         finding,
         tests,
+        under: Vec::new(),
     })
 }
 
-fn erratum(erratum: &Erratum, tables: &Tables<'_>) -> Result<JudgedErratum, Failure> {
+fn erratum(erratum: &Erratum, tables: &Tables<'_>) -> Result<Erratum<Tested>, Failure> {
     let (place, id) = (erratum.place(), &erratum.id);
     let tests = tested(&erratum.all_tests(), id, tables, &place)?;
-    Ok(JudgedErratum {
+    Ok(Erratum {
         id: id.clone(),
         label: erratum.label.clone(),
         says: erratum.says.clone(),
@@ -235,13 +169,13 @@ fn erratum(erratum: &Erratum, tables: &Tables<'_>) -> Result<JudgedErratum, Fail
     })
 }
 
-fn parameter(parameter: &Parameter, tables: &Tables<'_>) -> Result<JudgedParameter, Failure> {
+fn parameter(parameter: &Parameter, tables: &Tables<'_>) -> Result<Parameter<Tested>, Failure> {
     let (place, id) = (parameter.place(), &parameter.id);
     let all = parameter.all_tests();
     let tests = tested(&all, id, tables, &place)?;
     let known = known([parameter.name.as_str(), parameter.source.as_str()].into_iter(), &all);
     let influence = filled(&parameter.influence, &tests, &place, "influence", &known)?;
-    Ok(JudgedParameter {
+    Ok(Parameter {
         id: id.clone(),
         symbol: parameter.symbol.clone(),
         name: parameter.name.clone(),

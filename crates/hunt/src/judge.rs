@@ -111,13 +111,15 @@ fn judge_panel(text: &str, panel: &scene_file::Panel) -> Verdict {
             verdict.ending = "panicked".into();
             verdict.findings.push("the run panicked".into());
         }
-        Ok((Err(broken), propagated)) => {
-            let stated = stated::of(&scene, &broken.outcome, &propagated);
-            ended(&mut verdict, &scene, &broken.outcome, Some(&broken), (question, &stated));
-        }
-        Ok((Ok(outcome), propagated)) => {
-            let stated = stated::of(&scene, &outcome, &propagated);
-            ended(&mut verdict, &scene, &outcome, None, (question, &stated));
+        Ok((made, propagated)) => {
+            let (outcome, broken) = match made {
+                Ok(outcome) => (outcome, None),
+                Err(broken) => (*broken.outcome.clone(), Some(broken)),
+            };
+            let (refused, stated) = stated::of(&scene, &outcome, &propagated);
+            let broken = refused.or(broken);
+            let outcome = broken.as_ref().map_or(&outcome, |broken| &*broken.outcome);
+            ended(&mut verdict, &scene, outcome, broken.as_ref(), (question, &stated));
         }
     }
     verdict
@@ -229,10 +231,12 @@ fn ending(scene: &Scene, outcome: &Outcome, broken: Option<&Broken>) -> String {
 /// A run that could not continue: is the reason in the equations, or in the user's settings?
 fn reason(verdict: &mut Verdict, scene: &Scene, broken: &Broken, answer: &Answer) {
     let Answer { solution, .. } = answer;
-    let time = 1.001 * broken.outcome.statistics.time;
+    // a run that is not confirmed has gone on beyond where it should have ended
+    let is_unconfirmed = matches!(broken.failure, ode::Failure::NotConfirmed { .. });
+    let time = if is_unconfirmed { scene.t_end } else { 1.001 * broken.outcome.statistics.time };
     let is_own = match broken.failure {
         ode::Failure::TooManySteps { .. } => true,
-        ode::Failure::NotFinite { .. } => scene.is_fixed(),
+        ode::Failure::NotFinite { .. } | ode::Failure::NotConfirmed { .. } => scene.is_fixed(),
         _ => false,
     };
     let ends_there = matches!(solution.end, End::Singular | End::BlownUp) && solution.time <= time;
@@ -453,7 +457,7 @@ fn crossing(verdict: &mut Verdict, happening: &Event, kind: Kind, scene: &Scene,
         }
         return;
     };
-    let allowed = bound.moment(kind, rate) + 1e-9 * time;
+    let allowed = bound.moment(kind, rate) + 1e-9 * time + stated::FINEST * scene.t_end;
     Compared { what: "event", time, found, right: time, uncertainty, allowed, range: scene.t_end }.note(verdict);
     let is_first = crossings.iter().any(|(n, t, ..)| *n == happening.pedestrian && t - time <= 2.0 * allowed)
         || answer.solution.time - time <= 2.0 * allowed;

@@ -26,6 +26,12 @@ pub enum Failure {
         /// Its length.
         step: f64,
     },
+    /// A second solution, by other steps, ends early or differs by as much as the numbers are large. No integration finds that
+    /// by itself: it is for those who make the second one.
+    NotConfirmed {
+        /// The time up to which both agree.
+        time: f64,
+    },
     /// The system gives no Taylor series.
     NoSeries,
     /// The method has no error estimate and cannot choose its steps.
@@ -41,6 +47,7 @@ impl Failure {
             Failure::StepTooSmall { .. } => "step_too_small",
             Failure::TooManySteps { .. } => "too_many_steps",
             Failure::NotFinite { .. } => "not_finite",
+            Failure::NotConfirmed { .. } => "not_confirmed",
             Failure::NoSeries => "no_series",
             Failure::NoErrorEstimate(_) => "no_error_estimate",
             Failure::NotResumable => "not_resumable",
@@ -59,6 +66,12 @@ impl std::fmt::Display for Failure {
             }
             Failure::NotFinite { time, step } => {
                 write!(f, "in the step of {step:e} from t = {time:?} the state is no longer finite")
+            }
+            Failure::NotConfirmed { time } => {
+                write!(
+                    f,
+                    "a second run by other steps confirms the numbers up to t = {time:?} only; later ones are left out"
+                )
             }
             Failure::NoSeries => {
                 write!(

@@ -89,17 +89,20 @@ impl Linear {
             self.rows.resize(self.pieces * self.length, 0.0);
         }
         let rates = step.rates_before();
-        self.late = lateness(&self.forced, rates, error);
-        for (row, (error, rate)) in self.rows.iter_mut().zip(error.iter().zip(rates)) {
-            *row = error - self.late * rate;
+        // a motion that is all but uniform is thrown back by nothing
+        self.late = if self.is_steady { 0.0 } else { lateness(&self.forced, rates, error) };
+        dispatch(Unshifted { error, rates, late: self.late, result: &mut self.rows[..dimension] });
+        if self.pieces > 1 {
+            self.growth.iter_mut().for_each(|growth| *growth *= share);
         }
-        self.growth.iter_mut().for_each(|growth| *growth *= share);
         for piece in 0..self.pieces {
             let (done, rest) = self.rows.split_at_mut(piece * self.length);
             let rows = &mut rest[..self.length];
             if piece > 0 {
                 whole(&done[done.len() - self.length..], dimension, 1.0, &mut rows[..dimension]);
-                self.start.iter_mut().zip(&self.growth).for_each(|(start, growth)| *start += growth);
+                if !self.is_steady {
+                    self.start.iter_mut().zip(&self.growth).for_each(|(start, growth)| *start += growth);
+                }
             }
             let growth = if self.is_steady { &[][..] } else { &self.growth[..] };
             step.system.difference(Tangent { start: &self.start, growth }, order, unit, rows);
@@ -114,7 +117,6 @@ impl Linear {
         self.is_steady = self.steady_for > 0;
         if self.is_steady {
             self.steady_for -= 1;
-            self.growth.fill(0.0);
             return before;
         }
         // after steady steps `end` is that of an earlier one, near enough
@@ -127,10 +129,10 @@ impl Linear {
         if self.fastest > before { self.fastest } else { before }
     }
 
-    /// Writes the difference at the end of the step, of what was there at its start.
-    pub(crate) fn end(&self, step: &Step<'_>, result: &mut [f64]) {
+    /// Writes the difference at the end of the step, of what was there at its start, and what the step has added.
+    pub(crate) fn end(&self, step: &Step<'_>, added: &[f64], result: &mut [f64]) {
         self.rest(1.0, result);
-        self.shift(step.rates_after(), result);
+        dispatch(Shifted { late: self.late, rates: step.rates_after(), added, result });
     }
 
     /// The same at the fraction `theta` of the step.
@@ -139,17 +141,13 @@ impl Linear {
         step.at_fraction(theta, state);
         step.rates_of(state, rates);
         self.rest(theta, result);
-        self.shift(rates, result);
+        result.iter_mut().zip(rates).for_each(|(result, rate)| *result += self.late * *rate);
     }
 
     fn rest(&self, theta: f64, result: &mut [f64]) {
         let place = theta * self.pieces as f64;
         let piece = (place as usize).min(self.pieces - 1);
         whole(&self.rows[piece * self.length..][..self.length], result.len(), place - piece as f64, result);
-    }
-
-    fn shift(&self, rates: &[f64], result: &mut [f64]) {
-        result.iter_mut().zip(rates).for_each(|(result, rate)| *result += self.late * rate);
     }
 }
 
@@ -191,6 +189,44 @@ impl Kernel for Products<'_> {
             }
         }
         [along, squares].map(|sums| sums.iter().sum())
+    }
+}
+
+/// Writes `error - late * rates`.
+struct Unshifted<'a> {
+    error: &'a [f64],
+    rates: &'a [f64],
+    late: f64,
+    result: &'a mut [f64],
+}
+
+impl Kernel for Unshifted<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        for (result, (error, rate)) in self.result.iter_mut().zip(self.error.iter().zip(self.rates)) {
+            *result = error - self.late * rate;
+        }
+    }
+}
+
+/// Adds `late * rates + added`.
+struct Shifted<'a> {
+    late: f64,
+    rates: &'a [f64],
+    added: &'a [f64],
+    result: &'a mut [f64],
+}
+
+impl Kernel for Shifted<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        for (result, (rate, added)) in self.result.iter_mut().zip(self.rates.iter().zip(self.added)) {
+            *result = (*result + self.late * rate) + added;
+        }
     }
 }
 

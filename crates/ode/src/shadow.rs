@@ -10,7 +10,7 @@ use crate::linear::Linear;
 use crate::system::{Measure, System};
 use crate::taylor::{Change, forced};
 use crate::vector::largest;
-use math::simd::dispatch;
+use math::simd::{Kernel, dispatch};
 
 /// The error of a solution, step by step.
 #[derive(Clone, Debug)]
@@ -114,11 +114,8 @@ impl Shadow {
         }
         self.advance(step);
         self.power = step.stepper.error_power() + 1;
-        let states = step.ends.before.iter().zip(step.ends.after);
-        let errors = self.error.iter().zip(&mut self.own);
-        for ((error, own), (before, after)) in errors.zip(states) {
-            *own += (ROUNDING * (after - before).abs()).copysign(*error);
-        }
+        let (before, after) = (step.ends.before, step.ends.after);
+        dispatch(Rounded { before, after, error: &self.error, own: &mut self.own });
         self.round(step, rounding);
         if !self.arrive(step) {
             self.added.iter_mut().zip(&self.own).for_each(|(added, own)| *added += own);
@@ -157,8 +154,7 @@ impl Shadow {
     /// Computes the error at the end of a step that is propagated separately.
     fn arrive(&mut self, step: &Step<'_>) -> bool {
         let Some(linear) = self.linear.as_ref().filter(|_| self.has_rows) else { return false };
-        linear.end(step, &mut self.after);
-        self.after.iter_mut().zip(&self.own).for_each(|(after, own)| *after += own);
+        linear.end(step, &self.own, &mut self.after);
         true
     }
 
@@ -304,6 +300,26 @@ impl Shadow {
     /// How many components it has.
     pub fn dimension(&self) -> usize {
         self.error.len()
+    }
+}
+
+/// Adds what rounding makes of the change in a step, with the sign of the error.
+struct Rounded<'a> {
+    before: &'a [f64],
+    after: &'a [f64],
+    error: &'a [f64],
+    own: &'a mut [f64],
+}
+
+impl Kernel for Rounded<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let states = self.before.iter().zip(self.after);
+        for ((error, own), (before, after)) in self.error.iter().zip(self.own).zip(states) {
+            *own += (ROUNDING * (after - before).abs()).copysign(*error);
+        }
     }
 }
 

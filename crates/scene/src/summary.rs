@@ -3,10 +3,9 @@
 use crate::map::{Computed, Map};
 use crate::run::Scene;
 use crate::uniform::Stability;
-use jam::errors::Errors;
-use jam::errors::Propagated;
+use jam::errors::{self, Errors, Propagated};
 use jam::outcome::{Decision, Verdict};
-use jam::run::{Broken, Outcome};
+use jam::run::{Broken, Outcome, RunObserver};
 use ode::Control;
 use serde_json::{Value, json};
 
@@ -23,6 +22,22 @@ pub struct Ended {
     pub resumed_steps: u64,
     /// The errors estimated by its steps, if they were requested from the start.
     pub propagated: Option<Propagated>,
+}
+
+impl Ended {
+    /// The errors of its numbers. Samples that the check does not confirm are left out, and the run then counts as one that
+    /// broke there. `onlooker` sees a second run, if there is one, and `again` the run up to where it is confirmed.
+    pub fn checked(&mut self, scene: &Scene, onlooker: &mut dyn RunObserver, again: &mut dyn RunObserver) -> Errors {
+        let errors = errors::errors_of(scene, &self.outcome, self.propagated.as_ref(), onlooker);
+        match errors::refused(scene, &self.outcome, &errors, again) {
+            Some((broken, errors)) => {
+                self.outcome = *broken.outcome.clone();
+                self.broken = Some(broken);
+                errors
+            }
+            None => errors,
+        }
+    }
 }
 
 /// The contents of `summary.json` for a run.

@@ -2,7 +2,7 @@
 //! this program ([`cli`]).
 //!
 //! [`mod@reference`] finds what is committed; [`tables`] with [`numbers`], [`states`], [`moved`] and [`pictures`] compare it
-//! with what was made; [`verdict`] says what that means together, [`words`], [`json`] and [`page`] tell it. The ledger is
+//! with what was made; [`verdict`] says what that means together, [`words`], [`json`] and [`page`] (by [`html`]) tell it. The ledger is
 //! judged by the crate `claims`. [`bless`] shows the same judgement before it writes.
 
 pub mod accuracy;
@@ -13,6 +13,7 @@ pub mod costs;
 pub mod distance;
 pub mod findings;
 pub mod golden;
+pub mod html;
 pub mod json;
 pub mod judgement;
 pub mod moved;

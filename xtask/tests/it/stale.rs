@@ -65,14 +65,14 @@ fn every_kind_of_change_leads_to_exactly_the_needed_work() {
         ("figures/src/lib.rs", None, &[&RUNS, &FIGURES]),
         ("Cargo.lock", Some(&lock), &[&RUNS, &FIGURES]),
         ("rust-toolchain.toml", None, &[&RUNS, &FIGURES]),
-        ("data/reference/new.csv", Some("t\n"), &[&FIGURES]),
-        ("data/accuracy/new.csv", Some("t\n"), &[&["s01-variant"]]),
+        ("data/accuracy/named.csv", Some("t\n"), &[&["s01-variant"]]),
         // outputs
         ("data/fig05/left.csv", Some("a,phi\n0,1\n"), &[&["fig05-exponential-map"]]),
         ("data/fig05/left.csv", None, &[&["fig05-exponential-map"]]),
         ("figures/fig12-speeds/fig12.svg", Some("<svg/>"), &[&["fig12-speeds"]]),
         ("figures/fig12-speeds/fig12.png", None, &[&["fig12-speeds"]]),
         // what reaches no figure
+        ("data/accuracy/unnamed.csv", Some("t\n"), &[]),
         ("README.md", Some("words"), &[]),
         ("crates/math/tests/a.rs", Some("//! A test."), &[]),
         ("data/golden/fig05/left.csv", None, &[]),

@@ -27,6 +27,14 @@ fn checkout() -> Paths {
 }
 
 #[test]
+fn the_committed_ledger_is_written_as_it_is_read() {
+    let paths = checkout();
+    let text = fs::read_to_string(paths.ledger()).expect("data/ledger.json");
+    let ledger = Ledger::read(&paths).expect("a ledger");
+    assert!(ledger.to_text().expect("JSON") == text && ledger.claims.len() > 20);
+}
+
+#[test]
 fn the_committed_ledger_belongs_to_the_files_written_by_hand() {
     let paths = checkout();
     let sources = Sources::read(&paths).expect("the ledger's files");

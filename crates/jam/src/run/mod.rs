@@ -20,6 +20,9 @@ pub use outcome::{Broken, Narrowest, Outcome, Statistics};
 pub use recorder::{run, run_from};
 pub use samples::{Sample, Samples};
 
+pub(crate) use recorder::untried;
+pub(crate) use walls::advice;
+
 use crate::events::EventKind;
 use crate::laws::Model;
 use crate::ring::{Ring, Start};

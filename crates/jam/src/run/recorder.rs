@@ -51,6 +51,15 @@ pub fn run_from(run: &Run, from: Option<Checkpoint>, observer: &mut dyn RunObser
     recorder.end(made)
 }
 
+/// The run before its first step.
+pub(crate) fn untried(run: &Run, observer: &mut dyn RunObserver) -> Outcome {
+    let form = run.form.build(&run.model, run.ring);
+    let mut recorder = Recorder::new(run, &*form, observer);
+    recorder.start(&run.initial(&*form));
+    let made = Made { statistics: ode::Statistics::default(), failure: None };
+    recorder.end(made).unwrap_or_else(|broken| *broken.outcome)
+}
+
 /// The result of a leg: how far it got, and the reason if it failed.
 struct Made {
     statistics: ode::Statistics,

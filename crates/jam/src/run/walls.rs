@@ -1,6 +1,8 @@
 //! Ends of a run that no step shows: a wall of the force, and states at which the law has no value.
 
 use super::recorder::Recorder;
+use super::{Run, has_deviations};
+use crate::errors::loses_shift;
 use crate::events::{Event, EventKind};
 use crate::states::StateVariables;
 use ode::Control;
@@ -83,13 +85,22 @@ impl Recorder<'_> {
 }
 
 /// What helps a run that broke.
-pub(super) fn advice(failure: &ode::Failure, run: &super::Run) -> Option<&'static str> {
+pub(crate) fn advice(failure: &ode::Failure, run: &Run) -> Option<&'static str> {
     match failure {
         ode::Failure::TooManySteps { .. } if run.most_steps < ode::MOST_STEPS => {
             Some("raise most_steps or the tolerance")
         }
         ode::Failure::TooManySteps { .. } => Some("raise the tolerance"),
         ode::Failure::NotFinite { .. } => Some("a smaller step may help"),
+        ode::Failure::NotConfirmed { .. }
+            if loses_shift(run) && has_deviations(&run.model, run.ring, run.steady_speed) =>
+        {
+            Some("the shift is lost beside the spacings: state = \"deviations\" keeps it")
+        }
+        ode::Failure::NotConfirmed { .. } => match run.control {
+            Control::Fixed { .. } => Some("a smaller step may help"),
+            Control::Adaptive { .. } => Some("a smaller tolerance may help"),
+        },
         ode::Failure::StepTooSmall { .. } if run.form == StateVariables::Positions => {
             Some("state = \"deviations\" keeps more digits of small gaps")
         }

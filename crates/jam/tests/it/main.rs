@@ -1,6 +1,7 @@
 //! Tests of the physics: the laws against their printed form, the ring's symmetries, growth against linear theory, the
 //! paper's criteria against the exact ones, events and jams on constructed runs.
 
+mod confirmed;
 mod convergence;
 mod criteria;
 mod deviation;

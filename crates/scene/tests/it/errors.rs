@@ -309,7 +309,7 @@ fn what_is_just_allowed_is_allowed() {
 
 #[test]
 fn complaints_about_the_whole_file() {
-    let known = "title, source, origin, panel, law, ring, start, run, uniform, map, curve, sweep";
+    let known = "title, source, origin, reads, panel, law, ring, start, run, uniform, map, curve, sweep";
     let tables = "law, ring, start, run, uniform, map, curve, sweep";
     assert_complaints(
         RUN,

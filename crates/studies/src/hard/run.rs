@@ -134,14 +134,12 @@ impl Case {
     }
 
     fn failed(&self, failure: &ode::Failure, gaps: &[f64], speeds: &[f64]) -> Stop {
-        let (name, time, step) = match failure {
-            ode::Failure::NotFinite { time, step } => ("not_finite", *time, *step),
-            ode::Failure::StepTooSmall { time, step } => ("step_too_small", *time, *step),
-            ode::Failure::TooManySteps { time, .. } => ("too_many_steps", *time, 0.0),
-            ode::Failure::NoErrorEstimate(_) => ("no_error_estimate", 0.0, 0.0),
-            ode::Failure::NoSeries => ("no_series", 0.0, 0.0),
-            ode::Failure::NotResumable => ("not_resumable", 0.0, 0.0),
+        let (time, step) = match failure {
+            ode::Failure::NotFinite { time, step } | ode::Failure::StepTooSmall { time, step } => (*time, *step),
+            ode::Failure::TooManySteps { time, .. } | ode::Failure::NotConfirmed { time } => (*time, 0.0),
+            ode::Failure::NoErrorEstimate(_) | ode::Failure::NoSeries | ode::Failure::NotResumable => (0.0, 0.0),
         };
+        let name = failure.name();
         let room = |n: usize| self.model.effective_gap(gaps[n], speeds[n], speeds[(n + 1) % speeds.len()]);
         let pedestrian = (0..gaps.len()).min_by(|&a, &b| room(a).total_cmp(&room(b))).unwrap_or(0);
         Stop { name, time, pedestrian, gap: gaps[pedestrian], step }

@@ -65,14 +65,7 @@ pub fn measure(scene: &Scene, method: Method, control: Control, solution: &[Inst
     let clock = ProcessTime::now();
     let result = integrate(&problem, &mut judge);
     let seconds = clock.elapsed().as_secs_f64();
-    let failed = result.as_ref().err().map(|failure| match failure {
-        ode::Failure::NotFinite { .. } => "not_finite",
-        ode::Failure::StepTooSmall { .. } => "step_too_small",
-        ode::Failure::TooManySteps { .. } => "too_many_steps",
-        ode::Failure::NoSeries => "no_series",
-        ode::Failure::NoErrorEstimate(_) => "no_error_estimate",
-        ode::Failure::NotResumable => "not_resumable",
-    });
+    let failed = result.as_ref().err().map(ode::Failure::name);
     let statistics = result.ok();
     // an event in the last step may come after the last sample, or with it
     let is_whole = judge.passed == solution.len() && judge.stop.is_none();
