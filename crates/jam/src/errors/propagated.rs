@@ -396,7 +396,7 @@ mod tests {
 
     /// The standard deviation of these.
     fn std(values: &[f64]) -> f64 {
-        crate::observe::spread(values)
+        crate::observe::speed_std(values)
     }
 
     #[test]
