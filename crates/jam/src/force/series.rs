@@ -62,7 +62,7 @@ impl Row {
 }
 
 impl Memory {
-    /// Makes room for so many pedestrians, with histories of this size for each block.
+    /// Allocates memory for `n` pedestrians, with histories of this size for each block.
     fn reserve(&mut self, n: usize, size: usize) {
         let needed = n.div_ceil(W) * size;
         if self.histories.len() < needed {
@@ -110,7 +110,7 @@ impl Memory {
     }
 }
 
-/// The first pedestrian of a block. The last block begins earlier rather than be cut: what is computed twice is the same.
+/// The first pedestrian of a block. The last block begins earlier instead of being cut short: values computed twice are equal.
 #[inline(always)]
 fn begin(block: usize, n: usize) -> usize {
     let (from, last) = (block * W, n.saturating_sub(W));
@@ -125,8 +125,8 @@ fn write(row: &mut [f64], from: usize, block: Lanes<W>) {
     }
 }
 
-/// The coefficients under a law in its [plain](Law::plain) form, of which so many operations keep something; others are carried
-/// out as a list of operations.
+/// The coefficients under a law in its [plain](Law::plain) form, with the number of operations that store values; other forms
+/// are evaluated as a list of operations.
 pub(super) fn plain<L: Law>(law: L, operations: usize, motion: Motion<'_>, memory: &mut Memory) {
     dispatch(Coefficients { law, operations, motion, memory });
 }
