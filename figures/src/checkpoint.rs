@@ -63,8 +63,7 @@ const SILENCE: Duration = Duration::from_secs(1);
 impl CheckpointOptions {
     /// Runs the scene, from the checkpoint if there is one; if it is to be checked, its steps are asked for their errors.
     ///
-    /// # Errors
-    /// The program cannot be read, which a checkpoint has to tell from others.
+    /// # Errors The program cannot be read; its hash identifies the checkpoint.
     pub fn run(&self, scene: &Scene, is_checked: bool) -> Result<Ended, Failure> {
         let clock = ProcessTime::now();
         let mut keeper = CheckpointWriter::new(self, scene)?;
@@ -133,7 +132,7 @@ impl<'a> CheckpointWriter<'a> {
         Ok(CheckpointWriter { care, run, before, clock, started, done, next_word, next_writing, is_bar_shown: false })
     }
 
-    /// The checkpoint and the seconds before it; `None` when there is none to believe.
+    /// The checkpoint and the seconds before it; `None` without a valid one.
     fn load(&self, scene: &Scene) -> Option<(Checkpoint, f64)> {
         let file = self.care.checkpoint.as_ref().filter(|_| !self.run.is_empty())?;
         let bytes = std::fs::read(file).ok()?;
@@ -159,7 +158,7 @@ impl<'a> CheckpointWriter<'a> {
         }
     }
 
-    /// A checkpoint that cannot be written is told; the run is worth more and goes on.
+    /// A checkpoint that cannot be written is reported; the run continues.
     fn write(&self, underway: &PartialRun<'_>) {
         let Some(file) = &self.care.checkpoint else { return };
         let seconds = self.before + self.clock.elapsed().as_secs_f64();
@@ -210,7 +209,7 @@ impl RunObserver for CheckpointWriter<'_> {
     }
 }
 
-/// A line on stderr. The reader may be gone, as when the runner was killed: the run goes on.
+/// Writes a line to stderr. If there is no reader, as after a kill of the runner, the run continues.
 fn say(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
 }

@@ -17,7 +17,7 @@ struct Arguments {
     /// The scene file
     #[arg(long)]
     scene: PathBuf,
-    /// PANEL=DIR: where the run of a panel lies
+    /// PANEL=DIR: folder of a panel's run
     #[arg(long = "run", value_parser = run_folder)]
     runs: Vec<(String, PathBuf)>,
     /// Folder of the tables
@@ -157,7 +157,7 @@ impl Job {
         Ok(Table::read(&self.run_file(panel, name)?)?)
     }
 
-    /// Takes a table of the run of a panel as it is, under the name `target`.
+    /// Copies a table of a panel's run unchanged, under the name `target`.
     ///
     /// # Errors
     /// As [`Job::run_table`], or the copy cannot be written.
@@ -188,7 +188,7 @@ impl Job {
         Ok(Table::read(&self.committed("reference", name)?)?)
     }
 
-    /// Reads a table of the report of accuracy, which lies beside the values from outside.
+    /// Reads an accuracy table, which is committed.
     ///
     /// # Errors
     /// It is missing.

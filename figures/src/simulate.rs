@@ -55,7 +55,7 @@ pub struct Arguments {
     /// File for the final state: n, x, v
     #[arg(long, value_name = "FILE")]
     state: Option<PathBuf>,
-    /// The scheme: as the scene says, or the paper's (Heun, steps of 1e-5, positions)
+    /// The scheme of the scene, or the paper's (Heun, steps of 1e-5, positions)
     #[arg(long, value_parser = ["adaptive", "paper"], default_value = "adaptive")]
     scheme: String,
     /// Run by another method at a tighter tolerance, to estimate the error
@@ -295,7 +295,7 @@ fn in_words(
     text
 }
 
-/// What became of the run, in a line.
+/// The outcome of the run, in one line.
 fn fate(verdict: &Verdict) -> String {
     let Verdict { class, time, decision, .. } = verdict;
     match decision {

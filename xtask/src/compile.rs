@@ -131,7 +131,7 @@ pub fn tools(paths: &Paths, package: Package) -> Result<(), Failure> {
 }
 
 /// Builds a program that no figure is made by (`verify`, `publish`, ...) and gives the command that starts it on this
-/// checkout. Cargo sees by itself when there is nothing to do.
+/// checkout. Cargo finds out when there is nothing to do.
 ///
 /// # Errors
 /// Unsupported: no cargo. Failed: the build fails.

@@ -18,7 +18,7 @@ pub struct Lock {
 }
 
 impl Lock {
-    /// Takes the lock; says so on stderr when it has to wait for another run.
+    /// Takes the lock; reports on stderr if it has to wait for another run.
     ///
     /// # Errors
     /// The lock file cannot be written or locked.

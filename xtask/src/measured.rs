@@ -46,7 +46,7 @@ impl Measured {
     }
 }
 
-/// What a figure's binary says of its tables (`--report`).
+/// The report of a figure's program on its tables (`--report`).
 #[derive(Debug, Default, Deserialize)]
 struct Report {
     #[serde(default)]
@@ -67,8 +67,7 @@ struct TableReport {
 /// Measures one figure that is up to date. `estimates` has every run of it by key; `scenes` gives the scene under which
 /// a run's events are listed, by key.
 ///
-/// # Errors
-/// An output, or what the binary said of it, cannot be read.
+/// # Errors An output or the program's report on it cannot be read.
 pub fn measure(
     paths: &Paths,
     survey: &FigureState<'_>,

@@ -58,7 +58,7 @@ fn has_library(folder: &Path) -> bool {
     files.any(|file| file.file_name().to_str().is_some_and(is_std))
 }
 
-/// Builds the module; `None`, with a word on stderr, where nobody can.
+/// Builds the module; `None`, with a message on stderr, if no compiler can.
 ///
 /// # Errors
 /// Failed: it does not compile.

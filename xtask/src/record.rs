@@ -22,9 +22,9 @@ pub struct Record {
     pub inputs: Inputs,
     /// Every output with its hash.
     pub outputs: Hashes,
-    /// Hash of what its binary said of its accuracy; empty when it said nothing.
+    /// Hash of its program's report on accuracy; empty without a report.
     pub report: String,
-    /// What the manifest says of it, once its runs were compared with their checks.
+    /// Its manifest entries, once its runs have been compared with their second runs.
     pub measured: Option<Measured>,
 }
 
@@ -83,7 +83,7 @@ impl Records {
     }
 }
 
-/// A figure, what it is made from now, and why it is stale.
+/// A figure, its present inputs, and the reasons why it is stale.
 #[derive(Clone, Debug)]
 pub struct FigureState<'a> {
     /// The figure.
@@ -125,7 +125,7 @@ pub fn survey<'a>(
     figures.iter().zip(made).map(look).collect()
 }
 
-/// The hash of what a figure's binary said of its accuracy; empty when it said nothing.
+/// The hash of a program's report on accuracy; empty without a report.
 ///
 /// # Errors
 /// It cannot be read.
@@ -180,7 +180,7 @@ fn values(name: &str, old: &Inputs, new: &Inputs) -> String {
     }
 }
 
-/// What kind of input a name stands for.
+/// The kind of input that a name denotes.
 pub fn kind(name: &str) -> &'static str {
     match name {
         RUSTC => "toolchain",

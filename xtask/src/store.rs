@@ -48,7 +48,7 @@ pub fn is_sound(folder: &Path) -> Result<bool, Failure> {
         && hashes.iter().zip(sums.by_name.values()).all(|(found, listed)| found.as_ref() == Some(listed)))
 }
 
-/// Stores the run that lies in `fresh`: writes its sums, then moves it into its place.
+/// Stores the run in the folder `fresh`: writes its sums, then moves the folder into the store.
 ///
 /// # Errors
 /// The run wrote nothing, or the folder cannot be read, written or moved.

@@ -49,7 +49,7 @@ pub extern "C" fn table(figure: usize, table: usize) -> isize {
     keep(bytes)
 }
 
-/// Makes room for a text of so many bytes, which the next call reads; where it is.
+/// Allocates a buffer of the given size for the input of the next call, and returns its address.
 #[unsafe(no_mangle)]
 pub extern "C" fn room(length: usize) -> *mut u8 {
     let mut given = lock(&GIVEN);
@@ -63,7 +63,7 @@ pub extern "C" fn stability(count: usize) -> isize {
     with_given(|text| flow::of(text, count))
 }
 
-/// Runs the scene in the room and tells the page as it goes; the answer is JSON, see [`simulate::run`].
+/// Runs the scene in the buffer and reports progress to the page; the answer is JSON, see [`simulate::run`].
 #[unsafe(no_mangle)]
 pub extern "C" fn run() -> isize {
     with_given(|text| {
@@ -88,7 +88,7 @@ pub extern "C" fn sum() -> isize {
     keep(Ok(files::write::sha256(&lock(&GIVEN)).into_bytes()))
 }
 
-/// Where the answer to the last call lies.
+/// The address of the answer to the last call.
 #[unsafe(no_mangle)]
 pub extern "C" fn answer() -> *const u8 {
     lock(&ANSWER).as_ptr()

@@ -15,7 +15,7 @@ use serde_json::{Value, json};
 
 /// Hears of a run as it goes.
 pub trait Hearer {
-    /// A sample: `t`, the standard deviation, then `x` of everybody and `v` of everybody, if the scene keeps them.
+    /// A sample: `t`, the standard deviation, then `x` and `v` of all pedestrians, if the scene records them.
     fn sample(&mut self, numbers: &[f64]);
     /// An event: `event`, `t` and `n` as JSON.
     fn event(&mut self, event: &str);
@@ -23,8 +23,8 @@ pub trait Hearer {
     fn checking(&mut self);
 }
 
-/// Runs a scene as `cargo xtask simulate` does, to the same bits: what `summary.json` says (without the seconds: nobody
-/// has a clock here), and `sums` with the SHA-256 of each table.
+/// Runs a scene as `cargo xtask simulate` does, to the same bits: the contents of `summary.json` (without the seconds,
+/// since there is no clock here), and `sums` with the SHA-256 of each table.
 ///
 /// # Errors
 /// The scene is wrong; see [`complaint`].
@@ -55,7 +55,7 @@ pub fn run_kept(text: &str, hearer: &mut dyn Hearer) -> Result<(Value, Ran), Val
     Ok((told, Ran { outcome: ended.outcome, errors }))
 }
 
-/// Runs to the end, with the errors that the steps tell where the method has them.
+/// Runs to the end, with the errors estimated by the steps if the method provides them.
 fn end(scene: &Scene, watch: &mut Watch<'_>) -> Ended {
     let (made, propagated) = errors::run_propagated(scene, watch);
     let (outcome, broken) = match made {

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What is said of a statement.
+/// The verdict on a statement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Verdict {
     /// All its tests hold.
@@ -77,7 +77,7 @@ impl Take {
         }
     }
 
-    /// Whether rows are counted, whatever their values.
+    /// Whether rows are counted, regardless of their values.
     pub fn counts(self) -> bool {
         matches!(self, Take::Count | Take::Share)
     }
@@ -157,7 +157,7 @@ pub struct Erratum<T = Measure> {
     pub label: String,
     /// What the source has.
     pub says: String,
-    /// What should stand there.
+    /// The corrected text.
     pub should: String,
     /// The derivation, or the number that shows it; as a finding.
     pub why: String,
@@ -184,7 +184,7 @@ pub struct Parameter<T = Measure> {
     /// Figures that it enters.
     #[serde(default)]
     pub figures: Vec<String>,
-    /// Where it stands: `fig11-trajectories/scene.toml: start.shift`.
+    /// Its location: `fig11-trajectories/scene.toml: start.shift`.
     #[serde(default)]
     pub scenes: Vec<String>,
     /// A label of the source, or `chosen: why`.

@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 /// The form of the file.
 const SCHEMA_VERSION: u32 = 1;
 
-/// A test and what it gave.
+/// A test and its result.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tested {
     /// The name for placeholders.
@@ -29,7 +29,7 @@ pub struct Tested {
     pub command: String,
     /// The files that it reads.
     pub tables: Vec<String>,
-    /// The value; `null` (not a number) when it is none.
+    /// The value; `null` if it is not a number.
     #[serde(deserialize_with = "or_not_a_number")]
     pub value: f64,
     /// Its error; `null` (infinite) when nothing bounds it.
@@ -72,8 +72,7 @@ impl Ledger {
 
     /// Reads `data/ledger.json`.
     ///
-    /// # Errors
-    /// Stale: there is none. Usage: it is malformed.
+    /// # Errors Stale: the file does not exist. Usage: it is malformed.
     pub fn read(paths: &Paths) -> Result<Ledger, Failure> {
         let path = paths.ledger();
         let missing = || Failure::Stale(format!("{}: no such file; cargo xtask verify makes it", path.display()));
@@ -189,7 +188,7 @@ fn parameter(parameter: &Parameter, tables: &Tables<'_>) -> Result<Parameter<Tes
     })
 }
 
-/// Whether all tests with an outcome hold; nothing when there is none.
+/// Whether all tests with an outcome hold; `None` without such tests.
 fn confirmed(tests: &[Tested]) -> Option<bool> {
     let mut outcomes = tests.iter().filter_map(|test| test.outcome).peekable();
     outcomes.peek()?;

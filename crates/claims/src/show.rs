@@ -10,7 +10,7 @@ use checkout::paths::Paths;
 use checkout::print;
 use serde_json::{Value, json};
 
-/// The entry with this id as text and as JSON; nothing when there is none.
+/// The entry with this id as text and as JSON; `None` if it does not exist.
 ///
 /// # Errors
 /// Usage: a file of the ledger is malformed, or a test of this entry cannot be evaluated.

@@ -18,7 +18,7 @@ pub const EVENTS: &str = "events";
 
 /// Tables by name, each read once.
 pub struct Tables<'a> {
-    /// Where those lie that are not read yet; nothing when all were handed over.
+    /// The paths of tables that have not been read yet; `None` if all were supplied.
     files: Option<Files<'a>>,
     read: RefCell<BTreeMap<String, Rc<Sheet>>>,
 }
@@ -38,8 +38,8 @@ pub fn figure_of(table: &str) -> Option<&str> {
 }
 
 impl<'a> Tables<'a> {
-    /// Tables of figures as they lie below `made`, committed ones as they lie in the checkout `paths`, whose manifest
-    /// tells their errors.
+    /// Tables of figures from below `made`, committed tables from the checkout `paths`, whose manifest states their
+    /// errors.
     ///
     /// # Errors
     /// Usage: the manifest is malformed.
@@ -78,7 +78,7 @@ impl<'a> Tables<'a> {
 }
 
 impl Files<'_> {
-    /// Where a table lies.
+    /// The path of a table.
     fn path(&self, table: &str) -> PathBuf {
         let base = if figure_of(table).is_some() { self.made } else { self.paths };
         base.output(&Paths::table(table))

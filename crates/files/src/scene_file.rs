@@ -7,7 +7,7 @@ use std::path::Path;
 
 /// Tables that determine numbers.
 const DETERMINING: [&str; 8] = ["law", "ring", "start", "run", "uniform", "map", "curve", "sweep"];
-/// Everything else that may stand at the top.
+/// All other keys that are allowed at the top level.
 const DESCRIBING: [&str; 5] = ["title", "source", "origin", "reads", "panel"];
 
 /// What a panel asks for.
@@ -19,7 +19,7 @@ pub enum Kind {
     Map,
     /// A function of one variable (`[curve]`).
     Curve,
-    /// What became of runs over two parameters (`[sweep]`).
+    /// Outcomes of runs over two parameters (`[sweep]`).
     Sweep,
     /// No numbers: a drawing.
     Drawing,
@@ -65,8 +65,7 @@ pub struct SceneFile {
 impl SceneFile {
     /// The panel of this name.
     ///
-    /// # Errors
-    /// There is none; the names that exist.
+    /// # Errors There is no such panel; the message lists the names.
     pub fn panel(&self, name: &str) -> Result<&Panel, SceneError> {
         self.panels.iter().find(|panel| panel.name == name).ok_or_else(|| {
             let names: Vec<&str> = self.panels.iter().map(|panel| panel.name.as_str()).collect();

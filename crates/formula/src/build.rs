@@ -45,7 +45,7 @@ impl Builder {
         self.add(Symbol::Plain(operation), place)
     }
 
-    /// Adds an expression; `names` says what names stand for, `j` is the index of the sum around.
+    /// Adds an expression; `names` defines the names, `j` is the index of the enclosing sum.
     pub(crate) fn expression(
         &mut self,
         entries: &[(Entry, Place)],

@@ -35,9 +35,9 @@ impl<'a> From<&'a str> for Given<'a> {
 pub struct Definition<'a> {
     /// The key.
     pub name: &'a str,
-    /// Where the key stands.
+    /// The position of the key.
     pub key: Place,
-    /// Where the value stands: the number, or the first character of the string behind the quotation mark.
+    /// The position of the value: of the number, or of the first character of the string after the quotation mark.
     pub value: Place,
     /// The value.
     pub given: Given<'a>,

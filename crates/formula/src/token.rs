@@ -19,7 +19,7 @@ pub(crate) struct Lexeme<'a> {
     pub(crate) token: Token<'a>,
     pub(crate) text: &'a str,
     pub(crate) place: Place,
-    /// Whether nothing stands between this token and the one before.
+    /// Whether this token directly follows the one before.
     pub(crate) joined: bool,
 }
 
@@ -42,7 +42,7 @@ const LOOKALIKES: [(&str, &str, &str); 13] = [
     (";", "a semicolon", "a comma between arguments"),
 ];
 
-/// Cuts a text whose first character stands at `start` into tokens; the last one is [`Token::End`].
+/// Splits a text whose first character is at `start` into tokens; the last one is [`Token::End`].
 pub(crate) fn tokens(text: &str, start: Place) -> Result<Vec<Lexeme<'_>>, Problem> {
     if text.len() > LONGEST_TEXT {
         let found = format!("an expression of {} bytes", text.len());

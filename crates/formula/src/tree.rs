@@ -45,7 +45,7 @@ pub(crate) struct Tree {
 }
 
 impl Tree {
-    /// The names in it and where they stand, in the order of the text.
+    /// The names in it with their positions, in the order of the text.
     pub(crate) fn names(&self) -> impl Iterator<Item = (&str, Place)> {
         self.entries.iter().filter_map(|(entry, place)| match entry {
             Entry::Name(name) => Some((&**name, *place)),

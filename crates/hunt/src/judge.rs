@@ -14,7 +14,7 @@ use reference::solution::{End, Kind, Question};
 use scene::run::Scene;
 use std::panic::catch_unwind;
 
-/// What became of a run.
+/// The result of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
     /// Of which panel.
@@ -228,7 +228,7 @@ fn ending(scene: &Scene, outcome: &Outcome, broken: Option<&Broken>) -> String {
     if kinds.is_empty() { format!("{end}{beyond}") } else { format!("{end}: {}{beyond}", kinds.join(", ")) }
 }
 
-/// A run that could not go on: is there a reason in the equations, or in what its user asked for?
+/// A run that could not continue: is the reason in the equations, or in the user's settings?
 fn reason(verdict: &mut Verdict, scene: &Scene, broken: &Broken, answer: &Answer) {
     let Answer { solution, .. } = answer;
     // a run that is not confirmed has gone on beyond where it should have ended

@@ -9,8 +9,8 @@ pub fn spread(values: &[f64]) -> f64 {
     if values.iter().all(|value| *value == values[0]) {
         return 0.0;
     }
-    let spread = |scale: f64| dispatch(Spread { values, scale });
-    match spread(1.0) {
+    let spread = |scale: f64| dispatch(Spread::<true> { values, scale });
+    match dispatch(Spread::<false> { values, scale: 1.0 }) {
         // squares of tiny or huge numbers are no longer doubles, or not with all digits: powers of 2 cost none
         found if found < TINY => spread(UP),
         found if found > HUGE => spread(DOWN),
@@ -29,13 +29,13 @@ const HUGE: f64 = 1e130;
 /// Number of running sums.
 const LANES: usize = 8;
 
-/// The standard deviation, computed in units of `1 / scale`.
-struct Spread<'a> {
+/// The standard deviation, computed in units of `1 / scale`, which is 1 if it is not `SCALED`.
+struct Spread<'a, const SCALED: bool> {
     values: &'a [f64],
     scale: f64,
 }
 
-impl Kernel for Spread<'_> {
+impl<const SCALED: bool> Kernel for Spread<'_, SCALED> {
     type Output = f64;
 
     #[inline(always)]
@@ -45,10 +45,11 @@ impl Kernel for Spread<'_> {
         let lanes = InLanes::new(values);
         let mean = lanes.sum(|value| value) / count;
         let squares = lanes.sum(|value| {
-            let rest = scale * (value - mean);
+            let rest = if SCALED { scale * (value - mean) } else { value - mean };
             rest * rest
         });
-        (squares / count).sqrt() / scale
+        let spread = (squares / count).sqrt();
+        if SCALED { spread / scale } else { spread }
     }
 }
 

@@ -78,7 +78,7 @@ pub fn of_formula(formula: &Formula, headway: f64, wanted: Option<f64>) -> Resul
 }
 
 /// The steady speed of any law: where the acceleration of the uniform flow falls through 0, from 0 to the largest speed
-/// at which it has a value; if there is none, the one next below 0; the one next to `wanted`, if that is given.
+/// at which it has a value; if there is none, the nearest one below 0; if `wanted` is given, the one closest to it.
 ///
 /// # Errors
 /// [`NoUniformFlow`]: none, or several from 0 on and none is `wanted`.

@@ -136,7 +136,7 @@ fn reduce(reduced: impl Fn(f64) -> Reduced, x: &[f64], r: &mut [f64], missing: &
     }
 }
 
-/// The second half of an exponential, of x and what became of its first half.
+/// The second half of an exponential, from x and the result of the first half.
 #[inline(always)]
 fn expand(second: impl Fn(f64, Reduced) -> f64, x: &mut [f64], r: &[f64], missing: &[f64], shifted: &[f64]) {
     let n = x.len();

@@ -27,7 +27,7 @@ const EDGE: f64 = 37.0;
 /// stages of a step of this length, or its coefficients, see.
 const LIMIT: f64 = 8.0;
 
-/// A path between the ends is looked at in so many parts.
+/// Number of parts in which the path between the ends is examined.
 const PARTS: u32 = 32;
 
 impl Bends {
@@ -55,7 +55,7 @@ impl Bends {
         (first < 1.0).then_some(first)
     }
 
-    /// Goes on from the end of the step looked at last.
+    /// Continues from the end of the last step examined.
     pub(crate) fn advance(&mut self) {
         std::mem::swap(&mut self.before, &mut self.after);
     }

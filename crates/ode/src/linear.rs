@@ -47,12 +47,12 @@ const LONGEST: f64 = 10.0;
 /// More pieces than this would cost more than the step.
 const MOST_PIECES: f64 = 100.0;
 
-/// Coefficients that change by no more than this part over a step stand for those of a few more steps.
+/// Coefficients that change by at most this fraction over a step are reused for a few more steps.
 const STEADY: f64 = 0.01;
 const STEADY_FOR: u32 = 3;
 
 impl Linear {
-    /// For a system; `None` if it does not tell its linearised equations.
+    /// For a system; `None` if it does not provide its linearised equations.
     pub(crate) fn new(system: &dyn System) -> Option<Linear> {
         let size = system.tangent_size();
         let zeros = || vec![0.0; size];

@@ -41,7 +41,7 @@ pub struct Shadow {
     length: f64,
     power: usize,
     is_sure: bool,
-    /// Carries the error over each step by itself, where the system tells how small differences move.
+    /// Propagates the error over each step separately, if the system provides its linearised equations.
     linear: Option<Linear>,
     is_linear_known: bool,
     /// The error at the end of the step looked at last, if it is carried so.
@@ -106,8 +106,8 @@ impl Shadow {
         }
     }
 
-    /// Goes along with a step, in which rates are rounded by so much, of each component with a force by itself; false for a
-    /// method whose steps do not tell their error.
+    /// Follows a step in which the rates have the given rounding errors (one for each component with a force); false
+    /// for a method whose steps give no error estimate.
     pub fn follow(&mut self, step: &mut Step<'_>, rounding: f64) -> bool {
         if !step.stepper.own_error(step.system, &step.ends, &mut self.own) {
             return false;
@@ -151,7 +151,7 @@ impl Shadow {
         self.arrive(step);
     }
 
-    /// Finds the error at the end of a step, where each step carries it by itself.
+    /// Computes the error at the end of a step that is propagated separately.
     fn arrive(&mut self, step: &Step<'_>) -> bool {
         let Some(linear) = self.linear.as_ref().filter(|_| self.has_rows) else { return false };
         linear.end(step, &self.own, &mut self.after);
@@ -269,7 +269,7 @@ impl Shadow {
         }
     }
 
-    /// The error that series since some steps ago tell.
+    /// The error given by the series of the last steps.
     fn sum(&self, theta: f64, result: &mut [f64]) {
         if self.has_rows {
             let h = (self.elapsed - (1.0 - theta) * self.length) / self.unit;
@@ -292,7 +292,7 @@ impl Shadow {
         (0..self.power).fold(1.0, |power, _| power * theta)
     }
 
-    /// The error at the end of the step looked at last, where each step carries it by itself.
+    /// The error at the end of the last step, when each step is propagated separately.
     pub fn after(&self) -> Option<&[f64]> {
         self.linear.as_ref().filter(|_| self.has_rows).map(|_| &self.after[..])
     }

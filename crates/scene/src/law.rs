@@ -39,7 +39,8 @@ const KINDS: [(&str, Kind); 4] = [
     ("formula", Kind::Formula),
 ];
 
-/// The law of `[law]` with any values, if it is one of the paper: what its parameters are is known before it is read.
+/// The law of `[law]` with arbitrary values, if it is one of the paper, so that its parameters are known before it is
+/// read.
 pub fn built_in(section: &Section) -> Option<Model> {
     let Value::Text(kind) = &section.entries.get("kind")?.value else { return None };
     match KINDS.iter().find(|(name, _)| name == kind)?.1 {

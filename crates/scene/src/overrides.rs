@@ -41,7 +41,7 @@ impl Overrides {
         }
     }
 
-    /// The tables of a scene with these values in `[run]`. Their line is 0: they stand in no file.
+    /// The tables of a scene with these values in `[run]`. Their line is 0, since they come from no file.
     pub fn apply(&self, tables: &Section) -> Section {
         let text = |value: &Option<String>| value.clone().map(Value::Text);
         let number = |value: Option<f64>| value.map(Value::Number);

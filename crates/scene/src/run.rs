@@ -11,8 +11,7 @@ use ode::{Control, Method};
 
 /// As many rows as the table of a run may have, so that a slip in `sample` does not fill the memory (32 bytes a row).
 const MOST_ROWS: f64 = 2e7;
-/// As many steps of fixed length as a run may take, unless it says otherwise: two orders more than the longest of the
-/// paper.
+/// Default limit on the number of fixed steps of a run: two orders of magnitude more than the longest run of the paper.
 const MOST_FIXED_STEPS: u64 = 100_000_000_000;
 
 /// Reads a scene from the tables of a panel.

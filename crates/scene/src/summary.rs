@@ -20,7 +20,7 @@ pub struct Ended {
     pub seconds: f64,
     /// Steps that were taken from the checkpoint.
     pub resumed_steps: u64,
-    /// The errors that its steps told, if they were asked, from the start.
+    /// The errors estimated by its steps, if they were requested from the start.
     pub propagated: Option<Propagated>,
 }
 
@@ -40,7 +40,7 @@ impl Ended {
     }
 }
 
-/// Of a run: what `summary.json` says.
+/// The contents of `summary.json` for a run.
 pub fn of_run(scene: &Scene, ended: &Ended, flow: Option<Stability>, errors: Option<&Errors>) -> Value {
     let Ended { outcome, broken, seconds, resumed_steps, .. } = ended;
     let control = match scene.control {
@@ -89,7 +89,7 @@ pub fn of_run(scene: &Scene, ended: &Ended, flow: Option<Stability>, errors: Opt
     })
 }
 
-/// What became of a run, and what that rests on.
+/// The outcome of a run, and its basis.
 pub fn of_verdict(verdict: &Verdict) -> Value {
     let missing = match &verdict.decision {
         Decision::Missing(missing) => Some(missing),
@@ -130,7 +130,7 @@ fn jams(outcome: &Outcome) -> Value {
     })
 }
 
-/// Of the uniform flow; null where there is none that could be stable.
+/// The uniform flow; null if there is none, or none with a linear response.
 pub fn of_flow(flow: Option<Stability>) -> Value {
     flow.map_or(Value::Null, |flow| {
         json!({

@@ -64,9 +64,9 @@ const CONTROLS: [(Method, Control); 2] = [
     (Method::Extrapolation, Control::Adaptive { tolerance: 1e-13 }),
 ];
 
-/// The unstable runs of figures 4 and 7 with other desired speeds and other strengths, and one with a force whose potential
-/// is finite at contact: when somebody first walks backwards, and what ends the run. `velocity_at_contact` is `V` at
-/// `d = 0`, where the law has one. Beyond contact the exponential law goes on.
+/// The unstable runs of figures 4 and 7 with other desired speeds and other strengths, and one with a force whose
+/// potential is finite at contact: the time of the first negative speed, and the event that ends the run.
+/// `velocity_at_contact` is `V` at `d = 0`, where the law has one. Runs of the exponential law continue after contact.
 ///
 /// # Errors
 /// A run failed, or two methods disagree about what ended it.
@@ -115,7 +115,7 @@ struct Followed {
     stop: (&'static str, f64),
 }
 
-/// Keeps the first negative speed and the first stop; goes on until both are there or no more can come.
+/// Keeps the first negative speed and the first stop; continues until both are known or neither can follow.
 struct Following<'a> {
     watch: Watch<'a>,
     negative: Option<f64>,

@@ -37,7 +37,7 @@ pub enum DecidedBy {
     Criterion,
     /// A run.
     Run,
-    /// A run that came near to the uniform flow, and the linearised law, which says that it stays there.
+    /// A run that came close to the uniform flow, and the linearised law, by which it stays there.
     Both,
     /// The cells around, which all have this outcome.
     Neighbours,
@@ -58,7 +58,7 @@ impl DecidedBy {
     }
 }
 
-/// What became of a cell.
+/// The outcome of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cell {
     /// The outcome.

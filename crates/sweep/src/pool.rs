@@ -57,11 +57,10 @@ impl<'a> Pool<'a> {
         self.is_over.store(true, Ordering::Relaxed);
     }
 
-    /// Computes the tiles with so many threads; `hear` is told of each cell that is run, once. The cells of all tiles, tile
-    /// by tile; `None` if it was stopped.
+    /// Computes the tiles on the given number of threads; `hear` is called once for each cell that is run. Returns the
+    /// cells of all tiles, tile by tile; `None` if it was stopped.
     ///
-    /// # Errors
-    /// The first of a cell, or of `hear`; the others end with the cell that they are at.
+    /// # Errors The first error of a cell or of `hear`; the other threads end after their current cell.
     pub fn compute<E: From<String> + Send>(
         &self,
         jobs: usize,

@@ -80,8 +80,8 @@ pub fn read(file: &str, tables: &Section) -> Result<Sweep, SceneError> {
     Ok(Sweep { x, y, refine, model, ring, gap, start, speed, settings })
 }
 
-/// The effective gap of the uniform flow, where `[uniform]` gives it in place of the ring's length: any length stands for
-/// that until the cells set it. Of a formula `[uniform]` says which steady speed is meant.
+/// The effective gap of the uniform flow, where `[uniform]` gives it instead of the ring's length, which is arbitrary
+/// until the cells set it. For a formula, `[uniform]` selects the steady speed.
 fn gap(file: &str, tables: &mut Section, axes: [&Axis; 2]) -> Result<Option<f64>, SceneError> {
     let (Some(law), Some(uniform)) = (tables.section("law").and_then(law::built_in), tables.section("uniform")) else {
         return Ok(None);
@@ -140,7 +140,7 @@ fn settings(file: &str, section: &Section, model: &Model) -> Result<Settings, Sc
 /// More steps than any cell has a use for.
 const MOST_STEPS: u64 = 1_000_000_000;
 
-/// A parameter that is an axis is not named where it belongs: any value stands for it until the cells set it.
+/// A parameter that is an axis is omitted from its table; it has an arbitrary value until the cells set it.
 fn hold_place(file: &str, tables: &mut Section, axis: &Axis, section: &Section) -> Result<(), SceneError> {
     let (table, key): (&'static str, &str) = match axis.parameter.as_str() {
         "shift" => ("start", "shift"),

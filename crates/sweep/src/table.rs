@@ -5,7 +5,7 @@ use super::{Cell, DecidedBy, Sweep};
 use files::table::push_number;
 use jam::outcome::Class;
 
-/// The header of a shard: a cell's indices stand for the values of the axes.
+/// The header of a shard: a cell's indices replace the values of the axes.
 pub fn shard_header() -> String {
     header(["i", "j"])
 }
@@ -29,7 +29,7 @@ pub fn parse(line: &str) -> Option<([usize; 2], Cell)> {
     Some((indices, parse_cell(words)?))
 }
 
-/// What stands in a line after its first two words.
+/// The content of a line after its first two words.
 fn parse_cell<'a>(mut words: impl Iterator<Item = &'a str>) -> Option<Cell> {
     let class = Class::of_name(words.next()?)?;
     let backward_flow = match words.next()? {

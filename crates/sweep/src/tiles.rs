@@ -22,7 +22,7 @@ pub struct Tile {
 /// A cell with its outcome.
 pub type Found = ([usize; 2], Cell);
 
-/// The tiles of a plane of so many cells, column by column.
+/// The tiles of a plane of the given size, column by column.
 pub fn tiles(sweep: &Sweep) -> Vec<Tile> {
     let cuts = |cells: usize| -> Vec<(usize, usize)> {
         let count = cells.div_ceil(SIDE);
@@ -161,7 +161,7 @@ impl<E, F: FnMut([usize; 2]) -> Result<Cell, E>> Work<'_, F> {
         Ok(())
     }
 
-    /// All cells; those that were not computed lie within a border of one outcome, which also the cell before has.
+    /// All cells. Those that were not computed lie within a border of one outcome, which is that of the cell before.
     fn filled(self, places: &Places) -> Vec<Found> {
         let mut last = Class::Undecided;
         let cells = self.tile.indices().zip(self.found);
@@ -200,7 +200,7 @@ impl Places {
         self.all[(cell[0] - self.low[0]) * height + (cell[1] - self.low[1])]
     }
 
-    /// Whether a neighbour lies on the other side of a line: of stability, or where the start decides.
+    /// Whether a neighbour is on the other side of a line: of stability, or of the initial state's validity.
     fn is_beside(&self, cell: [usize; 2]) -> bool {
         let [i, j] = cell;
         let around = [[i.wrapping_sub(1), j], [i + 1, j], [i, j.wrapping_sub(1)], [i, j + 1]];

@@ -36,7 +36,7 @@ pub struct Options {
     pub json: bool,
 }
 
-/// Compares, tells, and accepts if that was asked for.
+/// Compares, reports, and accepts the tables if requested.
 ///
 /// # Errors
 /// Differs: a table is not as committed.

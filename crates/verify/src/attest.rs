@@ -10,7 +10,7 @@ use checkout::sums::Sums;
 use serde::{Deserialize, Serialize};
 use std::env::consts;
 
-/// One machine and what it got.
+/// A machine and its result.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Attestation {

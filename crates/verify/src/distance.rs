@@ -33,7 +33,7 @@ pub const COLUMNS: [&str; 15] = [
     "accurate_from_published",
 ];
 
-/// Writes the table of distances wherever the tables of both schemes are there, and tells it.
+/// Writes and prints the table of distances, for figures whose tables by both schemes exist.
 ///
 /// # Errors
 /// A table cannot be read, or the distances not be written.

@@ -104,7 +104,7 @@ pub fn compare(expected: &Image, actual: &Image) -> Result<Pixels, String> {
     Ok(found)
 }
 
-/// The expected picture in pale grey; on it, what changed in red, the darker the more.
+/// The expected picture in pale grey, with changed pixels in red, darker for larger changes.
 pub fn difference(expected: &Image, actual: &Image) -> Image {
     let pixel = |(one, other): (&[u8], &[u8])| match distance(one, other) {
         0 => {

@@ -20,7 +20,7 @@ pub enum Verdict {
     /// The bytes of a table are others, none of the committed samples is, and the whole committed table is not at hand:
     /// the rows between the samples cannot be judged.
     Unlocated,
-    /// What is committed contradicts itself: a table has its committed sum, but is not what its committed sample says.
+    /// The committed files contradict each other: a table has its committed sum but differs from its committed sample.
     Contradiction,
     /// A table or a picture is missing, new, cut short, or cannot be read; all numbers that can be compared are within.
     Broken,

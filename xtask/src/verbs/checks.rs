@@ -13,8 +13,8 @@ use std::panic::resume_unwind;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-/// A script below the root that needs more than Rust. It ends with 0 when all is well, with 5 when it cannot be tried
-/// here (the last line on stderr says why), else with another code.
+/// A script that needs more than Rust. It ends with 0 if it passes, with 5 if it cannot be tried here (the last line on
+/// stderr says why), and with another code if it fails.
 #[derive(Clone, Copy)]
 struct Script {
     /// What it looks at.

@@ -9,8 +9,8 @@ use checkout::paths::Paths;
 use checkout::process;
 use std::process::Command;
 
-/// `simulate` and `map`; paths among the arguments are relative to the current folder. The lock is held while building
-/// only: a user's run keeps nobody waiting.
+/// `simulate` and `map`; paths among the arguments are relative to the current folder. The lock is held only while
+/// building, so that a user's run does not block others.
 ///
 /// # Errors
 /// The program cannot be built; or its own exit code.

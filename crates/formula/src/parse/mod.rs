@@ -32,7 +32,7 @@ const POWER: u8 = 40;
 const OPERAND: &str = "a number, a name, a function, ( or -";
 const OPERATOR: &str = "an operator + - * / ^ or the end";
 
-/// Parses the text of one expression whose first character stands at `start`.
+/// Parses the text of one expression whose first character is at `start`.
 pub(crate) fn parse(text: &str, start: Place, vocabulary: Vocabulary) -> Result<Tree, Problem> {
     let lexemes = tokens(text, start)?;
     let mut parser = Parser { lexemes, at: 0, depth: 0, in_sum: false, vocabulary, tree: Tree::default() };
@@ -134,7 +134,7 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    /// What a name that has just been taken stands for.
+    /// The meaning of a name that has just been read.
     fn word(&mut self, name: &str, place: Place) -> Result<(), Problem> {
         let is_law = self.vocabulary == Vocabulary::Law;
         let is_operand =

@@ -18,7 +18,8 @@ use crate::run::{Broken, Outcome, Run, RunObserver, run_from};
 use crate::states::StateVariables;
 use second::Second;
 
-/// Estimated errors, in the units of the numbers; `None` where the second run says nothing, having ended elsewhere.
+/// Estimated errors, in the units of the numbers; `None` where the second run gives no estimate because it ended
+/// elsewhere.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Errors {
     /// The largest of the standard deviation over all samples.
@@ -35,10 +36,11 @@ pub struct Errors {
     pub confirmed_until: Option<f64>,
 }
 
-/// No number is known better than to so many roundings of the largest of its kind.
+/// Least error of a number, in roundings of the largest number of its kind.
 pub(crate) const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
-/// Makes a run and estimates the errors of its numbers, by its steps where they tell them, else by a second run.
+/// Makes a run and estimates the errors of its results: from its steps if they estimate theirs, otherwise from a second
+/// run.
 ///
 /// ```
 /// use jam::laws::{Logarithmic, Model};

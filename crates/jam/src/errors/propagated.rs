@@ -14,7 +14,7 @@ use crate::run::{Outcome, Run, RunObserver, Sight};
 use crate::states::StateVariables;
 use ode::{Control, Shadow, Step};
 
-/// Looks on while a run is made from its start, and knows the errors at its end if the steps tell theirs.
+/// Observes a run from its start, and returns the errors at its end if the steps estimate theirs.
 #[derive(Clone, Debug)]
 pub struct Propagated {
     pedestrians: usize,
@@ -32,14 +32,14 @@ pub struct Propagated {
     /// What becomes of a shift that spacings lose to the last digit. All motion is then one, as are the errors of steps, in
     /// which so small a difference would be lost again.
     lost: Option<Shadow>,
-    /// Whether a step did not tell its error.
+    /// Whether a step gave no error estimate.
     is_blind: bool,
     /// The largest error of the standard deviation so far.
     std: f64,
     /// How large the errors of speeds were when that was looked at last, and how many steps ago.
     looked_at: f64,
     since: u32,
-    /// The moment that tells most of the time of a blow-up.
+    /// The moment that determines the time of a blow-up best.
     last_known: Option<LastKnown>,
     /// The time at which the run ends.
     t_end: f64,
@@ -174,7 +174,7 @@ impl Propagated {
         }
     }
 
-    /// Goes along with a step; false if it does not tell its error, or nobody can tell what becomes of it.
+    /// Follows a step; false if the step gives no error estimate, or its error cannot be propagated.
     fn follow(&mut self, step: &mut Step<'_>) -> bool {
         let (n, dimension) = (self.pedestrians, step.after().len());
         if self.shadow.is_none() {
@@ -272,6 +272,7 @@ impl Propagated {
     }
 
     /// The errors of the run that it has seen; `None` where steps did not tell theirs, or not that of an event.
+    /// The errors of the run that it has seen; `None` where the steps gave no estimate, or none for an event.
     pub fn errors(&self, run: &Run, outcome: &Outcome) -> Option<Errors> {
         // next to a blow-up the error leaves the doubles before the speeds do: a second run tells the time
         let is_told = self.events.iter().all(|error| error.is_finite());
@@ -341,7 +342,7 @@ fn time_of(shadow: &Shadow, step: &mut Step<'_>, n: usize, limit: f64) -> f64 {
 /// The part of a step to which that is sought.
 const FINE: f64 = 1e-3;
 
-/// Whether everybody has the same spacing and the same speed, to the last bit, in a state of spacings.
+/// Whether all pedestrians have the same spacing and the same speed, to the last bit, in a state of spacings.
 fn is_uniform(state: &[f64], n: usize) -> bool {
     let (spacings, speeds) = (&state[..n], &state[n..2 * n]);
     state.len() == 2 * n + 1 && spacings.iter().all(|s| *s == spacings[0]) && speeds.iter().all(|v| *v == speeds[0])

@@ -17,8 +17,7 @@ pub(super) struct Near {
 }
 
 impl Watch<'_> {
-    /// Whether the bounds that events are looked for by hold for everybody, since they do for the largest deviations
-    /// from a uniform flow.
+    /// Whether no pedestrian can have an event, judged by the largest deviations from a uniform flow.
     pub(super) fn nothing_can_happen(&mut self, step: &Step<'_>) -> bool {
         let before = match self.near {
             Some(near) if near.time == step.start => Some(near),

@@ -80,7 +80,7 @@ pub struct Rows<'a> {
     pub speeds: &'a [f64],
 }
 
-/// A uniform flow: everybody with the same net gap and speed.
+/// A uniform flow: all pedestrians have the same net gap and speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flow {
     /// The net gap, headway less contact.

@@ -41,7 +41,7 @@ impl Law for Logarithmic {
         (-(r * C).ln_1p() + 1.0) * v0 - v
     }
 
-    /// The spacing: the law stops nobody before two centres meet.
+    /// The spacing: the law stops pedestrians only when two centres meet.
     #[inline(always)]
     fn effective_gap<X: Number>(&self, spacing: X, _v: X, _ahead: X) -> X {
         spacing
@@ -59,7 +59,8 @@ impl Law for Logarithmic {
 }
 
 impl Logarithmic {
-    /// `a' = 2 (1 + a_v v')`: the critical distance at the speed `v'`, in units of `a_0`; nobody is slowed down beyond it.
+    /// `a' = 2 (1 + a_v v')`: the critical distance at the speed `v'`, in units of `a_0`; beyond it pedestrians walk
+    /// freely.
     pub fn critical_distance(&self, speed: f64) -> f64 {
         2.0 + 2.0 * self.a_v * speed
     }

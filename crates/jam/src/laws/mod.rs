@@ -32,7 +32,7 @@ pub enum Range {
     NotNegative,
 }
 
-/// A parameter of a law: its name in scenes and on axes, and what it may be.
+/// A parameter of a law: its name in scenes and on axes, and its range.
 #[derive(Debug)]
 pub struct Parameter<L> {
     /// The name.
@@ -126,10 +126,10 @@ pub trait Law: Copy + Default + Send + Sync + std::fmt::Debug + 'static {
     /// Goes on with the law, in which parameters that choose terms or powers are constants where a loop is compiled for
     /// these: those of [`Law::plain`], and more where the loop is short.
     #[inline(always)]
-    fn choose<C: Chosen<Self>>(self, chosen: C) {
+    fn choose<C: Chosen<Self>>(self, chosen: C) -> C::Output {
         match self.plain() {
-            Some(law) => chosen.law(law),
-            None => chosen.law(self),
+            Some(law) => chosen.plain(law),
+            None => chosen.any(self),
         }
     }
 
@@ -152,11 +152,17 @@ pub trait Law: Copy + Default + Send + Sync + std::fmt::Debug + 'static {
 
 /// What goes on with a law (see [`Law::choose`]).
 pub trait Chosen<L> {
+    /// What comes of it.
+    type Output;
+
     /// With any.
-    fn law(self, law: L);
+    fn any(self, law: L) -> Self::Output;
+
+    /// With one in its plain form.
+    fn plain(self, law: L) -> Self::Output;
 
     /// With one whose formula has no function and, its constants known, no choice to be made.
-    fn straight(self, law: L);
+    fn straight(self, law: L) -> Self::Output;
 }
 
 /// A law with its parameters, as data.
@@ -174,7 +180,7 @@ pub enum Model {
     Own(Own),
 }
 
-/// Does something with whatever law it is.
+/// Calls a function with the concrete law.
 macro_rules! each {
     ($model:expr, $law:ident => $action:expr, $formula:ident => $other:expr, $own:ident => $own_action:expr) => {
         match $model {
@@ -214,8 +220,8 @@ fn is_singular<L: Law>(_law: &L) -> bool {
 }
 
 impl Model {
-    /// A law that is a Rust type of your own (see [`Law`]). What takes a `Model` then takes it: runs, events, outcome,
-    /// stability, maps and jams.
+    /// A law that is a Rust type of your own (see [`Law`]). Everything that takes a `Model` accepts it: runs, events,
+    /// outcome, stability, maps and jams.
     ///
     /// # Errors
     /// A parameter out of its range; an effective gap that is not linear with constant slopes, or not 0 where two touch at
@@ -338,7 +344,7 @@ impl Model {
         each!(self, law => law.effective_gap(0.0, 1.0, 0.0) == 0.0, _formula => false, own => own.has_plain_gap())
     }
 
-    /// Whether the acceleration has kinks, at which its derivatives jump; of a law of your own nobody knows, so it may.
+    /// Whether the acceleration has kinks, at which its derivatives jump; a law of your own is assumed to have kinks.
     pub fn may_have_kinks(&self) -> bool {
         match self {
             Model::Algebraic(_) | Model::Exponential(_) | Model::Logarithmic(_) => false,

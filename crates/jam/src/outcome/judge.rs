@@ -10,7 +10,7 @@ use crate::observe::spread;
 use crate::ring::Ring;
 use ode::Step;
 
-/// Looks at every step of a run and says what became of it.
+/// Observes every step of a run and determines its outcome.
 #[derive(Debug)]
 pub struct Judge {
     ring: Ring,
@@ -32,7 +32,7 @@ pub struct Judge {
     verdict: Option<Verdict>,
 }
 
-/// What the linearised law says about the uniform flow.
+/// The stability of the uniform flow, from the linearised law.
 #[derive(Clone, Copy, Debug)]
 struct Flow {
     headway: f64,
@@ -109,7 +109,7 @@ impl Judge {
         self.happened(watch, found);
     }
 
-    /// Looks at a step, after the watch has; `new` is what it found there.
+    /// Observes a step after the watch has; `new` are the events that the watch found.
     pub fn look(&mut self, watch: &mut Watch<'_>, step: &mut Step<'_>, new: &[Event]) {
         if self.verdict.is_some() {
             return;
@@ -150,7 +150,7 @@ impl Judge {
         self.verdict.take().unwrap_or_else(|| self.of(Class::Undecided, time, Decision::Start, 0.0))
     }
 
-    /// Decides for lasting waves if the last windows agree, or for a decay that is on its way.
+    /// Decides for lasting waves if the last windows agree, or for a decay in progress.
     fn judge_windows(&mut self, time: f64) -> Result<(), String> {
         if let Some(margin) = self.is_falling() {
             self.decide(Class::Decays, time, Decision::Falling, -margin);
@@ -370,7 +370,7 @@ fn changes([late, early]: &[Stretch; 2]) -> [f64; 2] {
 }
 
 impl Flow {
-    /// Whether every wave of the ring decays, and the linearised law can tell.
+    /// Whether every wave of the ring decays according to the linearised law.
     fn decays(&self) -> bool {
         self.growth_rate < 0.0 && self.margin < -NEAR_LINE
     }

@@ -162,7 +162,7 @@ impl Checkpoint {
         self.earlier.steps + self.place.step
     }
 
-    /// The part of the run's time that need not be gone through again, 0 to 1.
+    /// The fraction of the run's time that need not be repeated, 0 to 1.
     pub fn fraction(&self, run: &Run) -> f64 {
         fraction(run, self.place.step, self.statistics.time)
     }

@@ -10,8 +10,8 @@ use crate::outcome::Verdict;
 pub struct Outcome {
     /// Up to the first stop.
     pub samples: Samples,
-    /// The first event of each kind, with everybody to whom it happens at once, in order of time; those after a stop belong
-    /// to the continued run.
+    /// The first event of each kind, with all pedestrians to whom it happens at that time, in order of time; events
+    /// after a stop belong to the continued run.
     pub events: Vec<Event>,
     /// What it cost, and how far it came.
     pub statistics: Statistics,
@@ -23,7 +23,7 @@ pub struct Outcome {
     pub drift: Drift,
     /// What an overlap does.
     pub at_overlap: AtOverlap,
-    /// What became of the run, if an observer asked for it (see [`RunObserver::judging`](super::RunObserver::judging)).
+    /// The outcome of the run, if an observer asked for it (see [`RunObserver::judging`](super::RunObserver::judging)).
     pub verdict: Option<Verdict>,
 }
 

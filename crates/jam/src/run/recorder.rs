@@ -61,7 +61,7 @@ pub(crate) fn untried(run: &Run, observer: &mut dyn RunObserver) -> Outcome {
     recorder.end(made).unwrap_or_else(|broken| *broken.outcome)
 }
 
-/// What became of a leg: how far it came, and why no further, if it broke.
+/// The result of a leg: how far it got, and the reason if it failed.
 struct Made {
     statistics: ode::Statistics,
     failure: Option<ode::Failure>,
@@ -129,7 +129,7 @@ impl<'a> Recorder<'a> {
         self.made(made)
     }
 
-    /// Goes on from a checkpoint as [`Recorder::leg`] would have.
+    /// Continues from a checkpoint as [`Recorder::leg`] would have done.
     fn resume(&mut self, form: &dyn RingSystem, near_walls: &'a dyn RingSystem, checkpoint: Checkpoint) -> Made {
         let Checkpoint { place, statistics, state, pace, found, samples, drift, .. } = checkpoint;
         // one sample for each multiple of the interval, from 0; none after a stop
@@ -173,7 +173,7 @@ impl<'a> Recorder<'a> {
         state
     }
 
-    /// What the run gave; or, where it broke, what it gave until then.
+    /// The result of the run; if it failed, the result up to that point.
     fn end(mut self, made: Made) -> Result<Outcome, Broken> {
         let mut statistics = counts(&made.statistics);
         statistics.steps += self.earlier.steps;
@@ -231,7 +231,8 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Whether nothing is left to be found: after a blow-up, or a stop from which no run goes on, or all that can follow it.
+    /// Whether no further event can be found: after a blow-up, after a stop from which no run continues, or after all
+    /// events that can follow it.
     fn is_over(&self) -> bool {
         let happened = |kind: EventKind| self.watch.found().iter().any(|event| event.kind == kind);
         let continues = !self.run.model.is_singular();

@@ -12,12 +12,12 @@ use ode::Control;
 /// deviations lead no further.
 const NEAR_WALLS: f64 = 1e-3;
 
-/// An effective gap below this, at a wall where no shorter step leads on, is that of a pedestrian who comes nearer to the wall
-/// than a double can tell: the force has no bound that a number has.
+/// If no shorter step is possible at a wall and the effective gap is below this, a pedestrian has come closer to the
+/// wall than a double can resolve, and the force exceeds every double.
 const NO_GAP: f64 = 1e-200;
 
 impl Recorder<'_> {
-    /// Whether a run ends since a pedestrian comes nearer to a wall than any double can tell; then that is an event.
+    /// Whether a run ends because a pedestrian comes closer to a wall than a double can resolve; this is then an event.
     pub(super) fn is_at_wall(&mut self, failure: &ode::Failure, time: f64, state: &[f64]) -> bool {
         let Some(narrowest) = self.narrowest else { return false };
         let is_singular = self.run.model.is_singular() && self.is_in_spacings();

@@ -9,8 +9,7 @@ use ode::{Control, Failure, Method};
 
 /// A dense ring whose uniform flow walks backwards and blows up at t = 0.156, from a shift that spacings lose.
 fn lost() -> Run {
-    let law =
-        Algebraic { strength: 0.0884, relative: 0.0, power: 3.0, widening: 0.0, desired_speed: 0.702, epsilon: 0.1 };
+    let law = Algebraic { mu: 0.0884, delta: 0.0, q: 3.0, a_v: 0.0, v0: 0.702, epsilon: 0.1 };
     let ring = Ring { pedestrians: 15, length: 30.19042 };
     let run = Run::new(Model::Algebraic(law), ring, Start { shift: -1.49e-33 }, 0.526).expect("a run");
     Run { sample: 0.02, form: StateVariables::Spacings, ..run }
@@ -49,7 +48,7 @@ fn a_shift_that_spacings_lose_is_not_taken_for_a_uniform_flow() {
 
 /// Waves grow from a small shift until two overlap at t = 57.9.
 fn growing(method: Method, step: f64) -> Run {
-    let law = Logarithmic { desired_speed: 6.04, widening: 0.00114, epsilon: 0.0314 };
+    let law = Logarithmic { v0: 6.04, a_v: 0.00114, epsilon: 0.0314 };
     let ring = Ring { pedestrians: 18, length: 12.34295 };
     let run = Run::new(Model::Logarithmic(law), ring, Start { shift: 8.42e-8 }, 103.0).expect("a run");
     Run { sample: 2.78, method, control: Control::Fixed { step }, ..run }
@@ -60,11 +59,11 @@ fn rows_that_are_off_by_as_much_as_they_are_large_are_left_out() {
     let right =
         Run { method: Method::Dop853, control: Control::Adaptive { tolerance: 1e-10 }, ..growing(Method::Heun, 1.0) };
     let right = run(&right).expect("it ends well");
-    for step in [0.0349, 0.02] {
+    for step in [0.0349, 0.05] {
         let scene = growing(Method::Ballistic, step);
         let broken = stated(&scene).expect_err("its waves are early");
         let Failure::NotConfirmed { time } = broken.failure else { panic!("{step}: {broken}") };
-        assert!((40.0..57.0).contains(&time) && broken.outcome.events.is_empty(), "{step}: {time}");
+        assert!((35.0..57.0).contains(&time) && broken.outcome.events.is_empty(), "{step}: {time}");
         // the rows that are left are not all error, or a flow all but uniform
         for (std, right) in broken.outcome.samples.std.iter().zip(&right.samples.std) {
             assert!((std - right).abs() <= 0.7 * right + 5e-3, "{step}: {std} for {right}");

@@ -62,7 +62,7 @@ impl<C: Coefficient> Block<C> {
     }
 }
 
-/// The memory of an operation that is not linear: so many rows of a block for each order.
+/// The memory of an operation that is not linear: a number of rows of a block for each order.
 pub const ROWS: usize = recurrences::ROWS;
 
 /// Where the operations of a formula keep earlier coefficients: [`ROWS`] rows for each operation that

@@ -68,7 +68,7 @@ pub(super) struct Journal {
 const EVERY: Duration = Duration::from_secs(5);
 
 impl Journal {
-    /// The journal of a shard and what it knows; none if the shard itself is there and whole.
+    /// The journal of a shard and its cells; `None` if the shard is already complete.
     ///
     /// # Errors
     /// It belongs to another scene or program: nothing is touched.

@@ -70,7 +70,7 @@ impl Desk {
     }
 }
 
-/// As many cells are computed at least: the borders of the tiles, and what lies beside lines that are known.
+/// The least number of cells computed: the borders of the tiles, and the cells beside known lines.
 pub(super) fn least_cells(sweep: &Sweep) -> Result<usize, Failure> {
     let mut is_computed = vec![!sweep.refine; sweep.cells()];
     for tile in tiles::tiles(sweep) {

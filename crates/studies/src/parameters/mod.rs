@@ -15,7 +15,7 @@ use ode::{Control, Method};
 /// The local error of the runs of the tables, relative to the perturbation.
 const TOLERANCE: f64 = 1e-9;
 
-/// What a row says after the number that was changed.
+/// The cells of a row after the number that was changed.
 const OBSERVED: [&str; 20] = [
     "steady_speed",
     "growth_rate",

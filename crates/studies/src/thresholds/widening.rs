@@ -56,8 +56,8 @@ pub fn table() -> Result<Rows, Failure> {
     Ok(rows)
 }
 
-/// Unstable runs with a widening, from the start of the paper: what happens first, and how small anybody's space
-/// requirement `a_n' = 1 + a_v v_n` becomes until then.
+/// Unstable runs with a widening, from the start of the paper: the first event, and the least space requirement `a_n' =
+/// 1 + a_v v_n` until then.
 ///
 /// # Errors
 /// A run failed without an event.

@@ -17,7 +17,7 @@ pub(super) struct Wave {
     pub(super) amplitude: f64,
     /// The strength of the force.
     pub(super) strength: f64,
-    /// How fast the phase of everybody grows.
+    /// The rate at which the phase of all pedestrians grows.
     pub(super) frequency: f64,
     /// The speeds, at equidistant phases.
     pub(super) speeds: Vec<f64>,

@@ -77,7 +77,8 @@ impl Neighbours {
     }
 }
 
-/// The ring once around and so many places on, up to whole blocks. The reach is no larger than the ring.
+/// The whole ring followed by the first `reach` pedestrians again, filled up to whole blocks. The reach is at most the
+/// size of the ring.
 fn extend(reach: Reach, ring: &[f64], row: &mut Vec<f64>) {
     let n = ring.len();
     row.clear();

@@ -34,9 +34,9 @@ pub(super) fn batch<L: Law>(law: &L, steps: Steps, cut: Option<Cut>, state: &mut
     }
 }
 
-/// Makes `count` steps of length `h` of the state `[x_0 .. x_{N-1}, v_0 .. v_{N-1}]` of a ring in one piece or cut, with
-/// registers no wider than `limit`. For tests and measurements: neither changes a bit, and
-/// [`Positions`](crate::states::Positions) chooses the best by itself.
+/// Makes `count` steps of length `h` of the state `[x_0 .. x_{N-1}, v_0 .. v_{N-1}]` of a ring in one piece or cut,
+/// with registers no wider than `limit`. For tests and measurements: neither affects a bit, and
+/// [`Positions`](crate::states::Positions) chooses the best.
 pub fn heun_steps(
     model: &Model,
     ring: Ring,
@@ -65,15 +65,21 @@ impl<L: Law> Kernel for InOne<'_, L> {
     fn run(self) -> bool {
         let law = self.law;
         match law.plain() {
-            Some(plain) => self.steps(&plain, plain.is_long()),
-            None => self.steps(&law, true),
+            Some(plain) => {
+                let in_rows = plain.is_long().then_some(self.steps.limit);
+                self.steps(&plain, in_rows)
+            }
+            None => {
+                let in_rows = Some(self.steps.limit);
+                self.steps(&law, in_rows)
+            }
         }
     }
 }
 
 impl<L: Law> InOne<'_, L> {
     #[inline(always)]
-    fn steps(self, law: &L, in_rows: bool) -> bool {
+    fn steps(self, law: &L, in_rows: Option<Width>) -> bool {
         let Steps { length, h, count, .. } = self.steps;
         let scheme = Scheme { law, in_rows, h };
         let n = self.state.len() / 2;
@@ -103,7 +109,7 @@ impl<L: Law> InOne<'_, L> {
     }
 }
 
-/// Whether everybody has room and no negative speed; false for what is not a number.
+/// Whether all gaps are open and no speed is negative; false for NaN.
 fn is_quiet<L: Law>(law: &L, length: f64, state: &[f64]) -> bool {
     let (x, v) = state.split_at(state.len() / 2);
     let last = x.len() - 1;

@@ -28,7 +28,7 @@ class FlowView {
       return;
     }
     this.verdict.textContent = `By the exact criterion the uniform flow at speed ${words(speed, 6)} is ${FlowView.all(flow)}; `
-      + `${FlowView.onRing(flow, pedestrians)}. Rates are off by at most ${words(error, 1)}.`;
+      + `${FlowView.onRing(flow, pedestrians)}. The error of the rates is at most ${words(error, 1)}.`;
     const series = [{ name: 'all waves', x: k, y: rate }];
     if (waves.k.length) series.push({ name: 'waves of the ring', x: waves.k, y: waves.rate, points: true });
     const spec = { name: 'Growth rate against wave number', x: 'k', y: 'Re z⁺', series };
