@@ -52,7 +52,7 @@ impl Instant {
         let (mut positions, mut speeds) = (vec![0.0; pedestrians], vec![0.0; pedestrians]);
         form.read(state, &mut positions, &mut speeds);
         form.write_positions(state, &mut positions);
-        Instant { time, std: form.speed_deviation(state), positions, speeds }
+        Instant { time, std: form.speed_std(state), positions, speeds }
     }
 }
 
