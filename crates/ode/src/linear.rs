@@ -39,7 +39,7 @@ pub(crate) struct Linear {
 }
 
 /// Terms of a series from the first that is smaller than this part are left out.
-const REST: f64 = 3e-3;
+const REST: f64 = 1e-2;
 
 /// A piece is at most so long, in units of the time in which differences move: terms of longer ones would cancel.
 const LONGEST: f64 = 10.0;

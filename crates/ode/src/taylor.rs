@@ -153,12 +153,9 @@ impl Stepper for Taylor {
         let second = ends.h / ((next + 1.0) * next);
         let last = &self.coefficients[self.order * n..];
         for range in self.forced.iter().cloned() {
-            let known = self.defect[range.clone()].iter().zip(&last[range.clone()]);
-            let own = error[range.clone()].iter_mut().zip(&mut self.missing[range]);
-            for ((defect, last), (error, missing)) in known.zip(own) {
-                *error = defect / next;
-                *missing = first * last + second * defect;
-            }
+            let (defect, last) = (&self.defect[range.clone()], &last[range.clone()]);
+            let (error, missing) = (&mut error[range.clone()], &mut self.missing[range]);
+            dispatch(OwnError { defect, last, factors: [1.0 / next, first, second], error, missing });
         }
         system.kinematics(&self.missing, error);
         true
@@ -270,6 +267,30 @@ impl<const WHOLE: bool> Kernel for Change<'_, WHOLE> {
         for from in (0..n).step_by(LANES) {
             // the last block begins earlier rather than be cut: what is written twice is the same
             self.lanes::<LANES>(from.min(n - LANES));
+        }
+    }
+}
+
+/// Writes what components with a force are off by, and what position-like ones lack because of it.
+struct OwnError<'a> {
+    defect: &'a [f64],
+    last: &'a [f64],
+    /// Of the defect in the error; of the last order and of the defect in what is missing.
+    factors: [f64; 3],
+    error: &'a mut [f64],
+    missing: &'a mut [f64],
+}
+
+impl Kernel for OwnError<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let [own, first, second] = self.factors;
+        let known = self.defect.iter().zip(self.last);
+        for ((defect, last), (error, missing)) in known.zip(self.error.iter_mut().zip(self.missing)) {
+            *error = own * defect;
+            *missing = first * last + second * defect;
         }
     }
 }

@@ -108,12 +108,15 @@ impl System for Deviations {
         let (n, dimension) = (self.pedestrians, self.dimension());
         series(tangent, order, unit, coefficients);
         let (first, distance, speed) = self.extras();
-        for k in 0..order {
+        let mut rows = coefficients.chunks_exact_mut(dimension);
+        let Some(start) = rows.next() else { return };
+        let mut before = [start[n], start[speed]];
+        for (k, row) in rows.take(order).enumerate() {
             let share = unit / (k + 1) as f64;
-            let (done, next) = coefficients[k * dimension..].split_at_mut(dimension);
-            next[first] = done[n] * share;
-            next[distance] = done[speed] * share;
-            next[speed] = -done[speed] * share;
+            row[first] = before[0] * share;
+            row[distance] = before[1] * share;
+            row[speed] = -before[1] * share;
+            before = [row[n], row[speed]];
         }
     }
 
