@@ -7,6 +7,7 @@
 //! | `f64` | the value |
 //! | [`Lanes`](crate::lanes::Lanes) | the values of several pedestrians at once |
 //! | [`Change`](crate::change::Change) | the difference from a reference, without cancellation |
+//! | [`Changed`](crate::change::Changed) | a value and the differences from it |
 //! | [`Jet`](crate::series::Jet) | the next coefficient of a power series |
 //! | [`Dual`](crate::dual::Dual) | the value with a derivative |
 //! | [`DoubleDouble`] | the value to twice the precision |

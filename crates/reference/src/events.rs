@@ -93,8 +93,8 @@ pub fn next(run: &mut Run, event: EventKind) -> Result<Event, Stuck> {
                 first = Some(Event { time, pedestrian: n, fastest });
             }
         }
-        if let Some(happening) = first {
-            return Ok(happening);
+        if let Some(event) = first {
+            return Ok(event);
         }
     }
 }

@@ -159,11 +159,10 @@ fn follow(model: &Model, (method, control): (Method, Control)) -> Result<Followe
 impl Observer for Following<'_> {
     fn after(&mut self, step: &mut Step<'_>) -> ControlFlow<()> {
         let new = self.watch.look(step);
-        let time =
-            |event: EventKind| new.iter().find(|happening| happening.kind == event).map(|happening| happening.time);
+        let time = |kind: EventKind| new.iter().find(|event| event.kind == kind).map(|event| event.time);
         self.negative = self.negative.or(time(EventKind::NegativeSpeed));
-        let stop = new.iter().find(|happening| happening.kind.is_stop());
-        self.stop = self.stop.or(stop.map(|happening| (happening.kind.name(), happening.time)));
+        let stop = new.iter().find(|event| event.kind.is_stop());
+        self.stop = self.stop.or(stop.map(|event| (event.kind.name(), event.time)));
         let is_over = self.stop.is_some() && (self.negative.is_some() || !self.goes_on);
         if is_over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }

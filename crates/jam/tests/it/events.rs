@@ -99,10 +99,10 @@ const ADAPTIVE: Control = Control::Adaptive { tolerance: 1e-13 };
 /// Event, pedestrian, and the cosine at its time, which tells the time on the way down.
 fn assert_events(found: &[Event], expected: &[(EventKind, usize, f64)]) {
     assert_eq!(found.len(), expected.len(), "{found:?}");
-    for (happening, (event, pedestrian, cos)) in found.iter().zip(expected) {
-        assert_eq!((happening.kind, happening.pedestrian), (*event, *pedestrian), "{found:?}");
-        assert!(happening.time > 0.0 && happening.time < PI, "on the way down: {happening:?}");
-        assert!((math::cos(happening.time) - cos).abs() < 1e-12, "{happening:?}: {}", math::cos(happening.time));
+    for (event, (kind, pedestrian, cos)) in found.iter().zip(expected) {
+        assert_eq!((event.kind, event.pedestrian), (*kind, *pedestrian), "{found:?}");
+        assert!(event.time > 0.0 && event.time < PI, "on the way down: {event:?}");
+        assert!((math::cos(event.time) - cos).abs() < 1e-12, "{event:?}: {}", math::cos(event.time));
     }
 }
 
@@ -115,7 +115,7 @@ fn overlap_negative_speed_and_exchange_in_order() {
     assert_events(&swing_events(&swing, 0.0, ADAPTIVE), &expected);
     // the same with steps so long that a pedestrian comes and goes within a few of them
     let coarse = swing_events(&swing, 0.0, Control::Fixed { step: 0.5 });
-    let events: Vec<EventKind> = coarse.iter().map(|happening| happening.kind).collect();
+    let events: Vec<EventKind> = coarse.iter().map(|event| event.kind).collect();
     assert_eq!(events, [EventKind::Overlap, EventKind::NegativeSpeed, EventKind::Exchange]);
 }
 
@@ -155,7 +155,7 @@ fn of_equals_all_are_named() {
     assert_eq!(swing_events(&later, 0.0, ADAPTIVE).len(), 2);
     let earlier = Swing::new([(5.0, 0.0), (3.0, 4.0), (3.0 - 1e-6, 4.0)], [(1.0, 0.0); 3]);
     let found = swing_events(&earlier, 0.0, ADAPTIVE);
-    assert!(found.len() == 2 && found.iter().all(|happening| happening.pedestrian == 2), "{found:?}");
+    assert!(found.len() == 2 && found.iter().all(|event| event.pedestrian == 2), "{found:?}");
 }
 
 #[test]
@@ -220,7 +220,7 @@ fn blow_up_is_a_speed_beyond_the_bound() {
     // |v_1| = 1e12 (1 - cos t) passes the bound at t = pi / 2, backwards, so its speed is negative from the start on
     let swing = Swing::new([(5.0, 0.0); 3], [(1.0, 0.0), (-BLOW_UP, BLOW_UP), (1.0, 0.0)]);
     let found = swing_events(&swing, 0.0, ADAPTIVE);
-    let blow_up = found.iter().find(|happening| happening.kind == EventKind::BlowUp).expect("it blows up");
+    let blow_up = found.iter().find(|event| event.kind == EventKind::BlowUp).expect("it blows up");
     assert_eq!(blow_up.pedestrian, 1);
     assert!((blow_up.time - std::f64::consts::FRAC_PI_2).abs() < 1e-12, "{blow_up:?}");
 }
@@ -248,10 +248,10 @@ fn a_faster_pedestrian_passes_at_the_time_of_the_formula() {
     // overlap at s = 2: 1 - exp(-t) = 1/4; exchange at s = 0: 3/4
     let expected = [(EventKind::Overlap, -math::ln(0.75)), (EventKind::Exchange, -math::ln(0.25))];
     assert_eq!(found.len(), 2, "{found:?}");
-    for (happening, (event, time)) in found.iter().zip(expected) {
-        assert_eq!((happening.kind, happening.pedestrian), (event, 0));
+    for (event, (kind, time)) in found.iter().zip(expected) {
+        assert_eq!((event.kind, event.pedestrian), (kind, 0));
         // the gap closes with a speed of at least 1 there, so the time errs as the gap does
-        assert!((happening.time - time).abs() < 1e-12, "{happening:?} not {time}");
+        assert!((event.time - time).abs() < 1e-12, "{event:?} not {time}");
     }
 }
 
@@ -309,7 +309,7 @@ fn looked_at(model: &Model, ring: Ring, shift: f64, end: f64) -> ([Vec<Event>; 2
         let found = all.look(step);
         assert_eq!(new.look_for_new(step), found, "at t = {}", step.end);
         quiet += usize::from(new.is_quiet());
-        let is_over = found.iter().any(|happening| happening.kind.is_stop());
+        let is_over = found.iter().any(|event| event.kind.is_stop());
         if is_over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     assert!(done.is_ok(), "{done:?}");
@@ -329,7 +329,7 @@ fn steps_near_a_uniform_flow_are_passed_over_and_no_event_with_them() {
     let ring = Ring { pedestrians: 133, length: 200.0 };
     let logarithmic = Model::Logarithmic(Logarithmic { v0: 2.0, a_v: 0.0, epsilon: 0.01 });
     let ([all, new], quiet) = looked_at(&logarithmic, ring, 1e-4, 3000.0);
-    assert!(all.iter().any(|happening| happening.kind == EventKind::Overlap), "{all:?}");
+    assert!(all.iter().any(|event| event.kind == EventKind::Overlap), "{all:?}");
     assert_eq!(all, new);
     assert!(quiet > 50, "{quiet}");
 }

@@ -80,7 +80,7 @@ fn run(
         form.read(taken.after(), &mut gaps, &mut speeds);
         let rooms = (0..count).map(|n| model.effective_gap(gaps[n], speeds[n], speeds[(n + 1) % count]));
         let narrowest = rooms.fold(f64::INFINITY, math::smaller);
-        let overlap = new.iter().find(|happening| happening.kind == EventKind::Overlap);
+        let overlap = new.iter().find(|event| event.kind == EventKind::Overlap);
         if narrowest < 0.0 {
             let found = overlap.unwrap_or_else(|| panic!("{model:?} {kind:?} {}: {narrowest:e}", method.name()));
             assert!(found.time > taken.start && found.time <= taken.end * (1.0 + f64::EPSILON), "{found:?}");
@@ -100,7 +100,7 @@ fn run(
         }
         guarded.is_beyond.set(false);
         counts.overlaps += u32::from(overlap.is_some());
-        let blow_up = new.iter().any(|happening| happening.kind == EventKind::BlowUp);
+        let blow_up = new.iter().any(|event| event.kind == EventKind::BlowUp);
         counts.blow_ups += u32::from(blow_up);
         if blow_up || overlap.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     };
