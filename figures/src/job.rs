@@ -32,7 +32,7 @@ struct Arguments {
     /// File for what is known of the tables' accuracy
     #[arg(long)]
     report: Option<PathBuf>,
-    /// Draw from the tables that are there
+    /// Draw from the existing tables
     #[arg(long)]
     draw_only: bool,
 }

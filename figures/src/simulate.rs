@@ -85,9 +85,8 @@ fn methods() -> String {
 
 /// Runs the scene and writes what was asked for.
 ///
-/// # Errors
-/// A bad scene or option (nothing is written); a run that cannot go on, whose tables are written; a file that cannot be
-/// written.
+/// # Errors A bad scene or option (nothing is written); a run that cannot continue (its tables are written); a file
+/// that cannot be written.
 pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     let scene = read_scene(arguments)?;
     let is_checked = !(arguments.no_check || arguments.check);

@@ -151,7 +151,7 @@ fn cargo(paths: &Paths, words: &str) -> Result<(), Failure> {
     })
 }
 
-/// Whether the fonts that the pictures embed are there, byte for byte.
+/// Whether the fonts of the pictures exist with the expected bytes.
 ///
 /// # Errors
 /// Unsupported: one is missing or damaged, with its name. Failed: one cannot be read.

@@ -35,7 +35,7 @@ impl Record {
     }
 }
 
-/// All figures as they were made, by folder of tables (which tells the schemes apart).
+/// All figures as they were made, by folder of tables (which distinguishes the schemes).
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Records {
     /// By the name of the folder of tables, `data/fig04`.
@@ -56,11 +56,10 @@ fn sum(records: &Records) -> Result<String, Failure> {
 }
 
 impl Records {
-    /// Reads the records; none when there is no file, one of another form, or one that is not as it was written (then
-    /// everything counts as stale): what it says of errors and events would go into the manifest.
+    /// Reads the records. Without a file, or if it is malformed or not as it was written, there are none and everything
+    /// counts as stale, since the errors and events in it would enter the manifest.
     ///
-    /// # Errors
-    /// None at present.
+    /// # Errors Failed: the records cannot be serialised.
     pub fn read(paths: &Paths) -> Result<Records, Failure> {
         let sealed: Sealed = serde_json::from_str(&disk::read_own(&paths.state())).unwrap_or_default();
         let is_whole = sum(&sealed.records)? == sealed.sha256;

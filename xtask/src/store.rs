@@ -30,8 +30,8 @@ pub fn fresh(paths: &Paths, key: &str) -> PathBuf {
     paths.store().join(files::write::draft_name(key))
 }
 
-/// Whether the stored run is there and every byte of it is as it was stored. The list must name every file: one that
-/// lost its end would otherwise let the files it no longer names pass.
+/// Whether the stored run exists and every byte of it is unchanged. The list must name every file: one that lost its
+/// end would otherwise let the files it no longer names pass.
 ///
 /// # Errors
 /// A file of it cannot be read.

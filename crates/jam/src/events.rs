@@ -258,8 +258,8 @@ impl<'a> Watch<'a> {
         &self.found
     }
 
-    /// As [`Watch::look`], for those who want to know what is new and nothing else: a step near a uniform flow, in which
-    /// nothing can happen, is passed over, and the watch goes on to show an earlier one.
+    /// As [`Watch::look`], for those who want to know what is new and nothing else: a step near a uniform flow, in
+    /// which nothing can happen, is skipped, and the watch still shows an earlier one.
     pub fn look_for_new(&mut self, step: &mut Step<'_>) -> Vec<Event> {
         self.is_quiet = self.nothing_can_happen(step);
         if self.is_quiet { Vec::new() } else { self.look(step) }

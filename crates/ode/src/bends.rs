@@ -1,9 +1,9 @@
 //! Sharp bends of the right-hand side, and steps that would cross one unnoticed.
 //!
-//! A stage, a coefficient or an error estimate knows of a bend only what the step samples of it. A step from one side of a
-//! narrow bend to the other, or into it and back, may sample nothing: every estimate is then that of another equation.
-//! The system therefore tells how far it is from its bends, in units of their width ([`System::bends`]), and a step that
-//! touches one may not be long on that scale.
+//! A stage, a coefficient or an error estimate knows of a bend only what the step samples of it. A step from one side
+//! of a narrow bend to the other, or into it and back, may sample nothing: every estimate is then that of another
+//! equation. The system therefore reports its distance from its bends, in units of their width ([`System::bends`]), and
+//! a step that touches one may not be long on that scale.
 
 use crate::system::System;
 use math::simd::{Kernel, dispatch};

@@ -2,7 +2,7 @@
 
 use crate::methods::Method;
 
-/// Why an integration could not go on.
+/// The reason why an integration could not continue.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Failure {
     /// The error, or the end of the domain, asks for a step shorter than [`SHORTEST`](crate::SHORTEST).

@@ -24,12 +24,12 @@ pub(crate) struct Linear {
     is_known: bool,
     is_steady: bool,
     steady_for: u32,
-    /// The rows of all pieces, which are equally long; what stands behind them is of no meaning.
+    /// The rows of all pieces, which are equally long; what follows them is unused.
     rows: Vec<f64>,
     /// How late the solution is: this part of the difference, a shift along the solution, is carried exactly. Of a motion
     /// that is thrown back by a wall all but a small rest is of this kind.
     late: f64,
-    /// The components of which that is told.
+    /// The components concerned.
     forced: Vec<Range<usize>>,
     /// Scratch for states and rates.
     state: RefCell<[Vec<f64>; 2]>,

@@ -41,7 +41,7 @@ pub struct Place {
     pub slow_until: u64,
 }
 
-/// All that an integration has to know to go on.
+/// The state from which an integration can continue.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ResumePoint<'a> {
     /// Between which steps.

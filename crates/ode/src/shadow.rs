@@ -1,9 +1,9 @@
 //! Propagates the error of a solution by Taylor's method along with the solution.
 //!
-//! Each step tells its own error: how far the slope of its series is, at its end, from what the law says there. What
-//! becomes of these errors later the linearised equations tell ([`crate::linear`]), where the system knows them. Elsewhere a
-//! second solution shows it that lies close by; near enough, it needs few orders of the series and not every step, so it
-//! costs a small part of the first one.
+//! Each step estimates its own error by the difference at its end between the slope of its series and the right-hand
+//! side. The linearised equations propagate these errors ([`crate::linear`]), if the system provides them. Otherwise a
+//! neighbouring second solution is used; near enough, it needs few orders of the series and not every step, so it costs
+//! a small part of the first one.
 
 use crate::dense::Step;
 use crate::linear::Linear;
@@ -55,7 +55,7 @@ const ORDERS: usize = 6;
 const MORE: usize = 2;
 const FEWEST: usize = 4;
 
-/// An expansion shall reach over so many steps: over more, what the first of them add would wait too long.
+/// Number of steps that an expansion should cover; with more, the errors of the first of them would be added too late.
 const MARGIN: f64 = 1.15;
 
 /// So many steps an expansion lasts at most: what they add is carried on from the next one only.
@@ -237,8 +237,8 @@ impl Shadow {
         }
     }
 
-    /// How far so many orders of the series are worth while: to where the last two terms are as large as [`REST`] of the
-    /// difference.
+    /// The distance over which the given number of orders of the series is useful: to where the last two terms are as
+    /// large as [`REST`] of the difference.
     fn convergent(&self, step: &Step<'_>, last: usize) -> f64 {
         let n = self.error.len();
         let limit = |k: usize| {
@@ -287,7 +287,7 @@ impl Shadow {
         }
     }
 
-    /// The part of the own error of a step that is there at the fraction `theta` of it.
+    /// The part of a step's own error that has accrued at the fraction `theta` of it.
     fn own_share(&self, theta: f64) -> f64 {
         (0..self.power).fold(1.0, |power, _| power * theta)
     }

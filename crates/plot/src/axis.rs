@@ -27,7 +27,7 @@ pub struct Axis {
     numbered: bool,
 }
 
-/// A mark on an axis; a minor one has no number.
+/// A tick on an axis; a minor tick has no number.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Tick {
     pub value: f64,

@@ -55,7 +55,7 @@ pub fn find(paths: &Paths) -> Result<Typesetter, Failure> {
     })
 }
 
-/// The typesetter that is there without installing anything.
+/// The typesetter that is available without an installation.
 pub fn at_hand(paths: &Paths) -> Option<Typesetter> {
     on_path().map(|_| Typesetter::Program).or_else(|| wheel(paths, &["--installed"]).ok())
 }

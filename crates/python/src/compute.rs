@@ -17,8 +17,7 @@ use scene::summary::{self, Ended};
 use scene::{tables, uniform::stability};
 
 /// Runs a scene: `std` (t, std), `trajectories` (t, n, x, v) or None, `x` and `v` of the final state, all flat, and the
-/// rest. `wanted`: whether a second run estimates the errors, and whether it
-/// is judged what became of the run.
+/// rest. `wanted`: whether to estimate the errors, and whether to determine the outcome.
 #[pyfunction]
 pub fn simulate<'py>(
     py: Python<'py>,

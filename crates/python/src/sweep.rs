@@ -13,8 +13,8 @@ use std::num::NonZero;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::time::Duration;
 
-/// Says what became of the runs of a plane: centres of the cells along `x` and `y`; and cell by cell, `y` running faster,
-/// the index of the outcome in `classes`, of what decided in `deciders`, `backward_flow`, and the `numbers` (NaN: none).
+/// Outcomes of the runs in a plane: centres of the cells along `x` and `y`; and cell by cell, `y` running faster, the
+/// index of the outcome in `classes`, of what decided in `deciders`, `backward_flow`, and the `numbers` (NaN: none).
 #[pyfunction]
 pub fn sweep<'py>(
     py: Python<'py>,

@@ -32,7 +32,7 @@ impl Graph {
         graph
     }
 
-    /// `dv/dt` of a pedestrian, from the spacings and speeds of the one so many places ahead.
+    /// `dv/dt` of a pedestrian, from the spacing and speed of the pedestrian a given number of places ahead.
     pub fn acceleration<T: Number>(
         &self,
         spacing: impl Fn(i32) -> T,

@@ -111,7 +111,7 @@ pub fn of_verdict(verdict: &Verdict) -> Value {
     })
 }
 
-/// What ended the tables: an event, the end of the run, or why it could not go on.
+/// What ended the tables: an event, the end of the run, or the reason why it could not continue.
 fn stop(outcome: &Outcome, broken: Option<&Broken>) -> &'static str {
     match (outcome.stop(), broken) {
         (Some(event), _) => event.kind.name(),

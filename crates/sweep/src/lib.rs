@@ -1,7 +1,7 @@
-//! What became of the runs of a plane: `[sweep]` with two axes, beside `[law]`, `[ring]`, `[start]` and `[run]`.
+//! Outcomes of the runs in a plane: `[sweep]` with two axes, beside `[law]`, `[ring]`, `[start]` and `[run]`.
 //!
-//! A cell is a scene of its own. What it gives depends on the scene file and the cell alone, so cells can be computed in
-//! any order and anywhere. Which cells are computed is said by [`tiles`].
+//! Each cell is a separate scene. Its result depends only on the scene file and the cell, so cells can be computed in
+//! any order and on any machine. [`tiles`] decides which cells are computed.
 
 mod axis;
 mod cell;

@@ -24,7 +24,7 @@ pub struct Pool<'a> {
 enum Halt<E> {
     /// The work is over.
     Stopped,
-    /// A cell without an outcome, or who hears of it could not go on.
+    /// A cell without an outcome, or a failure of the receiver.
     Failed(E),
 }
 

@@ -1,4 +1,4 @@
-//! Which cells of a plane are computed: the plane is cut into tiles, each of which hangs on nothing but itself.
+//! Chooses the cells of a plane that are computed. The plane is divided into tiles that do not depend on each other.
 //!
 //! Tiles share their borders. Each computes its whole border, then cuts itself in two as long as the border of a piece
 //! shows several outcomes, or a cell within lies beside the line of stability (or beside another line that is known without

@@ -85,7 +85,7 @@ pub fn compared(paths: &Paths) -> Result<Vec<(Attestation, bool)>, Failure> {
     Ok(read(paths)?.into_iter().map(same).collect())
 }
 
-/// Appends a line unless the same one is there; whether it did.
+/// Appends a line unless it already exists; returns whether it did.
 ///
 /// # Errors
 /// The file is malformed, or cannot be read or written.

@@ -19,7 +19,7 @@ struct Change {
     numbers_moved: bool,
 }
 
-/// Shows what changes; then accepts it, if `numbers` or no number and no verdict moved.
+/// Shows the changes, then accepts them if `numbers` is given or no number and no verdict has changed.
 ///
 /// # Errors
 /// Differs: numbers or verdicts moved, and `numbers` was not given; nothing is written. Otherwise what kept a file from

@@ -78,7 +78,7 @@ pub fn judge(
     Ok(judged)
 }
 
-/// Compares a fresh table with the whole committed one, if it is there (and other), else with the sample.
+/// Compares a fresh table with the whole committed one, if that is available and differs, otherwise with the sample.
 fn compare(
     sample: &str,
     whole: Option<&[u8]>,

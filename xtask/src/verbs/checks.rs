@@ -17,7 +17,7 @@ use std::time::Instant;
 /// stderr says why), and with another code if it fails.
 #[derive(Clone, Copy)]
 struct Script {
-    /// What it looks at.
+    /// What it checks.
     what: &'static str,
     /// The script and its arguments.
     command: &'static [&'static str],

@@ -23,7 +23,7 @@ struct Line<'a> {
     /// Seconds of the figure's own program, if it ran now.
     seconds: Option<f64>,
     tables: usize,
-    /// `failed` or `skipped`: it could not be made, so what is there is not what was asked for.
+    /// `failed` or `skipped`: it could not be made, so the files are not the requested ones.
     lost: Option<&'static str>,
     states: BTreeMap<String, State>,
     error: Option<f64>,

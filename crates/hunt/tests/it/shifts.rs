@@ -16,11 +16,11 @@ fn laws() -> [(Model, Formula); 4] {
     let (relative, both) = ((0.4, 0.0), (0.4, 0.1));
     let algebraic = |(delta, a_v): (f64, f64)| {
         let (mu, q, epsilon, v0) = (0.5, 2.0, 0.1, 1.5);
-        let law = Algebraic { mu: mu, delta: delta, q: q, a_v: a_v, epsilon, v0: v0 };
+        let law = Algebraic { mu, delta, q, a_v, epsilon, v0 };
         (Model::Algebraic(law), Formula::Algebraic { mu, delta, q, a_v, epsilon, v0 })
     };
     let (a, b, c, a_v, epsilon, v0) = (1.5, 1.2, 0.4, 0.1, 0.1, 1.5);
-    let exponential = Exponential { a: a, b: b, c: c, a_v: a_v, epsilon, v0: v0 };
+    let exponential = Exponential { a, b, c, a_v, epsilon, v0 };
     let logarithmic = Logarithmic { v0: 1.0, a_v: 0.1, epsilon: 0.05 };
     [
         algebraic(relative),

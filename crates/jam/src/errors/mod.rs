@@ -74,7 +74,8 @@ pub fn run_propagated(run: &Run, observer: &mut dyn RunObserver) -> (Result<Outc
     (made, propagated)
 }
 
-/// The errors that the steps of the run have told, if they have; else those by a second run, at which somebody may look on.
+/// The errors estimated by the steps of the run, if available; otherwise those from a second run, which can be
+/// observed.
 pub fn errors_of(
     run: &Run,
     outcome: &Outcome,
@@ -112,9 +113,9 @@ pub(crate) fn of_headway(run: &Run) -> f64 {
     if condition.is_finite() { 0.5 * f64::EPSILON * condition } else { 0.0 }
 }
 
-/// The standard deviation of speeds where all of them are equal to the last bit, since what the force makes of the shift is
-/// lost beside the drive: nobody's speed is off by more than the force on the least spacing answers to the shift, within a
-/// relaxation time. `None` where speeds differ, or the law does not tell.
+/// The standard deviation of speeds where all of them are equal to the last bit, since what the force makes of the
+/// shift is lost beside the drive: the error of a speed is at most the response of the force at the least spacing to
+/// the shift, over a relaxation time. `None` where speeds differ, or the law gives no bound.
 pub(crate) fn unseen(run: &Run, outcome: &Outcome) -> Option<f64> {
     let (headway, shift) = (run.ring.headway(), run.start.shift.abs());
     let is_told = largest_std(outcome) == 0.0 && !matches!(run.model, Model::Formula(_));

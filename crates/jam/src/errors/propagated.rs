@@ -1,10 +1,10 @@
 //! Error estimates for Taylor's method: each step estimates its own error, and the linearised equations propagate these
 //! errors along the run ([`ode::Shadow`]).
 //!
-//! Some runs by this method are run a second time like those by others ([`super::errors`]): those by steps of fixed length,
-//! whose errors are roundings that they do not tell; those of laws with kinks, which a step may cross unseen; those whose
-//! errors move much faster than they, if the law does not tell its linearised equations; and those that went on from a
-//! checkpoint, which does not keep the errors before it.
+//! Some runs by this method need a second run like those by other methods ([`super::errors`]): those with fixed steps,
+//! whose rounding errors are not estimated; those of laws with kinks, which a step may cross unnoticed; those whose
+//! errors change much faster than the solution, if the law does not provide its linearised equations; and those resumed
+//! from a checkpoint, which does not store the errors before it.
 
 use super::confirmed::last_before;
 use super::recent::{Instant, Recent};
@@ -29,8 +29,8 @@ pub struct Propagated {
     /// Whether spacings lose the shift.
     loses_shift: bool,
     shadow: Option<Shadow>,
-    /// What becomes of a shift that spacings lose to the last digit. All motion is then one, as are the errors of steps, in
-    /// which so small a difference would be lost again.
+    /// The growth of a shift that is lost in the rounding of the spacings. All pedestrians then move alike, as are the
+    /// errors of steps, in which so small a difference would be lost again.
     lost: Option<Shadow>,
     /// Whether a step gave no error estimate.
     is_blind: bool,
@@ -71,8 +71,8 @@ const VISIBLE: f64 = 0.1;
 /// Larger parts of the state do not follow linearised equations.
 const SMALL: f64 = 1e-3;
 
-/// The error of the standard deviation is looked at in every so many steps, while the errors of speeds have not grown by more
-/// than this factor since.
+/// Interval, in steps, at which the error of the standard deviation is examined, while the errors of speeds have not
+/// grown by more than this factor since.
 const EVERY: u32 = 4;
 const GROWN: f64 = 1.1;
 
@@ -217,8 +217,9 @@ impl Propagated {
         is_worth
     }
 
-    /// Keeps what the error tells of the time of a blow-up to come, once somebody has been thrown back: from the moment that
-    /// tells it best. Later the error is as large as the state, but then there is hardly any time left for it to matter.
+    /// Stores the error of the time of an approaching blow-up, once a pedestrian has been thrown back, from the moment
+    /// that determines it best. Later the error is as large as the state, but then there is hardly any time left for it
+    /// to matter.
     fn remember(&mut self, step: &Step<'_>) {
         let (n, state) = (self.pedestrians, step.after());
         let Some(shadow) = self.shadow.as_ref().filter(|_| self.is_singular && state.len() == 2 * n + 1) else {
@@ -255,7 +256,7 @@ impl Propagated {
         all
     }
 
-    /// What rounding has dropped at the start: nothing of deviations; of spacings what their difference tells exactly.
+    /// The rounding error of the start: none for deviations; for spacings their exact difference.
     fn of_start(&self, state: &[f64]) -> Vec<f64> {
         let (n, mut error) = (self.pedestrians, vec![0.0; state.len()]);
         if state.len() == 2 * n + 1 {
@@ -271,7 +272,6 @@ impl Propagated {
         if is_adaptive { self.recent.instants(run) } else { Vec::new() }
     }
 
-    /// The errors of the run that it has seen; `None` where steps did not tell theirs, or not that of an event.
     /// The errors of the run that it has seen; `None` where the steps gave no estimate, or none for an event.
     pub fn errors(&self, run: &Run, outcome: &Outcome) -> Option<Errors> {
         // next to a blow-up the error leaves the doubles before the speeds do: a second run tells the time
@@ -396,7 +396,7 @@ mod tests {
 
     /// The standard deviation of these.
     fn std(values: &[f64]) -> f64 {
-        crate::observe::spread(values)
+        crate::observe::speed_std(values)
     }
 
     #[test]

@@ -102,8 +102,9 @@ pub trait Law: Copy + Default + Send + Sync + std::fmt::Debug + 'static {
     /// To be marked `#[inline(always)]`, or it runs without vector registers.
     fn acceleration<X: Number>(&self, net_gap: X, speed: X, ahead: X) -> X;
 
-    /// What must stay positive for the run to go on: `d_n` of eq:effDistn, for the logarithmic law the spacing. It has
-    /// to be linear in all three with constant slopes, and 0 at contact and rest. By default the net gap.
+    /// The quantity that must stay positive for the run to continue: `d_n` of eq:effDistn, for the logarithmic law the
+    /// spacing. It has to be linear in all three with constant slopes, and 0 at contact and rest. By default the net
+    /// gap.
     #[inline(always)]
     fn effective_gap<X: Number>(&self, net_gap: X, _speed: X, _ahead: X) -> X {
         net_gap
@@ -150,7 +151,7 @@ pub trait Law: Copy + Default + Send + Sync + std::fmt::Debug + 'static {
     }
 }
 
-/// What goes on with a law (see [`Law::choose`]).
+/// A function of a concrete law (see [`Law::choose`]).
 pub trait Chosen<L> {
     /// What comes of it.
     type Output;

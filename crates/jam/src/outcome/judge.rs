@@ -6,7 +6,7 @@ use super::windows::{Stretch, drift, last};
 use super::{AGREEMENT, CONTRAST, Class, Decision, Memory, NEAR_FLOW, NEAR_LINE, START, Verdict};
 use crate::events::{Event, EventKind, Watch};
 use crate::laws::Model;
-use crate::observe::spread;
+use crate::observe::speed_std;
 use crate::ring::Ring;
 use ode::Step;
 
@@ -105,7 +105,7 @@ impl Judge {
     pub fn start(&mut self, watch: &Watch<'_>, found: &[Event]) {
         let now = watch.after();
         (self.least_gap, self.least_of_all) = (lowest(&now.effective_gaps), lowest(&now.speeds));
-        self.std = spread(&now.speeds);
+        self.std = speed_std(&now.speeds);
         self.happened(watch, found);
     }
 
@@ -186,7 +186,7 @@ impl Judge {
             (gap, speed) = (lowest(&[gap, lowest(&within.effective_gaps)]), lowest(&[speed, lowest(&within.speeds)]));
         }
         let now = watch.after();
-        (self.std, self.contrast) = (spread(&now.speeds), contrast);
+        (self.std, self.contrast) = (speed_std(&now.speeds), contrast);
         let mean = now.speeds.iter().sum::<f64>() / now.speeds.len() as f64;
         self.block.add(since, self.std, mean, drift(&now.speeds, &now.speed_rates));
         self.block.contrast = lowest(&[self.block.contrast, contrast]);

@@ -4,7 +4,7 @@ use super::repeats::{Reference, Repeats};
 use super::windows::Stretch;
 use super::{Class, Decision, Verdict};
 
-/// What a [`Judge`](super::Judge) has seen of a run, to go on with later.
+/// The state of a [`Judge`](super::Judge), from which it can continue later.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Memory {
     /// The judge's own.

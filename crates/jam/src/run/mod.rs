@@ -1,7 +1,8 @@
 //! A run from start to end: samples, events, cost, final state, outcome.
 //!
-//! [`Run`] says what is integrated and what is kept, [`run`] does it, [`Outcome`] is what it gives. A [`RunObserver`] looks on;
-//! [`Checkpoint`] is a run between two of its steps, as bytes, from which [`run_from`] goes on to the same bits.
+//! [`Run`] says what is integrated and what is kept, [`run`] does it, [`Outcome`] is what it gives. A [`RunObserver`]
+//! observes the run. A [`Checkpoint`] is the serialised state between two steps, from which [`run_from`] resumes with
+//! the same bits.
 
 mod checkpoint;
 mod form;

@@ -47,7 +47,7 @@ pub struct Statistics {
     pub time: f64,
 }
 
-/// A run that could not go on.
+/// A run that could not continue.
 #[derive(Clone, Debug)]
 pub struct Broken {
     /// What it gave until then.

@@ -68,7 +68,7 @@ impl Recorder<'_> {
         self.is_near_walls || self.run.form == StateVariables::Spacings
     }
 
-    /// Whether the run is one in deviations that may go on in spacings. Fixed steps stay in the form they were asked for.
+    /// Whether a run in deviations may continue in spacings. Runs with fixed steps keep their form.
     pub(super) fn can_turn(&self) -> bool {
         let is_adaptive = matches!(self.run.control, Control::Adaptive { .. });
         !self.is_near_walls && self.run.form == StateVariables::Deviations && is_adaptive

@@ -48,7 +48,7 @@ pub trait RingSystem: ode::System {
     }
 
     /// The standard deviation of the speeds over the pedestrians (divided by `N`).
-    fn speed_deviation(&self, state: &[f64]) -> f64;
+    fn speed_std(&self, state: &[f64]) -> f64;
 }
 
 /// A uniform flow that is integrated along.

@@ -4,7 +4,7 @@
 use super::tangent::{fastest, series};
 use super::{LEAST_SIZE, RingSystem, closing_rates, displace};
 use crate::force::{Flow, Force, Motion};
-use crate::observe::spread;
+use crate::observe::speed_std;
 use crate::ring::{Ring, Start};
 use ode::{Group, Measure, System, Tangent};
 use std::ops::Range;
@@ -157,7 +157,7 @@ impl RingSystem for Spacings {
         n..2 * n
     }
 
-    fn speed_deviation(&self, state: &[f64]) -> f64 {
-        spread(&state[self.pedestrians..2 * self.pedestrians])
+    fn speed_std(&self, state: &[f64]) -> f64 {
+        speed_std(&state[self.pedestrians..2 * self.pedestrians])
     }
 }

@@ -67,7 +67,7 @@ impl RingSystem for Swing {
     fn speeds(&self) -> Range<usize> {
         0..1
     }
-    fn speed_deviation(&self, _state: &[f64]) -> f64 {
+    fn speed_std(&self, _state: &[f64]) -> f64 {
         0.0
     }
 }

@@ -260,8 +260,8 @@ pub(super) fn softplus_of<const W: usize>(kept: &Kept, da: Lanes<W>) -> Lanes<W>
     Lanes(x)
 }
 
-/// From so many on a function is carried out in several short loops, of which a processor overlaps more (see
-/// [`row`](crate::row)).
+/// From this number of values on, a function is evaluated in several short loops, which a processor overlaps better
+/// (see [`row`](crate::row)).
 const MANY: usize = 32;
 
 /// Of |a|.

@@ -13,7 +13,7 @@ pub fn code(text: &str) -> String {
     format!("<code>{}</code>", escape(text))
 }
 
-/// A number with so many significant digits, trailing zeros left out; powers of ten as such.
+/// A number with the given number of significant digits, without trailing zeros, and with powers of ten written out.
 pub fn number(value: f64, digits: usize) -> String {
     if value == 0.0 {
         return "0".to_owned();

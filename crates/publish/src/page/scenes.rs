@@ -30,7 +30,7 @@ pub fn shared(recipe: &SceneFile) -> BTreeMap<String, String> {
     shared
 }
 
-/// What tells a panel from the others: `μ = 0.45`; empty where there is one.
+/// What distinguishes a panel from the others: `μ = 0.45`; empty for a single panel.
 pub fn difference(recipe: &SceneFile, panel: &Panel) -> String {
     let shared = shared(recipe);
     let mine = values(panel);

@@ -6,7 +6,7 @@ use super::rows::{Rows, row};
 use super::run::{Case, Ended, Leg, two_methods};
 use figures::failure::Failure;
 use jam::laws::{Algebraic, Logarithmic, Model};
-use jam::observe::spread;
+use jam::observe::speed_std;
 use jam::ring::Ring;
 use jam::states::StateVariables;
 use jam::uniform::steady_speed;
@@ -57,7 +57,7 @@ pub fn tables(quick: bool) -> Result<Tables, Failure> {
             ] {
                 let expected = if is_stable { steady } else { mean(&other.speeds) };
                 let (sum, speed) = (drift(run, ring), mean(&run.speeds));
-                let std = spread(&run.speeds);
+                let std = speed_std(&run.speeds);
                 let state = name(kind);
                 rows.push(row![
                     law,

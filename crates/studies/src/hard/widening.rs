@@ -6,7 +6,7 @@ use super::rows::{Rows, row};
 use super::run::{Case, Leg, difference, two_methods};
 use figures::failure::Failure;
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
-use jam::observe::spread;
+use jam::observe::speed_std;
 use jam::ring::Ring;
 use jam::states::{StateVariables, gaps_state};
 use jam::uniform::steady_speed;
@@ -54,7 +54,7 @@ fn stability(quick: bool) -> Result<Rows, Failure> {
                 let run = |(method, control)| case.run_from(&start, Leg { method, control, begin: 0.0, end });
                 let [one, two] = two_methods(1e-11).map(run);
                 let is_whole = one.stop.is_none() && two.stop.is_none();
-                let std = is_whole.then(|| spread(&one.speeds));
+                let std = is_whole.then(|| speed_std(&one.speeds));
                 let off = is_whole.then(|| difference(&one.speeds, &two.speeds));
                 let (margin, growth) = (linear.long_wave_margin(), linear.fastest(1000).0);
                 rows.push(row![model.name(), widening, strength, speed, linear.phi, margin, growth, std, off]);

@@ -96,7 +96,7 @@ fn tolerances(main: &Run) -> Result<Rows, Failure> {
 /// How long the jams are followed, and how often.
 const LONG: (f64, f64) = (10_000.0, 100.0);
 
-/// The number of jams as time goes on, far beyond the end of the figures.
+/// The number of jams against time, far beyond the end of the figures.
 fn times(main: &Run) -> Result<Rows, Failure> {
     let long = Run { end: LONG.0, sample: LONG.1, ..*main };
     let (one, other) = two(&long)?;

@@ -3,7 +3,7 @@
 use super::scenes::Instant;
 use cpu_time::ProcessTime;
 use jam::events::{EventKind, Watch};
-use jam::observe::spread;
+use jam::observe::speed_std;
 use jam::states::StateVariables;
 use math::double_double::DoubleDouble;
 use ode::{Control, Method, Observer, Problem, Sampler, Step, integrate};
@@ -88,7 +88,7 @@ impl Observer for Judge<'_> {
         let Judge { solution, pedestrians, sampler, passed, worst, std, .. } = self;
         let end = if until < step.end { until } else { step.end };
         sampler.within(step, end, &mut |time, state| {
-            std.push(spread(&state[*pedestrians..2 * *pedestrians]));
+            std.push(speed_std(&state[*pedestrians..2 * *pedestrians]));
             if let Some(instant) = solution.get(*passed).filter(|instant| (instant.time - time).abs() < 1e-9) {
                 let (gap, speed) = distance(instant, state);
                 *worst = (larger(worst.0, gap), larger(worst.1, speed));

@@ -142,12 +142,12 @@ impl Run {
     }
 
     /// The standard deviation of the speeds.
-    fn speed_deviation(&self) -> f64 {
+    fn speed_std(&self) -> f64 {
         match self.state {
-            State::RingSystem(_) => self.form.speed_deviation(&self.sum.state),
+            State::RingSystem(_) => self.form.speed_std(&self.sum.state),
             State::Wrapped => {
                 let positions = StateVariables::Positions.build(&self.model, self.ring);
-                positions.speed_deviation(&self.sum.state)
+                positions.speed_std(&self.sum.state)
             }
         }
     }

@@ -35,10 +35,10 @@ pub fn tables(extent: Extent, solutions: &Path) -> Result<Tables, Failure> {
 /// The standard deviations at multiples of [`SAMPLE`], from 0.
 fn curve(state: State, count: usize) -> Result<Vec<f64>, Failure> {
     let mut run = Run::new(state);
-    let mut found = vec![run.speed_deviation()];
+    let mut found = vec![run.speed_std()];
     for _ in 0..count {
         run.advance(STEP, SAMPLE, Adding::Plain)?;
-        found.push(run.speed_deviation());
+        found.push(run.speed_std());
     }
     Ok(found)
 }

@@ -3,7 +3,6 @@
 use super::critical::{algebraic, wave_numbers};
 use crate::draw::Draw;
 use crate::hard::rows::{Rows, row};
-use figures::failure::Failure;
 use jam::criteria;
 use jam::laws::{Exponential, Logarithmic, Model};
 use jam::stability::Linear;
@@ -58,10 +57,7 @@ fn random_logarithmic(draw: &mut Draw) -> Option<Case> {
 
 /// Counts the laws whose largest growth rate over all waves has another sign than the margin for long waves (`wrong`), or
 /// than the paper's criterion (`paper_wrong`).
-///
-/// # Errors
-/// None; the tables share one type.
-pub fn all_waves() -> Result<Rows, Failure> {
+pub fn all_waves() -> Rows {
     let mut rows =
         Rows::new(&["law", "cases", "waves", "unstable", "wrong", "paper_wrong", "at_the_edge", "worst_is_long"]);
     for (name, make) in KINDS {
@@ -83,14 +79,11 @@ pub fn all_waves() -> Result<Rows, Failure> {
         }
         rows.push(row![name, cases, wave_numbers().count(), unstable, wrong, paper_wrong, edge, long]);
     }
-    Ok(rows)
+    rows
 }
 
 /// The two roots of the same laws at 64 wave numbers, and at `k = 0`.
-///
-/// # Errors
-/// None; the tables share one type.
-pub fn roots() -> Result<Rows, Failure> {
+pub fn roots() -> Rows {
     let mut rows = Rows::new(&[
         "law",
         "cases",
@@ -123,5 +116,5 @@ pub fn roots() -> Result<Rows, Failure> {
         }
         rows.push(row![name, cases, complex, below, grows, zeros, other, sign]);
     }
-    Ok(rows)
+    rows
 }

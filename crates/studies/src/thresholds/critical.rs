@@ -12,7 +12,7 @@ use std::f64::consts::{E, LN_2, PI};
 pub enum Waves {
     /// All: the long ones are the first.
     All,
-    /// Those of a ring of so many pedestrians.
+    /// The waves of a ring of N pedestrians.
     Ring(usize),
 }
 
@@ -88,7 +88,7 @@ struct Asked {
 }
 
 impl Asked {
-    /// A row: found for so many pedestrians, 0 for all waves.
+    /// A row for a number of pedestrians, or 0 for all waves.
     fn row(&self, count: usize, found: Option<(f64, f64)>) -> Vec<Cell> {
         let Asked { quantity, law, delta, q, a_v, b, v0, d_gap, headway, closed } = *self;
         let (value, error) = (found.map(|found| found.0), found.map(|found| (found.0 - found.1).abs()));
@@ -238,10 +238,7 @@ pub fn ring() -> Result<Rows, Failure> {
 
 /// What negative `delta` does: the critical strength of `<mu, delta, 2, 0>` at `d' = 1`, and the share of the square of
 /// figure 3 where some wave grows, of the cells with `gamma > 0`.
-///
-/// # Errors
-/// None; the tables share one type.
-pub fn minus_delta() -> Result<Rows, Failure> {
+pub fn minus_delta() -> Rows {
     let mut rows = Rows::new(&["delta", "critical_mu", "critical_mu_error", "cells", "unstable", "share"]);
     for i in -6..=6 {
         let delta = 0.25 * f64::from(i);
@@ -262,7 +259,7 @@ pub fn minus_delta() -> Result<Rows, Failure> {
         let off = found.zip(other).map(|(a, b)| (a - b).abs());
         rows.push(row![delta, found, off, cells, unstable, unstable as f64 / cells as f64]);
     }
-    Ok(rows)
+    rows
 }
 
 /// The largest growth rate over waves from very long to alternating ones.

@@ -40,8 +40,8 @@ pub fn collision_by_headway() -> Result<Rows, Failure> {
     Ok(rows)
 }
 
-/// The least headway between t = 100 and the end of the run; `zero_at` is the desired speed at which
-/// it would vanish if it went on falling as from the desired speed of the row before to that of this one.
+/// The least headway between t = 100 and the end of the run; `zero_at` is the desired speed at which it would vanish by
+/// linear extrapolation from the row before and this one.
 ///
 /// # Errors
 /// A run failed.

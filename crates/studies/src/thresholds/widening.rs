@@ -19,10 +19,7 @@ type Widened = fn(f64) -> Model;
 
 /// The margin for long waves (negative: stable) and the largest growth rate on the ring, with the widening from 0 to 1 or
 /// as far as there is a uniform flow.
-///
-/// # Errors
-/// None; the tables share one type.
-pub fn table() -> Result<Rows, Failure> {
+pub fn table() -> Rows {
     let mut rows =
         Rows::new(&["law", "fixed", "a_v", "speed", "gap", "phi", "margin", "growth_rate", "growth_rate_error"]);
     let laws: [(&str, Widened, usize); 4] = [
@@ -53,7 +50,7 @@ pub fn table() -> Result<Rows, Failure> {
             }
         }
     }
-    Ok(rows)
+    rows
 }
 
 /// Unstable runs with a widening, from the start of the paper: the first event, and the least space requirement `a_n' =
@@ -155,10 +152,7 @@ impl RunObserver for Followed {
 
 /// What a smaller safety distance `a_0` and a longer `tau` do to the logarithmic law, in metres and seconds: pedestrians
 /// 0.9 m apart that want to walk 1.2 m/s. Both `v_0' = v_0 tau / a_0` and the headway in units of `a_0` change.
-///
-/// # Errors
-/// None; the tables share one type.
-pub fn safety() -> Result<Rows, Failure> {
+pub fn safety() -> Rows {
     let mut rows = Rows::new(&["varied", "a_0", "tau", "v0", "headway", "xi", "margin", "unstable"]);
     let mut push = |varied: &str, a_0: f64, tau: f64| {
         let (desired_speed, headway) = (1.2 * tau / a_0, 0.9 / a_0);
@@ -168,7 +162,7 @@ pub fn safety() -> Result<Rows, Failure> {
     };
     (8..=40).for_each(|i| push("a_0", f64::from(i) / 40.0, 0.5));
     (1..=40).for_each(|i| push("tau", 0.6, f64::from(i) / 40.0));
-    Ok(rows)
+    rows
 }
 
 fn logarithmic(desired_speed: f64, widening: f64) -> Model {

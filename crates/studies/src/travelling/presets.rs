@@ -20,7 +20,7 @@ const PEDESTRIANS: usize = 67;
 const WIDENING: f64 = 0.1;
 /// How far beyond the threshold a run is.
 const BEYOND: f64 = 1.15;
-/// Where the threshold is looked for: so many strengths up to this one.
+/// The threshold is searched on a grid of strengths up to this one.
 const STEPS: u32 = 100;
 const STRONGEST: f64 = 2.0;
 /// The strength of the run of a preset whose uniform flow is stable with all of them.

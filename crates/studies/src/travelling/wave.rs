@@ -135,7 +135,7 @@ fn product(column: &[f64], vector: &[f64]) -> Vec<f64> {
     (0..size).map(entry).collect()
 }
 
-/// The trigonometric polynomial through these values, at so many equidistant phases instead.
+/// The trigonometric polynomial through these values, at the given number of equidistant phases instead.
 pub(super) fn resampled(values: &[f64], points: usize) -> Vec<f64> {
     let size = values.len();
     let kernel = |offset: f64| 1.0 + 2.0 * (1..=size / 2).map(|k| math::cos(k as f64 * offset)).sum::<f64>();

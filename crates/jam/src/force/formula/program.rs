@@ -87,7 +87,7 @@ struct Builder<'a> {
 }
 
 impl Program {
-    /// The program of a root. Where the graph takes the contact off a spacing, the net gap is there already.
+    /// The program of a root. Where the graph subtracts the contact spacing, the net gap already exists.
     pub fn new(bound: &Bound, root: Id, contact: f64) -> Program {
         let needed = bound.needed(root);
         let sources = vec![None; bound.nodes().len()];

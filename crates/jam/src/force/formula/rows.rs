@@ -100,7 +100,7 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// With so many registers.
+    /// With the given number of registers.
     pub fn resize(&mut self, registers: usize) {
         self.registers.resize(registers, vec![0.0; LENGTH]);
     }

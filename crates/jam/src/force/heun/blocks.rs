@@ -157,7 +157,7 @@ fn block<L: Law>(
     let has_image = part.is_last && image < all;
     fill(&mut segment.now.positions, &part.positions[range.start..], &part.ahead.0, all, has_image);
     fill(&mut segment.now.speeds, &part.speeds[range.start..], &part.ahead.1, all, has_image);
-    // the place of the image is nobody's: what is computed for it is overwritten
+    // the ghost's place is not a pedestrian's: what is computed for it is overwritten
     let end = all + usize::from(has_image);
     for _ in 0..count {
         if has_image {

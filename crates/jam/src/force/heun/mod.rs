@@ -48,10 +48,11 @@ pub fn heun_steps(
     model.force().heun(Steps { length: ring.length, h, count, limit }, cut, state)
 }
 
-/// All pedestrians at once. Behind the last stand images of the first ones, one ring length ahead, so that the neighbour
-/// ahead is the next element, and the elements fill whole registers: the loops have no exception and no remainder.
-/// Before every evaluation two images are renewed: the one whom the last pedestrian follows, and the last one; those
-/// between follow that. They serve nobody, but are near enough to where they belong to raise no alarm.
+/// All pedestrians at once. Behind the last stand images of the first ones, one ring length ahead, so that the
+/// neighbour ahead is the next element, and the elements fill whole registers: the loops have no exception and no
+/// remainder. Before every evaluation two images are renewed: the one whom the last pedestrian follows, and the last
+/// one; those between follow that. They are not used, but are close enough to their true places not to trigger an
+/// event.
 struct InOne<'a, L> {
     law: L,
     steps: Steps,
