@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 
 /// Single files that determine what the binaries do.
 const SINGLE_SOURCES: [&str; 4] = ["Cargo.toml", LOCK_FILE, TOOLCHAIN, ".cargo/config.toml"];
-/// Crates that determine the numbers of a run.
+/// Crates that determine the numbers of a run; pictures hang on them, too.
 const NUMERIC_SOURCES: [&str; 8] = [
     "crates/formula/",
     "crates/math/",
@@ -18,18 +18,6 @@ const NUMERIC_SOURCES: [&str; 8] = [
     "crates/jam/",
     "crates/files/",
     "crates/scene/",
-    "figures/src/",
-    "figures/Cargo.toml",
-];
-/// Sources that every figure shares.
-const SHARED_SOURCES: [&str; 9] = [
-    "crates/formula/",
-    "crates/math/",
-    "crates/ode/",
-    "crates/jam/",
-    "crates/files/",
-    "crates/scene/",
-    "crates/plot/",
     "figures/src/",
     "figures/Cargo.toml",
 ];
@@ -114,11 +102,9 @@ impl Sources {
     pub fn figure(&self, figure: &Figure, runs: &[(String, String)]) -> Inputs {
         let folder = Paths::figure_folder(&figure.slug);
         let supplement = if figure.is_supplement() { &SUPPLEMENT_SOURCES[..] } else { &[] };
-        let starts = [&SHARED_SOURCES[..], &SINGLE_SOURCES, supplement, &[folder.as_str()]].concat();
-        let mut inputs = self.below(&starts);
+        let mut inputs = self.numbers_from(&[&["crates/plot/", folder.as_str()], supplement].concat());
         let reads = figure.recipe.iter().flat_map(|recipe| &recipe.reads).map(|name| Paths::table(name));
         inputs.extend(reads.filter_map(|name| Some((name.clone(), self.files.get(&name)?.clone()))));
-        inputs.extend(self.pins.clone());
         inputs.extend(self.keys.get(&figure.slug).cloned().unwrap_or_default());
         inputs.extend(runs.iter().map(|(panel, key)| (format!("run {panel}"), key.clone())));
         inputs

@@ -35,7 +35,7 @@ def test_colours_are_those_of_the_house():
 
 def test_outcomes_look_as_those_of_the_house():
     fills = dict(re.findall(r"const (\w+): Fill = Fill::flat\((.*?)\)", constants("fill.rs")))
-    planes = (ROOT / "figures/src/planes.rs").read_text(encoding="utf-8")
+    planes = (ROOT / "crates/planes/src/picture.rs").read_text(encoding="utf-8")
     looks = {
         re.sub(r"(?<!^)(?=[A-Z])", "_", name).lower(): fill
         for name, fill in re.findall(r"\(Class::(\w+), Fill::(\w+)\)", planes)
