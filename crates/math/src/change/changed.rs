@@ -1,4 +1,5 @@
-//! A number at a reference together with its changes: what [`Change`](super::Change) finds on a tape, kept beside it.
+//! A number at a reference together with its changes: it carries with it what [`Change`](super::Change) reads from a
+//! tape.
 //!
 //! Sums and products of such numbers are numbers of their kind, so they serve as coefficients of power series: the series
 //! of a formula and of its difference from the reference come from the same recurrences, and no two nearly equal numbers
@@ -10,7 +11,7 @@ use crate::number::Number;
 use crate::series::{Coefficient, sign_of};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A value at the reference, and by how much those of `W` pedestrians differ from it.
+/// A value at the reference, and the differences of `W` pedestrians from it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Changed<const W: usize> {
     /// At the reference.
@@ -87,7 +88,7 @@ impl<const W: usize> Div for Changed<W> {
     }
 }
 
-/// The functions, each with what it keeps and its rule.
+/// The functions, each with the values it stores and its rule.
 macro_rules! functions {
     ($($name:ident, $kept:ident, $rule:ident;)*) => {
         $(#[inline(always)]
