@@ -10,8 +10,8 @@ pub fn speed_std(speeds: &[f64]) -> f64 {
     if speeds.iter().all(|speed| *speed == speeds[0]) {
         return 0.0;
     }
-    let std = |scale: f64| dispatch(Std { values: speeds, scale });
-    match std(1.0) {
+    let std = |scale: f64| dispatch(Std::<true> { values: speeds, scale });
+    match dispatch(Std::<false> { values: speeds, scale: 1.0 }) {
         // squares of tiny or huge numbers are no longer doubles, or not with all digits: powers of 2 cost none
         found if found < TINY => std(UP),
         found if found > HUGE => std(DOWN),
@@ -30,13 +30,13 @@ const HUGE: f64 = 1e130;
 /// Number of running sums.
 const LANES: usize = 8;
 
-/// The standard deviation, computed in units of `1 / scale`.
-struct Std<'a> {
+/// The standard deviation, computed in units of `1 / scale`, which is 1 if it is not `SCALED`.
+struct Std<'a, const SCALED: bool> {
     values: &'a [f64],
     scale: f64,
 }
 
-impl Kernel for Std<'_> {
+impl<const SCALED: bool> Kernel for Std<'_, SCALED> {
     type Output = f64;
 
     #[inline(always)]
@@ -46,10 +46,11 @@ impl Kernel for Std<'_> {
         let lanes = InLanes::new(values);
         let mean = lanes.sum(|value| value) / count;
         let squares = lanes.sum(|value| {
-            let rest = scale * (value - mean);
+            let rest = if SCALED { scale * (value - mean) } else { value - mean };
             rest * rest
         });
-        (squares / count).sqrt() / scale
+        let spread = (squares / count).sqrt();
+        if SCALED { spread / scale } else { spread }
     }
 }
 

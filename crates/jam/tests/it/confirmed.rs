@@ -59,11 +59,11 @@ fn rows_that_are_off_by_as_much_as_they_are_large_are_left_out() {
     let right =
         Run { method: Method::Dop853, control: Control::Adaptive { tolerance: 1e-10 }, ..growing(Method::Heun, 1.0) };
     let right = run(&right).expect("it ends well");
-    for step in [0.0349, 0.02] {
+    for step in [0.0349, 0.05] {
         let scene = growing(Method::Ballistic, step);
         let broken = stated(&scene).expect_err("its waves are early");
         let Failure::NotConfirmed { time } = broken.failure else { panic!("{step}: {broken}") };
-        assert!((40.0..57.0).contains(&time) && broken.outcome.events.is_empty(), "{step}: {time}");
+        assert!((35.0..57.0).contains(&time) && broken.outcome.events.is_empty(), "{step}: {time}");
         // the rows that are left are not all error, or a flow all but uniform
         for (std, right) in broken.outcome.samples.std.iter().zip(&right.samples.std) {
             assert!((std - right).abs() <= 0.7 * right + 5e-3, "{step}: {std} for {right}");
