@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Makes tables and pictures of the figures on other machines and compares their sums with those of data/SHA256SUMS:
+# Makes tables and pictures of the figures on other machines and compares their sums with those of data/SHA256SUMS, and
+# the bits of every law, compiled and as a formula, with crates/jam/tests/bits.csv (but under WebAssembly):
 #   checks/other-machines.sh [--only PART]... [SUMS]
 # PART: here, environment, nehalem, arm64, wasm; and, only when named, i686, riscv64, s390x, windows.
 # What a part needs is installed when this is Debian and the user is root; where that is not possible the part is
@@ -107,6 +108,20 @@ figures_as() {
   fi
 }
 
+# bits_as NAME BIN [RUNNER..]: compares the bits of laws.
+bits_as() {
+  local name=$1 bin=$2 differences
+  shift 2
+  if differences=$("$@" "$bin/examples/bits${suffix:-}" | tr -d '\r' | diff - "$root/crates/jam/tests/bits.csv"); then
+    passed=$((passed + 1))
+    echo "passed: $name: the bits of $(($(wc -l <"$root/crates/jam/tests/bits.csv") - 1)) laws, compiled and as formulas"
+  else
+    failed=$((failed + 1))
+    echo "failed: $name: other bits than in crates/jam/tests/bits.csv:"
+    echo "$differences" | sed -n 's/^[<>]/  &/p'
+  fi
+}
+
 skip() {
   skipped=$((skipped + 1))
   echo "skipped: $1: $2"
@@ -142,7 +157,7 @@ has_target() {
 
 # Builds the figures' binaries for this machine.
 build_here() {
-  cargo build --release --quiet -p figures >"$scratch/build.log" 2>&1 || { tail -n 20 "$scratch/build.log" >&2; return 1; }
+  cargo build --release --quiet -p figures -p jam --bins --example bits >"$scratch/build.log" 2>&1 || { tail -n 20 "$scratch/build.log" >&2; return 1; }
 }
 
 # folder NAME: a folder with scenes and references and nothing else; its path.
@@ -164,6 +179,7 @@ part_here() {
   build_here || { skip here "the binaries do not build"; return; }
   local place
   place=$(folder here)
+  bits_as "this machine" "$target/release"
   cd "$place" && figures_as "this machine" "$target/release" 2
 }
 
@@ -193,6 +209,8 @@ part_nehalem() {
   build_here || { skip nehalem "the binaries do not build"; return; }
   local place
   place=$(folder nehalem)
+  bits_as "x86-64 without AVX and FMA" "$target/release" qemu-x86_64 -cpu Nehalem
+  bits_as "x86-64 with AVX2 alone" "$target/release" qemu-x86_64 -cpu Haswell
   cd "$place" && figures_as "x86-64 without AVX and FMA" "$target/release" 2 qemu-x86_64 -cpu Nehalem
 }
 
@@ -208,9 +226,10 @@ part_arm64() {
     install "${packages[@]}" || { skip arm64 "needs ${packages[*]}"; return; }
   fi
   env RUSTC=$compiler CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER=aarch64-linux-gnu-gcc \
-    CARGO_TARGET_DIR="$scratch/build" cargo build --release --quiet --target $triple -p figures \
+    CARGO_TARGET_DIR="$scratch/build" cargo build --release --quiet --target $triple -p figures -p jam --bins --example bits \
     >"$scratch/arm64.log" 2>&1 || { tail -n 20 "$scratch/arm64.log" >&2; skip arm64 "the binaries do not build"; return; }
   place=$(folder arm64)
+  bits_as "arm64" "$scratch/build/$triple/release" qemu-aarch64 -L /usr/aarch64-linux-gnu
   cd "$place" && figures_as "arm64" "$scratch/build/$triple/release" 2 qemu-aarch64 -L /usr/aarch64-linux-gnu
 }
 
@@ -248,7 +267,7 @@ build_with_std() {
   local name=${1//-/_}
   name=${name^^}
   env RUSTC_BOOTSTRAP=1 RUSTC=/usr/bin/rustc "CARGO_TARGET_${name}_LINKER=$2" "CARGO_TARGET_${name}_RUSTFLAGS=${3:-}" \
-    CARGO_TARGET_DIR="$scratch/build" cargo build --release --quiet -Zbuild-std=std,panic_unwind --target "$1" -p figures \
+    CARGO_TARGET_DIR="$scratch/build" cargo build --release --quiet -Zbuild-std=std,panic_unwind --target "$1" -p figures -p jam --bins --example bits \
     >"$scratch/$1.log" 2>&1 || { tail -n 20 "$scratch/$1.log" >&2; return 1; }
 }
 
@@ -263,6 +282,7 @@ from_source() {
   fi
   build_with_std "$triple" "$prefix-gcc" || { skip "$name" "the binaries do not build"; return; }
   place=$(folder "$name")
+  bits_as "$name" "$scratch/build/$triple/release" "$@"
   cd "$place" && figures_as "$name" "$scratch/build/$triple/release" 2 "$@"
 }
 
@@ -319,7 +339,9 @@ part_windows() {
     '__declspec(dllexport) BOOL WINAPI ProcessPrng(PBYTE at, SIZE_T length) { return SystemFunction036(at, (ULONG)length); }' >"$extra/random.c"
   x86_64-w64-mingw32-gcc -shared -O2 -o "$WINEPREFIX/drive_c/windows/system32/bcryptprimitives.dll" "$extra/random.c" -ladvapi32 || return
   place=$(folder windows)
-  cd "$place" && export suffix=.exe && figures_as "Windows by Wine" "$scratch/build/$triple/release" 2 /usr/lib/wine/wine64
+  export suffix=.exe
+  bits_as "Windows by Wine" "$scratch/build/$triple/release" /usr/lib/wine/wine64
+  cd "$place" && figures_as "Windows by Wine" "$scratch/build/$triple/release" 2 /usr/lib/wine/wine64
 }
 
 for part in "${parts[@]}"; do

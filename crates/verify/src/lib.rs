@@ -22,6 +22,7 @@ pub mod page;
 pub mod pictures;
 pub mod pixels;
 pub mod precision;
+pub mod published;
 pub mod reference;
 pub mod rows;
 pub mod states;

@@ -18,11 +18,11 @@ pub trait Block {
 /// The doubles of the widest registers.
 const NARROW: usize = 8;
 /// Pedestrians per iteration: enough to keep the units of a processor busy.
-const WIDE: usize = 64;
+const WIDE: usize = 32;
 /// A wide block that takes another register along.
 const WIDER: usize = WIDE + NARROW;
 
-/// How a formula is carried out for a ring.
+/// How a formula is carried out for a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pace {
     /// One pedestrian after the other, in a loop that the compiler turns into vector code: of short formulas without a
@@ -34,37 +34,41 @@ pub enum Pace {
     Wide,
 }
 
-/// Applies the function to all pedestrians of the ring.
+/// Applies the function to everybody in a row. The last one's next entry of the second row is `closing`, on a ring the first;
+/// that row may hold it, too.
 #[inline(always)]
-pub fn around<B: Block>(block: &B, pace: Pace, first: &[f64], second: &[f64], result: &mut [f64]) {
+pub fn along<B: Block>(block: &B, pace: Pace, first: &[f64], second: &[f64], closing: f64, result: &mut [f64]) {
     let n = first.len();
     let mut begin = 0;
     match pace {
-        Pace::Single => return singly(block, first, second, result),
+        Pace::Single => return singly(block, first, second, closing, result),
         Pace::Narrow => {}
         Pace::Wide => {
-            while n - begin > WIDER {
+            while n - begin > WIDER || n - begin == WIDE && second.len() > n {
                 begin = inside::<WIDE, B>(block, begin, first, second, result);
             }
-            if n - begin > WIDE - NARROW {
-                return last::<WIDER, B>(block, begin, first, second, result);
+            if begin == n {
+                return;
+            }
+            if n >= WIDER && n - begin > WIDE {
+                return last_of_many::<WIDER, B>(block, (first, second, closing), result);
             }
         }
     }
     while n - begin > NARROW {
         begin = inside::<NARROW, B>(block, begin, first, second, result);
     }
-    last::<NARROW, B>(block, begin, first, second, result);
+    last::<NARROW, B>(block, begin, (first, second, closing), result);
 }
 
 /// One after the other.
 #[inline(always)]
-fn singly<B: Block>(block: &B, first: &[f64], second: &[f64], result: &mut [f64]) {
+fn singly<B: Block>(block: &B, first: &[f64], second: &[f64], closing: f64, result: &mut [f64]) {
     let last = first.len() - 1;
     for (((result, first), own), ahead) in result.iter_mut().zip(first).zip(second).zip(&second[1..]) {
         *result = block.value(Lanes([*first]), Lanes([*own]), Lanes([*ahead])).0[0];
     }
-    result[last] = block.value(Lanes([first[last]]), Lanes([second[last]]), Lanes([second[0]])).0[0];
+    result[last] = block.value(Lanes([first[last]]), Lanes([second[last]]), Lanes([closing])).0[0];
 }
 
 /// A block whose neighbours ahead are in the row; returns where it ends.
@@ -82,10 +86,29 @@ fn inside<const W: usize, B: Block>(
     end
 }
 
-/// The last block, which the first pedestrian closes. It begins earlier rather than be cut, since what is written twice is the
-/// same; on a ring of fewer it is filled up.
+/// The last block of a row that is longer. It begins earlier rather than be cut, since what is written twice is the same.
 #[inline(always)]
-fn last<const W: usize, B: Block>(block: &B, begin: usize, first: &[f64], second: &[f64], result: &mut [f64]) {
+fn last_of_many<const W: usize, B: Block>(
+    block: &B,
+    (first, second, closing): (&[f64], &[f64], f64),
+    result: &mut [f64],
+) {
+    let from = first.len() - W;
+    let mut ahead = [closing; W];
+    ahead[..W - 1].copy_from_slice(&second[from + 1..first.len()]);
+    let value = block.value(Lanes::of(&first[from..]), Lanes::of(&second[from..]), Lanes(ahead));
+    result[from..].copy_from_slice(&value.0);
+}
+
+/// The last block. It begins earlier rather than be cut, since what is written twice is the same; in a row of fewer it is
+/// filled up.
+#[inline(always)]
+fn last<const W: usize, B: Block>(
+    block: &B,
+    begin: usize,
+    (first, second, closing): (&[f64], &[f64], f64),
+    result: &mut [f64],
+) {
     let n = first.len();
     let [filler, speed] = B::FILLER;
     let (mut own, mut speeds, mut ahead) = ([filler; W], [speed; W], [speed; W]);
@@ -94,15 +117,15 @@ fn last<const W: usize, B: Block>(block: &B, begin: usize, first: &[f64], second
         // lengths that the compiler knows
         let from = n - W;
         own.copy_from_slice(&first[from..]);
-        speeds.copy_from_slice(&second[from..]);
-        ahead[..W - 1].copy_from_slice(&second[from + 1..]);
-        ahead[W - 1] = second[0];
+        speeds.copy_from_slice(&second[from..n]);
+        ahead[..W - 1].copy_from_slice(&second[from + 1..first.len()]);
+        ahead[W - 1] = closing;
     } else {
         let rest = n - begin;
         own[..rest].copy_from_slice(&first[begin..]);
-        speeds[..rest].copy_from_slice(&second[begin..]);
-        ahead[..rest - 1].copy_from_slice(&second[begin + 1..]);
-        ahead[rest - 1] = second[0];
+        speeds[..rest].copy_from_slice(&second[begin..n]);
+        ahead[..rest - 1].copy_from_slice(&second[begin + 1..n]);
+        ahead[rest - 1] = closing;
     }
     let value = block.value(Lanes(own), Lanes(speeds), Lanes(ahead));
     if is_whole {
@@ -110,33 +133,4 @@ fn last<const W: usize, B: Block>(block: &B, begin: usize, first: &[f64], second
     } else {
         result[begin..].copy_from_slice(&value.0[..n - begin]);
     }
-}
-
-/// Replaces the entries of a row by the function of them, the speed at the same place and the next one.
-#[inline(always)]
-pub fn along<B: Block>(block: &B, speeds: &[f64], row: &mut [f64]) {
-    let (n, mut begin) = (row.len(), 0);
-    while n - begin >= WIDE {
-        let is_one_left = (n - begin) % WIDE == NARROW;
-        begin = if is_one_left {
-            in_place::<WIDER, B>(block, begin, speeds, row)
-        } else {
-            in_place::<WIDE, B>(block, begin, speeds, row)
-        };
-    }
-    while n - begin >= NARROW {
-        begin = in_place::<NARROW, B>(block, begin, speeds, row);
-    }
-    while begin < n {
-        begin = in_place::<1, B>(block, begin, speeds, row);
-    }
-}
-
-#[inline(always)]
-fn in_place<const W: usize, B: Block>(block: &B, begin: usize, speeds: &[f64], row: &mut [f64]) -> usize {
-    let end = begin + W;
-    let (own, ahead) = (Lanes::<W>::of(&speeds[begin..end]), Lanes::of(&speeds[begin + 1..end + 1]));
-    let value = block.value(Lanes::of(&row[begin..end]), own, ahead);
-    row[begin..end].copy_from_slice(&value.0);
-    end
 }

@@ -1,6 +1,6 @@
 //! The force of a law that is a Rust function, compiled for blocks of pedestrians.
 
-use super::blocks::{Block, Pace, around};
+use super::blocks::{Block, Pace, along};
 use super::heun::{self, Cut};
 use super::series::{Memory, Motion};
 use super::{Flow, Force, Interpreted, Prepared, Rows, Steps};
@@ -11,7 +11,7 @@ use math::affine::Affine;
 use math::change::{Player, Recorder, Tape};
 use math::dual::Dual;
 use math::lanes::Lanes;
-use math::simd::{Kernel, dispatch};
+use math::simd::{Kernel, Width, dispatch, dispatch_up_to};
 use ode::Batch;
 use std::cell::{OnceCell, RefCell};
 use std::sync::Arc;
@@ -83,7 +83,8 @@ impl<L: Law> Force for Compiled<L> {
     }
 
     fn accelerations(&self, net_gaps: &[f64], speeds: &[f64], accelerations: &mut [f64]) {
-        dispatch(Accelerations { law: self.law, net_gaps, speeds, accelerations });
+        let row = Row { net_gaps, speeds, ahead_of_last: speeds[0] };
+        self::accelerations(self.law, Width::Eight, row, accelerations);
     }
 
     fn deviations(&self, flow: Flow, spacings: &[f64], speeds: &[f64], accelerations: &mut [f64]) -> f64 {
@@ -91,7 +92,10 @@ impl<L: Law> Force for Compiled<L> {
         if reference.flow != flow {
             *reference = Reference::new(&self.law, flow);
         }
-        dispatch(Deviations { law: self.law, tape: &reference.tape, spacings, speeds, accelerations });
+        let (law, tape) = (self.law, &reference.tape);
+        if !dispatch(Deviations::<L, true> { law, tape, spacings, speeds, accelerations }) {
+            dispatch_up_to(WIDEST, Deviations::<L, false> { law, tape, spacings, speeds, accelerations });
+        }
         reference.acceleration
     }
 
@@ -129,11 +133,13 @@ impl<L: Law> Force for Compiled<L> {
     }
 
     fn series(&self, motion: Motion<'_>) {
-        if motion.along.is_some() {
-            return self.interpreted().series(motion);
+        match self.law.plain() {
+            Some(_) if motion.along.is_none() => {
+                let operations = self.reference.borrow().tape.histories();
+                super::series::plain(self.law, operations, motion, &mut self.memory.borrow_mut());
+            }
+            _ => self.interpreted().series(motion),
         }
-        let operations = self.reference.borrow().tape.histories();
-        super::series::compiled(self.law, operations, motion, &mut self.memory.borrow_mut());
     }
 
     fn heun(&self, steps: Steps, cut: Option<Cut>, state: &mut [f64]) -> Batch {
@@ -153,16 +159,37 @@ fn pace<L: Law>(law: &L) -> Pace {
     if law.is_long() { Pace::Wide } else { Pace::Narrow }
 }
 
-/// The accelerations of all pedestrians.
-struct Accelerations<'a, L> {
+/// The widest registers for laws with terms that the runs of the paper do not have: another copy of each would take longer to
+/// compile than it saves.
+const WIDEST: Width = Width::Four;
+
+/// Pedestrians of whom each follows the next; the last one follows somebody of that speed, which may stand behind the others,
+/// too.
+#[derive(Clone, Copy)]
+pub(super) struct Row<'a> {
+    pub(super) net_gaps: &'a [f64],
+    pub(super) speeds: &'a [f64],
+    pub(super) ahead_of_last: f64,
+}
+
+/// Writes the accelerations of a row. A function of its own, compiled once for whoever needs them.
+pub(super) fn accelerations<L: Law>(law: L, limit: Width, row: Row<'_>, accelerations: &mut [f64]) {
+    if law.plain().is_some() {
+        dispatch_up_to(limit, Accelerations::<L, true> { law, row, accelerations });
+    } else {
+        dispatch_up_to(limit.min(WIDEST), Accelerations::<L, false> { law, row, accelerations });
+    }
+}
+
+/// The accelerations of a row, under the law in its [plain](Law::plain) form if `PLAIN`.
+struct Accelerations<'a, L, const PLAIN: bool> {
     law: L,
-    net_gaps: &'a [f64],
-    speeds: &'a [f64],
+    row: Row<'a>,
     accelerations: &'a mut [f64],
 }
 
 /// The accelerations of a law, block by block.
-pub(super) struct Values<L>(pub(super) L);
+struct Values<L>(L);
 
 impl<L: Law> Block for Values<L> {
     const FILLER: [f64; 2] = [1.0, 0.0];
@@ -173,21 +200,23 @@ impl<L: Law> Block for Values<L> {
     }
 }
 
-impl<L: Law> Kernel for Accelerations<'_, L> {
+impl<L: Law, const PLAIN: bool> Kernel for Accelerations<'_, L, PLAIN> {
     type Output = ();
 
     #[inline(always)]
     fn run(self) {
-        let Accelerations { law, net_gaps, speeds, accelerations } = self;
-        match law.plain() {
-            Some(law) => around(&Values(law), plain_pace(&law), net_gaps, speeds, accelerations),
-            None => around(&Values(law), pace(&law), net_gaps, speeds, accelerations),
+        let Accelerations { law, row: Row { net_gaps, speeds, ahead_of_last }, accelerations } = self;
+        if !PLAIN {
+            along(&Values(law), pace(&law), net_gaps, speeds, ahead_of_last, accelerations);
+        } else if let Some(law) = law.plain() {
+            along(&Values(law), plain_pace(&law), net_gaps, speeds, ahead_of_last, accelerations);
         }
     }
 }
 
-/// The accelerations of all pedestrians less that of the uniform flow.
-struct Deviations<'a, L> {
+/// The accelerations of all pedestrians less that of the uniform flow; false if the law is another one: one in a plain form if
+/// `PLAIN`, else one with any terms.
+struct Deviations<'a, L, const PLAIN: bool> {
     law: L,
     tape: &'a Tape,
     spacings: &'a [f64],
@@ -210,33 +239,41 @@ impl<L: Law> Block for Changes<'_, L> {
     }
 }
 
-impl<L: Law> Deviations<'_, L> {
+impl<L: Law, const PLAIN: bool> Deviations<'_, L, PLAIN> {
     #[inline(always)]
-    fn around(self, law: L, pace: Pace) {
+    fn along(self, law: L, pace: Pace) -> bool {
         let Deviations { tape, spacings, speeds, accelerations, .. } = self;
-        around(&Changes { law, tape }, pace, spacings, speeds, accelerations);
+        along(&Changes { law, tape }, pace, spacings, speeds, speeds[0], accelerations);
+        true
     }
 }
 
-impl<L: Law> Kernel for Deviations<'_, L> {
-    type Output = ();
+impl<L: Law, const PLAIN: bool> Kernel for Deviations<'_, L, PLAIN> {
+    type Output = bool;
 
     #[inline(always)]
-    fn run(self) {
+    fn run(self) -> bool {
         let law = self.law;
-        law.choose(self);
+        law.choose(self)
     }
 }
 
-impl<L: Law> Chosen<L> for Deviations<'_, L> {
+impl<L: Law, const PLAIN: bool> Chosen<L> for Deviations<'_, L, PLAIN> {
+    type Output = bool;
+
     #[inline(always)]
-    fn law(self, law: L) {
-        self.around(law, pace(&law));
+    fn any(self, law: L) -> bool {
+        !PLAIN && self.along(law, pace(&law))
     }
 
     #[inline(always)]
-    fn straight(self, law: L) {
-        self.around(law, Pace::Single);
+    fn plain(self, law: L) -> bool {
+        PLAIN && self.along(law, pace(&law))
+    }
+
+    #[inline(always)]
+    fn straight(self, law: L) -> bool {
+        PLAIN && self.along(law, Pace::Single)
     }
 }
 

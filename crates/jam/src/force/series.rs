@@ -110,7 +110,7 @@ impl Memory {
     }
 }
 
-/// The first pedestrian of a block. The last block begins earlier rather than be cut: what is computed twice is the same.
+/// The first pedestrian of a block. The last block begins earlier instead of being cut short: values computed twice are equal.
 #[inline(always)]
 fn begin(block: usize, n: usize) -> usize {
     let (from, last) = (block * W, n.saturating_sub(W));
@@ -125,8 +125,9 @@ fn write(row: &mut [f64], from: usize, block: Lanes<W>) {
     }
 }
 
-/// The coefficients under a compiled law, with the number of operations that store values.
-pub(super) fn compiled<L: Law>(law: L, operations: usize, motion: Motion<'_>, memory: &mut Memory) {
+/// The coefficients under a law in its [plain](Law::plain) form, with the number of operations that store values; other forms
+/// are evaluated as a list of operations.
+pub(super) fn plain<L: Law>(law: L, operations: usize, motion: Motion<'_>, memory: &mut Memory) {
     dispatch(Coefficients { law, operations, motion, memory });
 }
 
@@ -142,10 +143,8 @@ impl<L: Law> Kernel for Coefficients<'_, '_, L> {
 
     #[inline(always)]
     fn run(self) {
-        let law = self.law;
-        match law.plain() {
-            Some(plain) => self.of(&plain),
-            None => self.of(&law),
+        if let Some(law) = self.law.plain() {
+            self.of(&law);
         }
     }
 }

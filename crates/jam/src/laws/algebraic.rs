@@ -73,7 +73,7 @@ impl Law for Algebraic {
 
     /// Powers are products, which as constants need no choice for every pedestrian.
     #[inline(always)]
-    fn choose<C: Chosen<Algebraic>>(self, chosen: C) {
+    fn choose<C: Chosen<Algebraic>>(self, chosen: C) -> C::Output {
         let without = |q: f64| Algebraic { delta: 0.0, a_v: 0.0, q, ..self };
         let alone = |q: f64| Algebraic { delta: 0.0, q, ..self };
         match (self.delta == 0.0, self.a_v == 0.0, self.q) {
@@ -81,7 +81,7 @@ impl Law for Algebraic {
             (true, true, 2.0) => chosen.straight(without(2.0)),
             (true, true, 3.0) => chosen.straight(without(3.0)),
             (true, false, 2.0) => chosen.straight(alone(2.0)),
-            _ => chosen.law(self),
+            _ => chosen.any(self),
         }
     }
 }

@@ -127,10 +127,10 @@ pub trait Law: Copy + Default + Send + Sync + std::fmt::Debug + 'static {
     /// Goes on with the law, in which parameters that choose terms or powers are constants where a loop is compiled for
     /// these: those of [`Law::plain`], and more where the loop is short.
     #[inline(always)]
-    fn choose<C: Chosen<Self>>(self, chosen: C) {
+    fn choose<C: Chosen<Self>>(self, chosen: C) -> C::Output {
         match self.plain() {
-            Some(law) => chosen.law(law),
-            None => chosen.law(self),
+            Some(law) => chosen.plain(law),
+            None => chosen.any(self),
         }
     }
 
@@ -153,11 +153,17 @@ pub trait Law: Copy + Default + Send + Sync + std::fmt::Debug + 'static {
 
 /// A function of a concrete law (see [`Law::choose`]).
 pub trait Chosen<L> {
+    /// What comes of it.
+    type Output;
+
     /// With any.
-    fn law(self, law: L);
+    fn any(self, law: L) -> Self::Output;
+
+    /// With one in its plain form.
+    fn plain(self, law: L) -> Self::Output;
 
     /// With one whose formula has no function and, its constants known, no choice to be made.
-    fn straight(self, law: L);
+    fn straight(self, law: L) -> Self::Output;
 }
 
 /// A law with its parameters, as data.

@@ -2,60 +2,9 @@
 //! differences, coefficients and derivatives are those of the formula.
 
 use crate::sample::{Random, variants};
-use formula::{Definition, Given, Place};
+use crate::written::{as_formula, law};
+use formula::Given;
 use jam::force::{Flow, Motion};
-use jam::laws::{Formula, Model};
-
-/// A law from the lines of its section.
-pub fn law(lines: &[(&str, Given<'_>)]) -> Model {
-    let place = |line: usize, column| Place { line: line as u32 + 2, column };
-    let definitions: Vec<Definition<'_>> = lines
-        .iter()
-        .enumerate()
-        .map(|(line, (name, given))| Definition { name, key: place(line, 1), value: place(line, 20), given: *given })
-        .collect();
-    let graph = formula::law("scene.toml", Place { line: 1, column: 1 }, &definitions);
-    Model::Formula(graph.and_then(Formula::new).unwrap_or_else(|error| panic!("{error}")))
-}
-
-/// A built-in law, written as formulas.
-fn as_formula(model: &Model) -> Model {
-    let number = Given::Number;
-    match model {
-        Model::Algebraic(p) => law(&[
-            ("acceleration", Given::Text("v0 - v - (mu + delta*ramp(v[1] - v, epsilon))^2*d^(-q)")),
-            ("d", Given::Text("s - body - a_v*(v + v[1])")),
-            ("gap", Given::Text("d")),
-            ("mu", number(p.mu)),
-            ("delta", number(p.delta)),
-            ("q", number(p.q)),
-            ("a_v", number(p.a_v)),
-            ("epsilon", number(p.epsilon)),
-            ("v0", number(p.v0)),
-            ("body", number(2.0)),
-        ]),
-        Model::Exponential(p) => law(&[
-            ("acceleration", Given::Text("v0 - v - a*exp(-d/b) - c*ramp(d, epsilon)")),
-            ("d", Given::Text("s - body - a_v*(v + v[1])")),
-            ("gap", Given::Text("d")),
-            ("a", number(p.a)),
-            ("b", number(p.b)),
-            ("c", number(p.c)),
-            ("a_v", number(p.a_v)),
-            ("epsilon", number(p.epsilon)),
-            ("v0", number(p.v0)),
-            ("body", number(2.0)),
-        ]),
-        Model::Logarithmic(p) => law(&[
-            ("acceleration", Given::Text("v0*(1 - ln_1p((e - 1)*ramp(s/(2 + a_v*(v + v[1])) - 1, epsilon))) - v")),
-            ("a_v", number(p.a_v)),
-            ("epsilon", number(p.epsilon)),
-            ("v0", number(p.v0)),
-            ("body", number(0.0)),
-        ]),
-        Model::Formula(_) | Model::Own(_) => model.clone(),
-    }
-}
 
 fn bits(values: &[f64]) -> Vec<u64> {
     values.iter().map(|value| value.to_bits()).collect()

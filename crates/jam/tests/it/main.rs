@@ -1,11 +1,13 @@
 //! Tests of the physics: the laws against their printed form, the ring's symmetries, growth against linear theory, the
 //! paper's criteria against the exact ones, events and jams on constructed runs.
 
+mod bits;
 mod confirmed;
 mod convergence;
 mod criteria;
 mod deviation;
 mod events;
+mod fingerprints;
 mod forms;
 mod formula;
 mod growth;
@@ -24,3 +26,4 @@ mod series;
 mod tangent;
 mod uniform;
 mod walls;
+mod written;

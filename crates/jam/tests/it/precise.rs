@@ -1,7 +1,7 @@
 //! Margins by two methods; the largest margin over all waves; steady speeds by rows.
 
-use crate::formula::law;
 use crate::sample::{Random, laws};
+use crate::written::law;
 use formula::Given;
 use jam::laws::Model;
 use jam::precise::Precise;

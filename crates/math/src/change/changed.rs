@@ -88,14 +88,28 @@ impl<const W: usize> Div for Changed<W> {
     }
 }
 
+/// A function of a number: its value, the values it stores of the reference, and its rule for changes. It is not part of a kernel:
+/// functions are needed only at order 0, so they are compiled once.
+#[inline(never)]
+fn apply(
+    number: f64,
+    changes: &mut [f64],
+    value: impl Fn(f64) -> f64,
+    kept: impl Fn(f64) -> Kept,
+    rule: impl Fn(&Kept, f64) -> f64,
+) -> f64 {
+    let kept = kept(number);
+    changes.iter_mut().for_each(|change| *change = rule(&kept, *change));
+    value(number)
+}
+
 /// The functions, each with the values it stores and its rule.
 macro_rules! functions {
     ($($name:ident, $kept:ident, $rule:ident;)*) => {
         $(#[inline(always)]
-        fn $name(self) -> Self {
-            let kept = Kept::$kept(self.value);
-            let change = lane_by_lane!(a of self.change => rules::$rule(&kept, a));
-            Changed { value: Number::$name(self.value), change }
+        fn $name(mut self) -> Self {
+            self.value = apply(self.value, &mut self.change.0, Number::$name, Kept::$kept, rules::$rule);
+            self
         })*
     };
 }
@@ -109,36 +123,22 @@ impl<const W: usize> Number for Changed<W> {
         tanh, of_tanh, tanh;
         softplus, of_softplus, softplus;
         abs, of_abs, abs;
+        exp, of_exp, exp_of_any;
+        exp_m1, of_exp, exp_of_any;
     }
 
     #[inline(always)]
-    fn powi(self, n: i32) -> Self {
-        let kept = Kept::of_whole_power(self.value, n);
-        let change = lane_by_lane!(a of self.change => rules::whole_power(&kept, a, n));
-        Changed { value: Number::powi(self.value, n), change }
+    fn powi(mut self, n: i32) -> Self {
+        let (value, kept) = (|x| Number::powi(x, n), |x| Kept::of_whole_power(x, n));
+        self.value = apply(self.value, &mut self.change.0, value, kept, |kept, a| rules::whole_power(kept, a, n));
+        self
     }
 
     #[inline(always)]
-    fn powf(self, q: f64) -> Self {
-        let kept = Kept::of_power(self.value, q);
-        let change = lane_by_lane!(a of self.change => rules::power(&kept, a, q));
-        Changed { value: Number::powf(self.value, q), change }
-    }
-
-    #[inline(always)]
-    fn exp(self) -> Self {
-        let kept = Kept::of_exp(self.value);
-        let change = if rules::is_faint(&kept) {
-            lane_by_lane!(a of self.change => rules::faint_exp(&kept, a))
-        } else {
-            lane_by_lane!(a of self.change => rules::exp(&kept, a))
-        };
-        Changed { value: Number::exp(self.value), change }
-    }
-
-    #[inline(always)]
-    fn exp_m1(self) -> Self {
-        Changed { value: Number::exp_m1(self.value), ..self.exp() }
+    fn powf(mut self, q: f64) -> Self {
+        let (value, kept) = (|x| Number::powf(x, q), |x| Kept::of_power(x, q));
+        self.value = apply(self.value, &mut self.change.0, value, kept, |kept, a| rules::power(kept, a, q));
+        self
     }
 
     #[inline(always)]

@@ -177,6 +177,11 @@ pub fn faint_exp(kept: &Kept, da: f64) -> f64 {
     if da < 1.0 { near } else { far }
 }
 
+/// [`exp`], or [`faint_exp`] where that is needed.
+pub(super) fn exp_of_any(kept: &Kept, da: f64) -> f64 {
+    if is_faint(kept) { faint_exp(kept, da) } else { exp(kept, da) }
+}
+
 /// Of ln a, and of ln(1 + a).
 #[inline(always)]
 pub fn ln(kept: &Kept, da: f64) -> f64 {

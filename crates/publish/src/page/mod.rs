@@ -38,6 +38,7 @@ use minijinja::value::Serde;
 use minijinja::{Value, context};
 use source::Source;
 use verify::attest::{self, Attestation};
+use verify::published::{Curve, Points};
 
 /// The page with a slot for each text.
 pub const TEMPLATE: &str = include_str!("parts/template.html");
@@ -129,19 +130,14 @@ fn machines(paths: &Paths) -> Result<Vec<[String; 6]>, Failure> {
 
 /// How far published and regenerated numbers are apart: rows of HTML.
 fn distances(source: &Source<'_>) -> Result<Vec<Vec<Value>>, Failure> {
-    let row = |set: data::Published| {
-        let (differences, reading) = (set.differences(), set.reading);
-        let sum: f64 = differences.iter().map(|difference| difference * difference).sum();
-        let mean = (sum / differences.len() as f64).sqrt();
-        let largest =
-            differences.iter().fold(0.0, |most: f64, value| if value.abs() > most { value.abs() } else { most });
-        let verdict = if largest <= reading { "within the reading error" } else { "beyond the reading error" };
+    let row = |(curve, points, reading): (Curve, Points, f64)| {
+        let verdict = if points.largest() <= reading { "within the reading error" } else { "beyond the reading error" };
         html::row([
-            html::escape(set.title),
-            html::code(&format!("data/reference/{}.csv", set.file)),
-            differences.len().to_string(),
-            html::number(largest, 2),
-            html::number(mean, 2),
+            html::escape(curve.title),
+            html::code(&curve.source()),
+            points.all.to_string(),
+            html::number(points.largest(), 2),
+            html::number(points.root_mean_square(), 2),
             html::number(reading, 2),
             verdict.to_owned(),
         ])

@@ -13,7 +13,7 @@ use checkout::failure::Failure;
 use checkout::figure::Figure;
 use checkout::manifest;
 use checkout::paths::Paths;
-use files::table::{Cell, Sheet};
+use files::table::{Cell, Grid, Sheet};
 use form::Form;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
@@ -52,10 +52,10 @@ pub struct Source<'a> {
 ///
 /// # Errors
 /// Stale: there is no such table. Failed: it cannot be read.
-fn table(paths: &Paths, name: &str) -> Result<Sheet, Failure> {
+fn table<V: files::table::Value>(paths: &Paths, name: &str) -> Result<Grid<V>, Failure> {
     let path = paths.root.join(name);
     match path.is_file() {
-        true => Sheet::read(&path).map_err(Failure::failed),
+        true => Grid::read(&path).map_err(Failure::failed),
         false => Err(Failure::Stale(format!("{name}: no such table; cargo xtask figures --all"))),
     }
 }

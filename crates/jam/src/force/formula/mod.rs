@@ -7,7 +7,6 @@ mod series;
 
 use super::{Cut, Flow, Force, Motion, Steps};
 use formula::{Bound, Id, Unary};
-use math::change::Changed;
 use math::change::rules::Kept;
 use math::dual::Dual;
 use math::lanes::Lanes;
@@ -113,7 +112,7 @@ struct Scratch {
     kept: Vec<Kept>,
     memory: series::Memory<Lanes<{ series::W }>>,
     /// For series of differences from a uniform flow that changes.
-    memory_along: series::Memory<Changed<{ series::W }>>,
+    memory_along: series::Memory<series::WithFlow>,
 }
 
 impl Interpreted {

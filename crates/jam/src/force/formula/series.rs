@@ -11,39 +11,49 @@ use math::series::recurrences::{self as next, History};
 use math::series::{Block, Coefficient, ROWS};
 use math::simd::Kernel;
 
-/// Pedestrians per iteration.
+/// The most pedestrians of a block.
 pub const W: usize = 16;
 
 /// Coefficients of a block of pedestrians: as they are, or that of the uniform flow with the differences from it.
 pub trait Along: Coefficient {
+    /// Pedestrians of a block.
+    const WIDTH: usize;
+
     /// From the coefficient of the uniform flow and the differences from it.
-    fn of(flow: f64, differences: Lanes<W>) -> Self;
+    fn of(flow: f64, differences: &[f64]) -> Self;
 
     /// The coefficient of the uniform flow, if there is one, and the differences from it.
-    fn parts(self) -> (f64, Lanes<W>);
+    fn parts(&self) -> (f64, &[f64]);
 }
 
 impl Along for Lanes<W> {
+    const WIDTH: usize = W;
+
     #[inline(always)]
-    fn of(flow: f64, differences: Lanes<W>) -> Self {
-        differences + flow
+    fn of(flow: f64, differences: &[f64]) -> Self {
+        Lanes::of(differences) + flow
     }
 
     #[inline(always)]
-    fn parts(self) -> (f64, Lanes<W>) {
-        (0.0, self)
+    fn parts(&self) -> (f64, &[f64]) {
+        (0.0, &self.0)
     }
 }
 
-impl Along for Changed<W> {
+/// Narrower: each operation is several.
+pub type WithFlow = Changed<8>;
+
+impl Along for WithFlow {
+    const WIDTH: usize = 8;
+
     #[inline(always)]
-    fn of(flow: f64, differences: Lanes<W>) -> Self {
-        Changed { value: flow, change: differences }
+    fn of(flow: f64, differences: &[f64]) -> Self {
+        Changed { value: flow, change: Lanes::of(differences) }
     }
 
     #[inline(always)]
-    fn parts(self) -> (f64, Lanes<W>) {
-        (self.value, self.change)
+    fn parts(&self) -> (f64, &[f64]) {
+        (self.value, &self.change.0)
     }
 }
 
@@ -82,7 +92,7 @@ impl<C: Along> Kernel for Coefficients<'_, '_, C> {
     #[inline(always)]
     fn run(mut self) {
         let Motion { pedestrians: n, order, unit, dimension, along, .. } = self.motion;
-        let blocks = n.div_ceil(W);
+        let blocks = n.div_ceil(C::WIDTH);
         self.reserve(blocks);
         self.take::<true>(0);
         self.order::<true>(0, blocks);
@@ -96,9 +106,9 @@ impl<C: Along> Kernel for Coefficients<'_, '_, C> {
             let share = unit / (k + 1) as f64;
             let (rows, next) = self.motion.coefficients.split_at_mut((k + 1) * dimension);
             let speeds = &rows[k * dimension + n..k * dimension + 2 * n];
-            for (to, result) in next[n..2 * n].chunks_mut(W).zip(result) {
+            for (to, result) in next[n..2 * n].chunks_mut(C::WIDTH).zip(result) {
                 let (_, accelerations) = result.parts();
-                for (to, acceleration) in to.iter_mut().zip(accelerations.0) {
+                for (to, acceleration) in to.iter_mut().zip(accelerations) {
                     *to = acceleration * share;
                 }
             }
@@ -153,9 +163,9 @@ impl<C: Along> Coefficients<'_, '_, C> {
                 }
                 other => (other, flow.speed, NOTHING.speed),
             };
-            let lanes = neighbours.row(source, 0, blocks.len() * W);
-            for (block, lanes) in blocks.iter_mut().zip(lanes.chunks_exact(W)) {
-                *block = C::of(flow, Lanes::of(lanes)) + more;
+            let row = neighbours.row(source, 0, blocks.len() * C::WIDTH);
+            for (block, lanes) in blocks.iter_mut().zip(row.chunks_exact(C::WIDTH)) {
+                *block = C::of(flow, lanes) + more;
             }
         }
     }

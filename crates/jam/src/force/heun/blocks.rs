@@ -8,7 +8,7 @@
 use super::segment::{Scheme, Segment};
 use crate::force::Steps;
 use crate::laws::Law;
-use math::simd::{Kernel, dispatch_up_to};
+use math::simd::{Kernel, Width, dispatch_up_to};
 use std::ops::Range;
 use std::panic::resume_unwind;
 
@@ -109,15 +109,21 @@ impl<L: Law> Kernel for Blocks<'_, L> {
     fn run(self) -> bool {
         let law = self.law;
         match law.plain() {
-            Some(plain) => self.all(&plain, plain.is_long()),
-            None => self.all(&law, true),
+            Some(plain) => {
+                let in_rows = plain.is_long().then_some(self.steps.limit);
+                self.all(&plain, in_rows)
+            }
+            None => {
+                let in_rows = Some(self.steps.limit);
+                self.all(&law, in_rows)
+            }
         }
     }
 }
 
 impl<L: Law> Blocks<'_, L> {
     #[inline(always)]
-    fn all(self, law: &L, in_rows: bool) -> bool {
+    fn all(self, law: &L, in_rows: Option<Width>) -> bool {
         let Blocks { steps, size, mut part, .. } = self;
         let scheme = Scheme { law, in_rows, h: steps.h };
         // one place more for the image of pedestrian 0

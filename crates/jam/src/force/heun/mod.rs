@@ -66,15 +66,21 @@ impl<L: Law> Kernel for InOne<'_, L> {
     fn run(self) -> bool {
         let law = self.law;
         match law.plain() {
-            Some(plain) => self.steps(&plain, plain.is_long()),
-            None => self.steps(&law, true),
+            Some(plain) => {
+                let in_rows = plain.is_long().then_some(self.steps.limit);
+                self.steps(&plain, in_rows)
+            }
+            None => {
+                let in_rows = Some(self.steps.limit);
+                self.steps(&law, in_rows)
+            }
         }
     }
 }
 
 impl<L: Law> InOne<'_, L> {
     #[inline(always)]
-    fn steps(self, law: &L, in_rows: bool) -> bool {
+    fn steps(self, law: &L, in_rows: Option<Width>) -> bool {
         let Steps { length, h, count, .. } = self.steps;
         let scheme = Scheme { law, in_rows, h };
         let n = self.state.len() / 2;
