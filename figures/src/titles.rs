@@ -2,21 +2,13 @@
 
 use files::reader::{Section, Value};
 use files::scene_file::Panel;
+use files::symbols;
 
 /// The paper's symbol of a parameter, in the markup of labels without its dollars.
 pub fn symbol(parameter: &str) -> &str {
     match parameter {
-        "mu" => "\\mu",
-        "delta" => "\\delta",
-        "a_v" => "\\tilde a_v",
-        "v0" => "v_0'",
-        "d_gap" => "d'",
-        "headway" => "\\Delta y",
         "k" => "\\text{wave number }k",
-        "epsilon" => "\\varepsilon",
-        "shift" => "\\epsilon_1",
-        "pedestrians" => "N",
-        other => other,
+        other => symbols::latex(other),
     }
 }
 

@@ -33,10 +33,11 @@ impl Recent {
     }
 }
 
-/// Positions and speeds at a time.
+/// The standard deviation of the speeds, positions and speeds at a time.
 #[derive(Clone, Debug)]
 pub(super) struct Instant {
-    time: f64,
+    pub time: f64,
+    pub std: f64,
     pub positions: Vec<f64>,
     pub speeds: Vec<f64>,
 }
@@ -51,7 +52,7 @@ impl Instant {
         let (mut positions, mut speeds) = (vec![0.0; pedestrians], vec![0.0; pedestrians]);
         form.read(state, &mut positions, &mut speeds);
         form.write_positions(state, &mut positions);
-        Instant { time, positions, speeds }
+        Instant { time, std: form.speed_std(state), positions, speeds }
     }
 }
 

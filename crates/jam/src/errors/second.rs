@@ -92,8 +92,11 @@ impl Second {
         Errors {
             cost: self.evaluations as f64 / outcome.statistics.evaluations as f64,
             std: has_std.then(|| {
-                let difference = difference(&outcome.samples.std, &other.samples.std);
-                difference + gathered * largest(&outcome.samples.std) + self.rounding(run, outcome) + f64::MIN_POSITIVE
+                let last = outcome.samples.times.last().copied().unwrap_or(0.0);
+                let at_instants = instants.iter().zip(&self.instants).filter(|(one, _)| one.time <= last);
+                let instants = at_instants.map(|(one, other)| difference(&[one.std], &[other.std]));
+                let all = instants.fold(difference(&outcome.samples.std, &other.samples.std), larger);
+                all + gathered * largest(&outcome.samples.std) + self.rounding(run, outcome) + f64::MIN_POSITIVE
             }),
             positions: state(|outcome| &outcome.positions, |instant| &instant.positions)
                 .map(|error| error + ROUNDINGS * largest(&outcome.positions)),

@@ -133,13 +133,11 @@ impl<L: Law> Force for Compiled<L> {
     }
 
     fn series(&self, motion: Motion<'_>) {
-        match self.law.plain() {
-            Some(_) if motion.along.is_none() => {
-                let operations = self.reference.borrow().tape.histories();
-                super::series::plain(self.law, operations, motion, &mut self.memory.borrow_mut());
-            }
-            _ => self.interpreted().series(motion),
+        if motion.along.is_some() {
+            return self.interpreted().series(motion);
         }
+        let operations = self.reference.borrow().tape.histories();
+        super::series::compiled(self.law, operations, motion, &mut self.memory.borrow_mut());
     }
 
     fn heun(&self, steps: Steps, cut: Option<Cut>, state: &mut [f64]) -> Batch {
@@ -161,7 +159,7 @@ fn pace<L: Law>(law: &L) -> Pace {
 
 /// The widest registers for laws with terms that the runs of the paper do not have: another copy of each would take longer to
 /// compile than it saves.
-const WIDEST: Width = Width::Four;
+pub(super) const WIDEST: Width = Width::Four;
 
 /// Pedestrians of whom each follows the next; the last one follows somebody of that speed, which may stand behind the others,
 /// too.

@@ -5,11 +5,12 @@
 //! gives from those of spacing and speeds up to the order `k` ([`math::series`]). An order costs a few sums of products;
 //! no stage is evaluated.
 
+use super::compiled::WIDEST;
 use super::{Flow, NOTHING};
 use crate::laws::Law;
 use math::lanes::Lanes;
 use math::series::{Block, Jet, Place, ROWS};
-use math::simd::{Kernel, dispatch};
+use math::simd::{Kernel, dispatch, dispatch_up_to};
 
 /// The coefficients of spacings and speeds of a ring, from their rows 0 and 1.
 #[derive(Debug)]
@@ -125,31 +126,38 @@ fn write(row: &mut [f64], from: usize, block: Lanes<W>) {
     }
 }
 
-/// The coefficients under a law in its [plain](Law::plain) form, with the number of operations that store values; other forms
-/// are evaluated as a list of operations.
-pub(super) fn plain<L: Law>(law: L, operations: usize, motion: Motion<'_>, memory: &mut Memory) {
-    dispatch(Coefficients { law, operations, motion, memory });
+/// The coefficients under a law, with the number of operations that store values.
+pub(super) fn compiled<L: Law>(law: L, operations: usize, motion: Motion<'_>, memory: &mut Memory) {
+    if law.plain().is_some() {
+        dispatch(Coefficients::<L, true> { law, operations, motion, memory });
+    } else {
+        dispatch_up_to(WIDEST, Coefficients::<L, false> { law, operations, motion, memory });
+    }
 }
 
-struct Coefficients<'a, 'b, L> {
+/// Under the law in its [plain](Law::plain) form if `PLAIN`.
+struct Coefficients<'a, 'b, L, const PLAIN: bool> {
     law: L,
     operations: usize,
-    motion: Motion<'a>,
-    memory: &'b mut Memory,
+    motion: Motion<'b>,
+    memory: &'a mut Memory,
 }
 
-impl<L: Law> Kernel for Coefficients<'_, '_, L> {
+impl<L: Law, const PLAIN: bool> Kernel for Coefficients<'_, '_, L, PLAIN> {
     type Output = ();
 
     #[inline(always)]
     fn run(self) {
-        if let Some(law) = self.law.plain() {
+        let law = self.law;
+        if !PLAIN {
+            self.of(&law);
+        } else if let Some(law) = law.plain() {
             self.of(&law);
         }
     }
 }
 
-impl<L: Law> Coefficients<'_, '_, L> {
+impl<L: Law, const PLAIN: bool> Coefficients<'_, '_, L, PLAIN> {
     #[inline(always)]
     fn of(self, law: &L) {
         let Motion { flow, pedestrians: n, order, unit, dimension, coefficients, .. } = self.motion;

@@ -34,6 +34,11 @@ impl Deviations {
         Flow { net_gap: self.net_gap, speed: state[speed] }
     }
 
+    /// Whether the flow changes so little in a unit of time that it counts for less than rounding: beside a gap or a speed.
+    fn is_steady(&self, flow: Flow, change: f64) -> bool {
+        change.abs() <= f64::EPSILON * math::larger(flow.net_gap, flow.speed.abs())
+    }
+
     fn headway(&self) -> f64 {
         self.net_gap + self.force.contact()
     }
@@ -69,21 +74,22 @@ impl System for Deviations {
         true
     }
 
-    /// Where the force depends on speeds, the uniform flow has a series like everybody else. Else it only relaxes:
-    /// `dV/dt = f(Delta y) - V` with a constant, for other laws with another factor of `V`.
+    /// Where the force depends on speeds, the uniform flow has a series like everybody else until it is steady. Else it only
+    /// relaxes: `dV/dt = f(Delta y) - V` with a constant, for other laws with another factor of `V`.
     fn series(&self, order: usize, unit: f64, coefficients: &mut [f64]) {
         let (n, dimension) = (self.pedestrians, self.dimension());
         let (first, distance, speed) = self.extras();
         let flow = self.flow(coefficients);
-        let relaxation = (!self.force.uses_speeds()).then(|| self.force.relaxation(flow));
-        let along = relaxation.is_none().then_some(speed);
+        let relaxation = if self.force.uses_speeds() { 0.0 } else { self.force.relaxation(flow) };
+        let is_along = self.force.uses_speeds() && !self.is_steady(flow, coefficients[dimension + speed]);
+        let along = is_along.then_some(speed);
         self.force.series(Motion { flow, along, pedestrians: n, order, unit, dimension, coefficients });
         for k in 1..order {
             let (done, next) = coefficients[k * dimension..].split_at_mut(dimension);
             let share = unit / (k + 1) as f64;
             next[first] = done[n] * share;
             next[distance] = done[speed] * share;
-            if let Some(relaxation) = relaxation {
+            if !is_along {
                 next[speed] = relaxation * done[speed] * share;
             }
         }

@@ -4,6 +4,7 @@ use crate::sample::{Random, variants};
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
 use jam::ring::{Ring, Start};
 use jam::states::{RingSystem, StateVariables};
+use jam::uniform::steady_speed;
 
 const ORDER: usize = 18;
 
@@ -25,11 +26,14 @@ fn models() -> Vec<Model> {
     models
 }
 
-/// Spacings and speeds moved at random by up to `size`; the uniform flow at rest.
-fn state(form: &dyn RingSystem, pedestrians: usize, size: f64, random: &mut Random) -> Vec<f64> {
+/// Spacings and speeds moved at random by up to `size`; the uniform flow, if there is one in the state, with this speed.
+fn state(form: &dyn RingSystem, pedestrians: usize, size: f64, speed: f64, random: &mut Random) -> Vec<f64> {
     let mut state = form.start(Start { shift: 0.0 });
     for component in &mut state[..2 * pedestrians] {
         *component += random.uniform(-size, size);
+    }
+    if let Some(own) = state.get_mut(2 * pedestrians + 2) {
+        *own = speed;
     }
     state
 }
@@ -46,18 +50,26 @@ fn derivative_and_value(coefficients: &[f64], dimension: usize, t: f64) -> (Vec<
     (derivative, value)
 }
 
+const HEADWAY: f64 = 3.0;
+
 /// The unit of time of the coefficients.
 const UNIT: f64 = 0.75;
 
 /// The largest difference between the derivative of the series and the rates at its value, relative to the size of the
 /// perturbation, and the largest for what the form keeps beside gaps and speeds, of order 1. Both the rounding of a few dozen operations and the term of order 18, below 1e-17 of the first at this
 /// time, stay far under the bound of the callers.
-fn residual(model: &Model, kind: StateVariables, pedestrians: usize, size: f64, random: &mut Random) -> (f64, f64) {
-    let ring = Ring { pedestrians, length: 3.0 * pedestrians as f64 };
+fn residual(
+    model: &Model,
+    kind: StateVariables,
+    pedestrians: usize,
+    (size, speed): (f64, f64),
+    random: &mut Random,
+) -> (f64, f64) {
+    let ring = Ring { pedestrians, length: HEADWAY * pedestrians as f64 };
     let form = kind.build(model, ring);
     let n = form.dimension();
     let mut coefficients = vec![f64::NAN; (ORDER + 1) * n];
-    let state = state(&*form, pedestrians, size, random);
+    let state = state(&*form, pedestrians, size, speed, random);
     coefficients[..n].copy_from_slice(&state);
     let mut rates = vec![0.0; n];
     form.rates(&state, &mut rates);
@@ -78,7 +90,7 @@ fn series_solve_the_equations() {
     for model in models() {
         for pedestrians in [2, 7, 16, 33, 67] {
             for kind in [StateVariables::Deviations, StateVariables::Spacings] {
-                let (ring, rest) = residual(&model, kind, pedestrians, 0.3, &mut random);
+                let (ring, rest) = residual(&model, kind, pedestrians, (0.3, 0.0), &mut random);
                 assert!(ring < 1e-13 && rest < 1e-14, "{} {kind:?} {pedestrians}: {ring:e}, {rest:e}", model.name());
             }
         }
@@ -89,7 +101,7 @@ fn series_solve_the_equations() {
 fn series_of_deviations_keep_the_digits_of_a_small_perturbation() {
     let mut random = Random(18);
     for model in models() {
-        let (ring, _) = residual(&model, StateVariables::Deviations, 33, 1e-100, &mut random);
+        let (ring, _) = residual(&model, StateVariables::Deviations, 33, (1e-100, 0.0), &mut random);
         assert!(ring < 1e-13, "{}: {ring:e}", model.name());
     }
 }
@@ -100,8 +112,12 @@ fn series_of_deviations_keep_them_where_the_force_depends_on_speeds() {
     for model in variants(&mut random) {
         for pedestrians in [2, 16, 33] {
             for size in [0.01, 1e-12, 1e-100] {
-                let (ring, rest) = residual(&model, StateVariables::Deviations, pedestrians, size, &mut random);
-                assert!(ring < 1e-13 && rest < 1e-14, "{model:?} {pedestrians} {size:e}: {ring:e}, {rest:e}");
+                // at rest, and the steady flow, whose series is constant
+                for speed in [0.0, steady_speed(&model, HEADWAY).expect("one")] {
+                    let of = (size, speed);
+                    let (ring, rest) = residual(&model, StateVariables::Deviations, pedestrians, of, &mut random);
+                    assert!(ring < 1e-13 && rest < 1e-14, "{model:?} {pedestrians} {of:?}: {ring:e}, {rest:e}");
+                }
             }
         }
     }

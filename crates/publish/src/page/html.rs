@@ -4,6 +4,7 @@ use super::formula::{GREEK, prose};
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use checkout::failure::Failure;
+use files::symbols;
 use minijinja::Value;
 pub use verify::html::escape;
 
@@ -52,31 +53,24 @@ fn minus(digits: &str) -> String {
     digits.replace('-', "\u{2212}")
 }
 
-/// The paper's symbol of a parameter or of a column; the name itself where there is none.
-pub fn symbol(name: &str) -> &str {
+/// The paper's symbol of a parameter or of a column; for some columns a word, the name itself where there is none.
+pub fn symbol(name: &str) -> String {
     match name {
-        "mu" => "μ",
-        "delta" => "δ",
-        "epsilon" => "ε",
-        "a_v" => "ã\u{1d65}",
-        "v0" => "v₀′",
-        "d_gap" => "d′",
-        "headway" => "Δy",
-        "pedestrians" => "N",
-        "length" => "L′",
-        "shift" => "ε₁",
-        "phi" => "Φ",
-        "re_z" => "Re z⁺",
-        "std" => "std of v",
-        "smooth" => "smooth ramp",
-        "gap" => "distance",
-        other => other,
+        "std" => "std of v".to_owned(),
+        "smooth" => "smooth ramp".to_owned(),
+        "gap" => "distance".to_owned(),
+        _ => match symbols::latex(name) {
+            symbol if symbol == name => name.to_owned(),
+            symbol => latex(symbol),
+        },
     }
 }
 
 /// The few symbols of the paper that LaTeX writes by commands, as text.
 pub fn latex(symbol: &str) -> String {
-    const WORDS: [(&str, &str); 16] = [
+    const WORDS: [(&str, &str); 18] = [
+        ("Δ ", "Δ"),
+        ("^+", "⁺"),
         ("\\tildeΦ", "Φ̃"),
         ("\\hatΦ", "Φ̂"),
         ("\\tilde a", "ã"),

@@ -58,7 +58,7 @@ pub fn name(key: &str) -> String {
         "run.record" => "what is recorded".to_owned(),
         _ if key.starts_with("map.x.") => format!("horizontal axis: {last}"),
         _ if key.starts_with("map.y.") => format!("vertical axis: {last}"),
-        _ if last.len() <= 2 || symbol(last) != last => symbol(last).to_owned(),
+        _ if last.len() <= 2 || symbol(last) != last => symbol(last),
         _ => last.to_owned(),
     }
 }

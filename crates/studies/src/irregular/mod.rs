@@ -28,7 +28,7 @@ const SHIFTS: [f64; 4] = [1e-4, 1e-3, 1e-2, 0.1];
 /// The waves have grown long before this time, in units of `tau`.
 const BEGIN: f64 = 2000.0;
 /// Number of windows of this length over which statistics are taken.
-const WINDOWS: usize = 40;
+const WINDOWS: usize = 100;
 const WINDOW: f64 = 1000.0;
 /// In every window of irregular waves the least gap is below 0.201, in every one of regular waves above 0.216.
 const IRREGULAR: f64 = 0.21;
