@@ -103,7 +103,7 @@ impl Memory {
         self.next.speeds[from..from + W].copy_from_slice(&speeds.0);
     }
 
-    /// Goes on to the next order of a ring of so many, which is there.
+    /// Advances to the next order, which is known, of a ring of `n` pedestrians.
     #[inline(always)]
     fn advance(&mut self, n: usize) {
         std::mem::swap(&mut self.now, &mut self.next);
