@@ -61,7 +61,7 @@ fn beside(axis: &str, published: &[(f64, f64)], accurate: &[f64], euler: &[f64])
     Ok(table)
 }
 
-/// Every so many of the regenerated numbers.
+/// Interval of the regenerated numbers that are drawn.
 fn curves(place: &str, every: usize, accurate: &[f64], euler: &[f64]) -> Table {
     let mut table = Table::new(&[place, "accurate", "euler"]);
     for (i, (a, b)) in accurate.iter().zip(euler).enumerate().step_by(every) {

@@ -20,7 +20,7 @@ const MOST: u32 = 300;
 /// The states are those from FIRST on, every APART.
 const FIRST: f64 = 2000.0;
 const APART: f64 = 100.0;
-/// Every so many states are drawn.
+/// Interval of the states that are drawn.
 const DRAWN: usize = 3;
 
 fn tables(job: &mut Job) -> Result<(), Failure> {

@@ -18,7 +18,7 @@ fn main() -> ExitCode {
 const TIMES: [(&str, f64); 2] = [("early", 1000.0), ("late", 3000.0)];
 /// The runs: with widening, and that of figure 11.
 const PANELS: [&str; 2] = ["widened", "plain"];
-/// Every so many of the standard deviations.
+/// Interval of the standard deviations that are drawn.
 const EVERY: usize = 5;
 
 fn tables(job: &mut Job) -> Result<(), Failure> {

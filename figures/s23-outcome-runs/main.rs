@@ -17,7 +17,7 @@ const RUNS: [(&str, &str); 3] = [
     ("waves", "$v_0' = 1.1$: waves"),
     ("contact", "$v_0' = 1.3$: contact, at the end"),
 ];
-/// The path of every so many is drawn.
+/// Interval of the pedestrians whose paths are drawn.
 const TRACED: usize = 19;
 
 fn tables(job: &mut Job) -> Result<(), Failure> {

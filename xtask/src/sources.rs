@@ -41,8 +41,8 @@ const NO_SOURCES: [&str; 10] = [
     "data/timing/bench/",
 ];
 
-/// Named hashes: of a file by its name relative to the root, or `run PANEL` with the key of a run. Where a change is to
-/// be told with both values, these stand in place of a hash: `rustc`, `crate NAME`, `key PANEL.TABLE.KEY` of the scene.
+/// Named hashes: of a file by its name relative to the root, or `run PANEL` with the key of a run. If a change is
+/// reported with both values, these replace the hash: `rustc`, `crate NAME`, `key PANEL.TABLE.KEY` of the scene.
 pub type Inputs = BTreeMap<String, String>;
 
 /// How the names of a scene's keys begin among inputs.

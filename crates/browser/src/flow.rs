@@ -9,9 +9,9 @@ use std::f64::consts::PI;
 /// Largest number of a ring's waves that are listed; for larger rings the curve suffices.
 const MOST_WAVES: usize = 500;
 
-/// Of a scene: `speed` of the uniform flow, `uniform_flow` as in `summary.json`, `k` and `rate` (`Re z^+`) of so many
-/// wave numbers in (0, pi], `waves` of its ring with `k` and `rate`, and `error`, the largest change of a rate by a
-/// step of Newton's method. Without a uniform flow with a linear response the last four are null.
+/// For a scene: `speed` of the uniform flow, `uniform_flow` as in `summary.json`, `k` and `rate` (`Re z^+`) for a
+/// number of wave numbers in (0, pi], `waves` of its ring with `k` and `rate`, and `error`, the largest change of a
+/// rate by a step of Newton's method. Without a uniform flow with a linear response the last four are null.
 ///
 /// # Errors
 /// The scene is wrong; see [`complaint`].

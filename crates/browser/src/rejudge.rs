@@ -22,9 +22,9 @@ pub struct Ran {
     pub errors: Errors,
 }
 
-/// Judges on a run in the place of the one that a panel asks for. The first line of the text is the panel, `fig04
-/// unstable`, the others are claims as in `paper/claims.toml`; those that read tables of this run alone are told: `id`,
-/// `says`, `before` and `now` (verdicts), `tests` with `words`, `is`, `outcome`, `value` and `error` (null: not bounded) or
+/// Judges claims on a run that replaces the one of a panel. The first line of the text is the panel, `fig04 unstable`,
+/// the others are claims as in `paper/claims.toml`; those that read only tables of this run are returned: `id`, `says`,
+/// `before` and `now` (verdicts), `tests` with `words`, `is`, `outcome`, `value` and `error` (null: not bounded) or
 /// `problem`.
 ///
 /// # Errors

@@ -115,8 +115,8 @@ pub fn remove(path: &Path) -> Result<(), Failure> {
     }
 }
 
-/// Moves a folder to `to` on the same file system, in place of whatever was there: that goes aside first and is removed
-/// last, so that between two renames alone neither is in the place.
+/// Moves a folder to `to` on the same file system, replacing anything there. The old one is renamed first and removed
+/// last, so only between two renames is neither in place.
 ///
 /// # Errors
 /// The old one cannot be moved aside or removed, or the new one not be renamed: then the old one is back in its place.

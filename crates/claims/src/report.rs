@@ -102,8 +102,8 @@ fn or_infinite<'de, D: Deserializer<'de>>(value: D) -> Result<f64, D::Error> {
     Ok(Option::deserialize(value)?.unwrap_or(f64::INFINITY))
 }
 
-/// The verdict of a claim's tests. A failure of the statement as written is only told apart from a condition when
-/// there are tests under one.
+/// The verdict of a claim's tests. A failure of the statement as written is distinguished from a condition only if
+/// there are tests under the condition.
 pub fn verdict(tests: &[Tested]) -> Verdict {
     verdict_of(&tests.iter().map(|test| (test.under, test.outcome)).collect::<Vec<_>>())
 }

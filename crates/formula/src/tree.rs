@@ -30,7 +30,8 @@ pub(crate) enum Entry {
     Unary(Unary),
     Binary(Binary),
     Ramp,
-    /// The entries that follow, so many, once for every index from the first to the last, added in that order.
+    /// The given number of following entries, evaluated for every index from the first to the last and added in that
+    /// order.
     Sum {
         from: i32,
         to: i32,

@@ -1,4 +1,4 @@
-//! A formula that is a Rust function, written down as a list of operations.
+//! Records a formula that is a Rust function as a list of operations.
 
 use crate::Bound;
 use crate::arena::Arena;
@@ -8,7 +8,7 @@ use math::number::Number;
 use std::cell::RefCell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Writes down what is done with the [`Term`]s that it gives out.
+/// Records the operations on the [`Term`]s that it creates.
 ///
 /// ```
 /// use formula::{Variable, Writer};
@@ -24,7 +24,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 #[derive(Debug, Default)]
 pub struct Writer(RefCell<Arena<Operation>>);
 
-/// A number of which is known how it is computed.
+/// A number that records how it is computed.
 #[derive(Clone, Copy, Debug)]
 pub struct Term<'w> {
     writer: &'w Writer,

@@ -66,7 +66,7 @@ impl Answer {
     }
 }
 
-/// Solutions with so many nodes, to such tolerances. The second is not tried where the first is not finished.
+/// Solutions with the given numbers of nodes and tolerances. The second is not tried if the first does not finish.
 fn pair<T: Real>(question: &Question, cares: [(usize, f64); 2], most_work: u64) -> Answer {
     let solved = |(nodes, tolerance), most_work| {
         solve::<T>(question, Form::Differences, Care { nodes, tolerance, most_work }, FASTEST)

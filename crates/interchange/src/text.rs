@@ -35,7 +35,7 @@ pub fn write(draft: &Draft, header: &Header, rows: impl Iterator<Item = Result<R
 }
 
 /// The comments. PedPy takes the first number in a line that has `framerate` in it, and looks for `x/m` and for `x/cm`
-/// everywhere: words from the scene stand behind the line that says it.
+/// everywhere: texts from the scene come after the line with the frame rate.
 fn comments(header: &Header) -> String {
     let facts: String = header.facts().iter().map(|(name, value)| format!("# {name}: {value}\n")).collect();
     format!("# framerate: {}\n{facts}# ID FR x/m y/m z/m\n", header.rate)

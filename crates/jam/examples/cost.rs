@@ -18,7 +18,7 @@ use math::simd::{Kernel, dispatch};
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Does its work so many times.
+/// Repeats its work the given number of times.
 type Work = Box<dyn FnMut(u64)>;
 
 /// What is measured, and for how many pedestrians.

@@ -104,12 +104,12 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! ## Samples, events, jams, and what became of a run
+//! ## Samples, events, jams, and the outcome of a run
 //!
-//! [`run::Run`] says what is integrated and what is kept; its fields can be replaced. The [`run::Outcome`] holds samples at
-//! regular times, taken from inside the steps; the first overlap, negative speed and exchange of places, to the last bit of
-//! the time ([`events`]); the jams at the end and how fast they travel ([`jams`]); and, if an observer asks for it, what became
-//! of the run ([`outcome`]).
+//! [`run::Run`] says what is integrated and what is kept; its fields can be replaced. The [`run::Outcome`] holds
+//! samples at regular times, taken from inside the steps; the first overlap, negative speed and exchange of places, to
+//! the last bit of the time ([`events`]); the jams at the end and how fast they travel ([`jams`]); and, if an observer
+//! asks for it, the outcome of the run ([`outcome`]).
 //!
 //! ```
 //! # use jam::laws::{Formula, Model};

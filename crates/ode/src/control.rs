@@ -67,7 +67,7 @@ pub(crate) struct Controller {
 const SMALLEST: f64 = 0.2;
 const LARGEST: f64 = 6.0;
 const SAFETY: f64 = 0.9;
-/// An error of so much asks for the smallest factor, whatever the method.
+/// An error of this size leads to the smallest factor for every method.
 const HUGE: f64 = 1e300;
 /// Share of the proportional part, which answers to the change of the error; the rest is integral.
 const PROPORTIONAL: f64 = 0.2;

@@ -1,9 +1,9 @@
 //! Taylor's method: the series of the solution about the start of a step, to an order that suits the tolerance.
 //!
-//! The system gives the coefficients by recurrence ([`crate::System::series`]). The last two of them tell how long the
-//! step may be before it is made, so that none is rejected, and the series itself is the solution inside the step
-//! (A. Jorba, M. Zou, *A software package for the numerical integration of ODEs by means of high-order Taylor methods*,
-//! Experimental Mathematics 14 (2005) 99).
+//! The system gives the coefficients by recurrence ([`crate::System::series`]). The last two of them determine the step
+//! in advance, so that none is rejected, and the series itself is the solution inside the step (A. Jorba, M. Zou, *A
+//! software package for the numerical integration of ODEs by means of high-order Taylor methods*, Experimental
+//! Mathematics 14 (2005) 99).
 
 use crate::control::{Control, Norm};
 use crate::dense::{Ends, Part, Stepper, Trial};
@@ -140,9 +140,9 @@ impl Stepper for Taylor {
         norm.of(&self.defect)
     }
 
-    /// What follows the last order. Of components with a force the defect tells it, which has been found when the step was
-    /// accepted. Of position-like ones two orders are known: the first follows from the last order of speeds, the second from
-    /// what the speeds lack. The first alone may vanish by chance, or by symmetry.
+    /// What follows the last order. For components with a force it follows from the defect, which was computed when the
+    /// step was accepted. For position-like ones two orders are known: the first follows from the last order of speeds,
+    /// the second from what the speeds lack. The first alone may vanish by chance, or by symmetry.
     fn own_error(&mut self, system: &dyn System, ends: &Ends<'_>, error: &mut [f64]) -> bool {
         if !self.has_defect {
             return false;

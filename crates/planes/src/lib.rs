@@ -1,5 +1,5 @@
-//! Planes of outcomes: the program `sweep` ([`command`]), which computes one, a shard of it, or gathers the shards; pictures of
-//! planes ([`picture`]); and what the supplements read from committed planes ([`outcomes`]).
+//! Planes of outcomes: the program `sweep` ([`command`]), which computes a plane or a shard, or gathers shards;
+//! pictures of planes ([`picture`]); and the tables that supplements read from committed planes ([`outcomes`]).
 
 pub mod command;
 pub mod outcomes;

@@ -1,4 +1,4 @@
-//! HTML from templates: text is escaped, unless a filter has made it HTML.
+//! Renders HTML templates. Text is escaped unless a filter has marked it as HTML.
 
 use minijinja::syntax::SyntaxConfig;
 use minijinja::{Environment, UndefinedBehavior};

@@ -1,9 +1,9 @@
 //! Compares what was made with what is committed, on four levels: bytes, numbers, pixels, claims. The runner starts
 //! this program ([`cli`]).
 //!
-//! [`mod@reference`] finds what is committed; [`tables`] with [`numbers`], [`states`], [`moved`] and [`pictures`] compare it
-//! with what was made; [`verdict`] says what that means together, [`words`], [`json`] and [`page`] (by [`html`]) tell it. The ledger is
-//! judged by the crate `claims`. [`bless`] shows the same judgement before it writes.
+//! [`mod@reference`] finds what is committed; [`tables`] with [`numbers`], [`states`], [`moved`] and [`pictures`]
+//! compare it with what was made; [`verdict`] combines the results, and [`words`], [`json`] and [`page`] (by [`html`])
+//! present them. The ledger is judged by the crate `claims`. [`bless`] shows the same judgement before it writes.
 
 pub mod accuracy;
 pub mod attest;

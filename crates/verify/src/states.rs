@@ -1,10 +1,10 @@
 //! Hashes of the state of all pedestrians at checkpoints of each run, to find where two runs part, and with whom.
 //!
 //! `data/states/SCENE.csv` has a line for each checkpoint: `t`; `state`, the first 16 digits of a rolling SHA-256 over
-//! every sample (`t,n,x,v` as in a table of trajectories) from the start up to and with t; and `pedestrians`, four digits
-//! for each pedestrian's sample at t itself. The rolling hash tells whether anything differed up to t, the short ones
-//! who differs at t (one of 65536 is missed). A run that stores no trajectories is made
-//! once more with them.
+//! every sample (`t,n,x,v` as in a table of trajectories) from the start up to and with t; and `pedestrians`, four
+//! digits for each pedestrian's sample at t itself. The rolling hash shows whether anything differed up to t; the short
+//! ones show which pedestrians differ at t (one in 65536 is missed). A run that stores no trajectories is made once
+//! more with them.
 
 use crate::reference::Reference;
 use checkout::disk;

@@ -52,7 +52,7 @@ const SYNTAX: [(&str, u32, &str, &str); 62] = [
     ("\u{221a}a", 0, "root", "sqrt"),
     ("2*\u{3c0}", 2, "Greek", "pi"),
     ("\u{3ba}*a", 0, "`\u{3ba}` (U+03BA)", "ASCII letters"),
-    ("a\u{a0}+ b", 1, "blank", "ordinary blank"),
+    ("a\u{a0}+ b", 1, "blank", "ordinary space"),
     ("a**2", 1, "**", "^"),
     ("{a}", 0, "brace", "( )"),
     ("|a|", 0, "bar", "abs"),
@@ -159,11 +159,11 @@ fn unknown_names_come_with_the_nearest() {
 fn circles_are_named_in_their_order() {
     let texts = [("acceleration", "A - v"), ("A", "2*B"), ("B", "s + C"), ("C", "1 + A"), ("D", "A")];
     let error = graph(&texts, &[]).expect_err("a circle");
-    assert_error(&error, 5, 13, "A -> B -> C -> A", "back to themselves");
+    assert_error(&error, 5, 13, "A -> B -> C -> A", "without circular references");
     let error = graph(&[("acceleration", "s"), ("A", "A + 1")], &[]).expect_err("a circle");
-    assert_error(&error, 3, 9, "A -> A", "back to themselves");
+    assert_error(&error, 3, 9, "A -> A", "without circular references");
     let error = graph(&[("acceleration", "gap"), ("gap", "s - gap")], &[]).expect_err("a circle");
-    assert_error(&error, 3, 13, "gap -> gap", "back to themselves");
+    assert_error(&error, 3, 13, "gap -> gap", "without circular references");
 }
 
 #[test]
@@ -236,8 +236,8 @@ fn texts_are_limited_in_depth_and_size() {
                 .match_indices('a')
                 .nth(if open == "min(a, " { DEEPEST - 1 } else { 0 })
                 .map_or(0, |(at, _)| at as u32);
-        assert_error(&parse(&deep(open, close, DEEPEST)).expect_err(open), 3, column, "deep", "flatter");
-        assert_error(&parse(&deep(open, close, 2000)).expect_err(open), 3, column, "deep", "flatter");
+        assert_error(&parse(&deep(open, close, DEEPEST)).expect_err(open), 3, column, "deep", "less nesting");
+        assert_error(&parse(&deep(open, close, 2000)).expect_err(open), 3, column, "deep", "less nesting");
     }
     let long = format!("a{}", " + a".repeat(LONGEST_TEXT / 4 - 1));
     assert!(parse(&long).is_ok());

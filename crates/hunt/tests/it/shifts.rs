@@ -11,7 +11,7 @@ use reference::formula::Formula;
 use reference::solution::{End, Question, solve};
 use reference::solver::Care;
 
-/// Laws whose force depends on speeds, and the same once more for the reference.
+/// Laws whose force depends on speeds, with the same laws for the reference.
 fn laws() -> [(Model, Formula); 4] {
     let (relative, both) = ((0.4, 0.0), (0.4, 0.1));
     let algebraic = |(delta, a_v): (f64, f64)| {

@@ -1,5 +1,6 @@
-//! Samples that a second run does not confirm: it ends before them, or, by steps of another fixed length, differs from them by
-//! as much as they are large. They are left out, and the run ends by name where the others end.
+//! Samples that a second run does not confirm, because it ends before them or, with fixed steps of another length,
+//! differs from them by as much as their size. They are removed, and the run ends with a named reason after the last
+//! confirmed sample.
 
 use super::second::{SAME_TIME, Second};
 use super::{Errors, ROUNDINGS, errors_of, largest, loses_shift, run_propagated};
@@ -7,8 +8,8 @@ use crate::run::{Broken, Outcome, Run, RunObserver, advice, untried};
 use math::larger;
 use ode::{Control, Failure};
 
-/// The run up to the last sample that its check confirms, with the errors of that; `None` if all are confirmed. What was seen
-/// of the run is seen once more, up to there.
+/// The run up to the last sample that the second run confirms, with its errors; `None` if all samples are confirmed.
+/// Observers see the run again, up to that sample.
 pub fn refused(
     run: &Run,
     outcome: &Outcome,
@@ -33,7 +34,7 @@ pub fn refused(
     Some((Broken { advice: advice(&failure, run), failure, narrowest: None, outcome }, errors))
 }
 
-/// The start is exact but for its rounding.
+/// The start is exact up to rounding.
 fn of_start(outcome: &Outcome) -> Errors {
     Errors {
         std: Some(f64::MIN_POSITIVE),
@@ -45,7 +46,7 @@ fn of_start(outcome: &Outcome) -> Errors {
     }
 }
 
-/// Whether the other run has all the samples. A stop of both may lie on either side of one.
+/// Whether the other run has all the samples. The stop of either run may lie on either side of a sample.
 pub(super) fn reaches(outcome: &Outcome, other: &Outcome) -> bool {
     let missing = outcome.samples.len().saturating_sub(other.samples.len());
     let is_by_chance = outcome.stop().zip(other.stop()).is_some_and(|(stop, other)| {
@@ -55,10 +56,10 @@ pub(super) fn reaches(outcome: &Outcome, other: &Outcome) -> bool {
     missing == 0 || missing == 1 && is_by_chance
 }
 
-/// Stops of both runs that are this near, relative to their time, are one.
+/// Stops of both runs closer than this, relative to their time, count as the same.
 const NEAR: f64 = 1e-6;
 
-/// The time of the last sample that the second run confirms; `None`: that of all.
+/// The time of the last sample that the second run confirms; `None` if it confirms all.
 pub(super) fn until(run: &Run, outcome: &Outcome, second: &Second) -> Option<f64> {
     let other = &second.outcome;
     let is_before_end = |time: &f64| *time < (1.0 - SAME_TIME) * outcome.statistics.time;
@@ -82,8 +83,8 @@ pub(super) fn last_before(outcome: &Outcome, time: f64) -> f64 {
     outcome.samples.times.iter().copied().take_while(|&t| t < time).last().unwrap_or(0.0)
 }
 
-/// The time of the first sample that is off by as much as all before it are large, and by a visible part of the speeds; or that
-/// the other run does not reach, having broken down.
+/// The time of the first sample whose error exceeds all earlier values and a visible part of the speeds, or which the
+/// other run does not reach because it failed.
 fn first_unlike(outcome: &Outcome, Second { outcome: other, factor, .. }: &Second) -> Option<f64> {
     let (samples, others) = (&outcome.samples, &other.samples);
     let visible = VISIBLE * largest(&outcome.speeds);
@@ -101,5 +102,5 @@ fn first_unlike(outcome: &Outcome, Second { outcome: other, factor, .. }: &Secon
     None
 }
 
-/// Smaller standard deviations than this part of the speeds are a flow all but uniform, whatever their error.
+/// With a standard deviation below this part of the speeds, a flow counts as uniform, whatever the error.
 const VISIBLE: f64 = 1e-3;

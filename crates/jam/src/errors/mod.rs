@@ -1,9 +1,10 @@
 //! Error estimates for a run, from a second run with another method or other steps.
 //!
-//! The same method at another tolerance would often take the same steps, those of a short run above all: two runs that are
-//! one differ by nothing. Another method shares neither steps nor coefficients; it is of order 8 and at a smaller tolerance,
-//! so that its own error is the smaller one. Of fixed steps the order tells how the difference and the error compare. Where
-//! it can be, the second run is one in deviations from the uniform flow, in which the start has no rounding.
+//! The same method at another tolerance would often take the same steps, above all in a short run, and identical runs
+//! show no difference. Another method shares neither steps nor coefficients; it is of order 8 and at a smaller
+//! tolerance, so that its own error is the smaller one. For fixed steps the order gives the ratio between the
+//! difference and the error. Where it can be, the second run is one in deviations from the uniform flow, in which the
+//! start has no rounding.
 
 mod confirmed;
 mod propagated;
@@ -67,7 +68,7 @@ pub fn stated(run: &Run) -> Result<(Outcome, Errors), Broken> {
     }
 }
 
-/// Makes a run whose steps are asked for what tells its errors.
+/// Makes a run and collects from its steps the data for its error estimates.
 pub fn run_propagated(run: &Run, observer: &mut dyn RunObserver) -> (Result<Outcome, Broken>, Propagated) {
     let mut propagated = Propagated::new(run);
     let made = run_from(run, None, &mut (observer, &mut propagated));

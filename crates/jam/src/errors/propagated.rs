@@ -47,7 +47,7 @@ pub struct Propagated {
     events: Vec<f64>,
     /// The time at which a shift that spacings lose would have become a visible part of them.
     shows: Option<f64>,
-    /// The last steps that did not tell their errors.
+    /// The last steps without error estimates.
     recent: Recent,
 }
 
@@ -266,7 +266,7 @@ impl Propagated {
         error
     }
 
-    /// The run at the ends of its last steps, if these did not tell their errors.
+    /// The run at the ends of its last steps, if these gave no error estimates.
     pub(super) fn instants(&self, run: &Run) -> Vec<Instant> {
         let is_adaptive = matches!(run.control, Control::Adaptive { .. });
         if is_adaptive { self.recent.instants(run) } else { Vec::new() }

@@ -1,5 +1,5 @@
-//! The last steps of a run by steps of adaptive length, at whose ends a second run is compared with it besides the end of both:
-//! at one instant the errors of two methods may be alike by chance.
+//! The last steps of an adaptive run. A second run is compared with it at the ends of these steps as well as at the end
+//! of the run, since at a single instant the errors of two methods may agree by chance.
 
 use crate::ring::Ring;
 use crate::run::{Run, RunObserver, Sight};
@@ -7,7 +7,7 @@ use crate::states::{RingSystem, StateVariables};
 use ode::Step;
 use std::collections::VecDeque;
 
-/// So many instants are kept.
+/// Number of instants kept.
 const KEPT: usize = 3;
 
 /// States at the ends of the last steps, with their times.
@@ -43,7 +43,7 @@ pub(super) struct Instant {
 }
 
 impl Instant {
-    /// Reads a state; a run in deviations may have gone on in spacings.
+    /// Reads a state; a run in deviations may have continued in spacings.
     fn new(time: f64, state: &[f64], form: StateVariables, run: &Run) -> Instant {
         let Ring { pedestrians, .. } = run.ring;
         let form = form.build(&run.model, run.ring);
@@ -56,7 +56,7 @@ impl Instant {
     }
 }
 
-/// Looks on while the second run is made, and keeps it at the instants of the first. Somebody else may look on, too.
+/// Observes the second run, stores its state at the instants of the first, and passes it on to another observer.
 pub(super) struct Compared<'a> {
     pub run: &'a Run,
     pub first: &'a [Instant],

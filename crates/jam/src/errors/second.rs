@@ -1,4 +1,4 @@
-//! A second run of a run, and what the difference of both tells.
+//! A second run, and the error estimate from the difference between both runs.
 
 use super::recent::{Compared, Instant};
 use super::{CAUTION, Errors, ROUNDINGS, confirmed, has_kinks, largest, largest_std, loses_shift, of_headway};
@@ -7,47 +7,47 @@ use crate::run::{Outcome, Run, RunObserver, has_deviations, run_from};
 use crate::states::StateVariables;
 use ode::{Control, Method};
 
-/// The tolerance of the second run over that of the run: so much smaller that errors of both that are alike, by chance, are
-/// rare; by a method of order 8 that costs little.
+/// The ratio of the second run's tolerance to that of the run. It is small enough that errors of both rarely agree by
+/// chance; with a method of order 8 this costs little.
 const TIGHTER: f64 = 0.1;
 
-/// The same where the run's own method is of such an order.
+/// The same if the run's own method has such an order.
 const TIGHTER_IF_HIGH: f64 = 0.02;
 const HIGH: usize = 8;
 
-/// No second run has a smaller tolerance: rounding may keep it from ever being met.
+/// Least tolerance of a second run; a smaller one may be unattainable because of rounding.
 const TIGHTEST: f64 = 3e-15;
 
-/// Ends of both runs that are this near, relative to the time, are one.
+/// Ends of both runs closer than this, relative to the time, count as the same.
 pub(super) const SAME_TIME: f64 = 1e-9;
 
-/// Errors of two methods may have one sign and agree in part.
+/// Factor on the difference, since errors of two methods may have the same sign and agree in part.
 const AGREEMENT: f64 = 1.5;
 
-/// Errors of higher orders than this do not show as such: kinks and rounding are larger.
+/// Highest order that is visible in an error; beyond it kinks and rounding dominate.
 const HIGHEST_SEEN: usize = 8;
 
 /// The order of steps across a kink.
 const ACROSS_KINKS: usize = 2;
 
-/// Shorter steps of fixed length, where longer ones do not do.
+/// Ratio of shorter fixed steps, used if longer ones fail.
 const SHORTER: f64 = 0.5;
 
-/// The second run, and what became of it.
+/// The second run, and its result.
 pub(super) struct Second {
     form: StateVariables,
-    /// The error of the run over the difference of both.
+    /// The ratio of the run's error to the difference between both runs.
     pub factor: f64,
     pub outcome: Outcome,
-    /// What it is where the last steps of the run end.
+    /// Its states at the ends of the run's last steps.
     instants: Vec<Instant>,
-    /// The right-hand sides of this run, and of one before it that told too little.
+    /// The evaluations of this run, and of an earlier one that gave no estimate.
     evaluations: u64,
 }
 
 impl Second {
-    /// Makes it: of steps of fixed length by longer ones, which cost less, or by shorter ones where those do not confirm the
-    /// run. Somebody may look on.
+    /// Makes the second run. For fixed steps it uses longer ones, which cost less, or shorter ones if the longer do not
+    /// confirm the run. The run can be observed.
     pub fn new(run: &Run, outcome: &Outcome, instants: &[Instant], onlooker: &mut dyn RunObserver) -> Second {
         let step = match run.control {
             Control::Adaptive { tolerance } => return by_tolerance(run, outcome, tolerance, instants, onlooker),
@@ -111,8 +111,8 @@ impl Second {
         }
     }
 
-    /// The rounding of the standard deviation: that of speeds where they are not kept as deviations; none where all motion is
-    /// one to the last bit, and the second run is not.
+    /// The rounding error of the standard deviation: that of the speeds if they are not stored as deviations; none if
+    /// all pedestrians move alike to the last bit and those of the second run do not.
     fn rounding(&self, run: &Run, outcome: &Outcome) -> f64 {
         let shows_all = self.form == StateVariables::Deviations;
         match run.form {
@@ -123,14 +123,14 @@ impl Second {
     }
 }
 
-/// Steps of fixed length may go over the wall of a singular force, which no solution does: what they say of the time tells
-/// when they became too long, and their last state nothing.
+/// Fixed steps may cross the wall of a singular force, which no solution does. The time they report is then that at
+/// which the steps became too long, and their last state is meaningless.
 fn is_through_wall(run: &Run, outcome: &Outcome) -> bool {
     let is_fixed = matches!(run.control, Control::Fixed { .. });
     is_fixed && run.model.is_singular() && outcome.stop().is_some_and(|stop| stop.kind != EventKind::Undefined)
 }
 
-/// By another method at a smaller tolerance.
+/// A run by another method at a smaller tolerance.
 fn by_tolerance(
     run: &Run,
     outcome: &Outcome,
@@ -145,7 +145,7 @@ fn by_tolerance(
     made(&second, AGREEMENT, instants, onlooker)
 }
 
-/// By the same method with steps of so many times the length.
+/// A run by the same method with steps of `ratio` times the length.
 fn by_steps(run: &Run, outcome: &Outcome, [step, ratio]: [f64; 2], onlooker: &mut dyn RunObserver) -> Second {
     let growth = (0..order_seen(run)).fold(1.0, |power: f64, _| power * ratio);
     let second = Run { control: Control::Fixed { step: ratio * step }, ..again(run, outcome) };
@@ -159,7 +159,7 @@ fn made(second: &Run, factor: f64, instants: &[Instant], onlooker: &mut dyn RunO
     Second { form: second.form, factor, instants, evaluations: outcome.statistics.evaluations, outcome }
 }
 
-/// The same run to the time that it reached, in deviations where it can be.
+/// The same run up to the time that it reached, in deviations if possible.
 fn again(run: &Run, outcome: &Outcome) -> Run {
     let is_fixed_series = run.method.needs_series() && matches!(run.control, Control::Fixed { .. });
     let can_deviate = has_deviations(&run.model, run.ring, run.steady_speed) && !is_fixed_series;
@@ -168,7 +168,7 @@ fn again(run: &Run, outcome: &Outcome) -> Run {
     Run { t_end: end(run, outcome), form, ..run.clone() }
 }
 
-/// A run ends with the step in which it finds its last event; a blow-up is no time to end at.
+/// A run ends with the step in which it finds its last event; a blow-up is not a suitable end.
 fn end(run: &Run, outcome: &Outcome) -> f64 {
     let is_blow_up = outcome.events.iter().any(|happening| happening.kind == EventKind::BlowUp);
     if is_blow_up { run.t_end } else { outcome.statistics.time }
@@ -180,8 +180,8 @@ fn order_seen(run: &Run) -> usize {
     run.method.order().min(seen)
 }
 
-/// The second run may take a few times the work of the run, and somewhat more where that is little: much more where the run
-/// has lost its shift, and all motion with it.
+/// The second run may take a few times the work of the run, with a minimum for short runs, and much more if the run has
+/// lost its shift, and with it all motion.
 fn most_steps(run: &Run, outcome: &Outcome) -> u64 {
     const STAGES: u64 = 12;
     const FEW_TIMES: u64 = 4;
@@ -189,7 +189,8 @@ fn most_steps(run: &Run, outcome: &Outcome) -> u64 {
     FEW_TIMES * outcome.statistics.evaluations / STAGES + more
 }
 
-/// What fixed steps, whose sums are not compensated, may gather of roundings: once motion is steady all have one sign.
+/// The rounding error that fixed steps without compensated sums may accumulate: once the motion is steady all roundings
+/// have the same sign.
 fn gathered(run: &Run, outcome: &Outcome) -> f64 {
     match run.control {
         Control::Fixed { .. } => 0.5 * f64::EPSILON * outcome.statistics.steps as f64,
@@ -197,13 +198,13 @@ fn gathered(run: &Run, outcome: &Outcome) -> f64 {
     }
 }
 
-/// The largest difference, and what rounding leaves open.
+/// The largest difference, plus the uncertainty from rounding.
 fn difference(numbers: &[f64], others: &[f64]) -> f64 {
     let differences = numbers.iter().zip(others).map(|(number, other)| (number - other).abs());
     differences.fold(ROUNDINGS * largest(numbers), larger)
 }
 
-/// The difference of the time of an event from that of the same kind, of the same pedestrian if it has it.
+/// The difference between the times of an event in both runs: of the same kind and, if possible, the same pedestrian.
 fn time_error(event: &Event, others: &[Event]) -> Option<f64> {
     let same_kind = || others.iter().filter(|other| other.kind == event.kind);
     let same = same_kind().find(|other| other.pedestrian == event.pedestrian).or_else(|| same_kind().next());

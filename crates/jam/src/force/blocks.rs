@@ -34,8 +34,8 @@ pub enum Pace {
     Wide,
 }
 
-/// Applies the function to everybody in a row. The last one's next entry of the second row is `closing`, on a ring the first;
-/// that row may hold it, too.
+/// Applies the function to all pedestrians of a row. For the last one, the next entry of the second row is `closing`
+/// (on a ring, the first entry), which that row may also contain.
 #[inline(always)]
 pub fn along<B: Block>(block: &B, pace: Pace, first: &[f64], second: &[f64], closing: f64, result: &mut [f64]) {
     let n = first.len();

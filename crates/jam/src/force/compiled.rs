@@ -161,8 +161,8 @@ fn pace<L: Law>(law: &L) -> Pace {
 /// compile than it saves.
 pub(super) const WIDEST: Width = Width::Four;
 
-/// Pedestrians of whom each follows the next; the last one follows somebody of that speed, which may stand behind the others,
-/// too.
+/// Pedestrians each of whom follows the next; the last one follows a pedestrian with the given speed, which may also be
+/// stored after the others.
 #[derive(Clone, Copy)]
 pub(super) struct Row<'a> {
     pub(super) net_gaps: &'a [f64],

@@ -63,7 +63,7 @@ impl Row {
 }
 
 impl Memory {
-    /// Allocates memory for `n` pedestrians, with histories of this size for each block.
+    /// Allocates histories of this size for each block of `n` pedestrians.
     fn reserve(&mut self, n: usize, size: usize) {
         let needed = n.div_ceil(W) * size;
         if self.histories.len() < needed {
@@ -96,14 +96,14 @@ impl Memory {
         [&spacings[from..], &speeds[from..], &speeds[from + 1..]].map(Lanes::of)
     }
 
-    /// Takes the next order of a block.
+    /// Computes the next order of a block.
     #[inline(always)]
     fn put(&mut self, from: usize, spacings: Lanes<W>, speeds: Lanes<W>) {
         self.next.spacings[from..from + W].copy_from_slice(&spacings.0);
         self.next.speeds[from..from + W].copy_from_slice(&speeds.0);
     }
 
-    /// Goes on to the next order of a ring of so many, which is there.
+    /// Advances to the next order, which is known, of a ring of `n` pedestrians.
     #[inline(always)]
     fn advance(&mut self, n: usize) {
         std::mem::swap(&mut self.now, &mut self.next);

@@ -359,7 +359,7 @@ impl Model {
         matches!(self, Model::Formula(_) | Model::Own(_))
     }
 
-    /// How the acceleration answers to spacings and speeds in this uniform flow. `None` where it has no derivative.
+    /// The response of the acceleration to spacings and speeds in this uniform flow. `None` where it has no derivative.
     pub fn response(&self, headway: f64, speed: f64) -> Option<Response> {
         each!(self, law => Some(law.response(headway, speed)), formula => formula.response(headway, speed), own => own.response(headway, speed))
     }

@@ -173,8 +173,8 @@ pub const START: f64 = 20.0;
 /// linearised law is then exact to about as much, and so are its growth rates.
 pub const NEAR_FLOW: f64 = 1e-3;
 
-/// Nearer to the line of stability than this, the linearised law does not tell decay from waves of small amplitude: there
-/// terms of second order, relative [`NEAR_FLOW`], weigh as much.
+/// Closer to the line of stability than this, the linearised law does not distinguish decay from waves of small
+/// amplitude, since terms of second order, relative [`NEAR_FLOW`], have the same size.
 pub const NEAR_LINE: f64 = 1e-4;
 
 /// Speeds that differ by less than this part of the desired speed are no waves.

@@ -19,8 +19,9 @@ pub fn fitting(wanted: Option<StateVariables>, model: &Model, ring: Ring, speed:
     }
 }
 
-/// The method of a run that names none: Taylor's, or `dop853` in positions, which have no series, and where a series would have
-/// to end on kinks: of a formula, and of a law of your own that depends on speeds, of whose kinks nobody knows.
+/// The default method of a run: Taylor's, or `dop853` in positions, which have no series, and where a series would have
+/// to end on kinks, as for formulas with kinks and for a law of your own that depends on speeds, whose kinks are
+/// unknown.
 pub fn usual_method(form: StateVariables, model: &Model) -> Method {
     let has_series = form != StateVariables::Positions;
     let may_meet_kinks = match model {

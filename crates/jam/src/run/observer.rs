@@ -40,7 +40,7 @@ pub enum Judging {
     UntilCertain,
 }
 
-/// A rule for judging looks on, too: it asks for it.
+/// A judge is also an observer: it requests the outcome.
 impl RunObserver for Judging {
     fn judging(&self) -> Judging {
         *self
@@ -58,10 +58,10 @@ pub struct Sight<'a, 'w> {
     pub samples: Option<[f64; 2]>,
 }
 
-/// Nobody looks on.
+/// No observer.
 impl RunObserver for () {}
 
-/// Two look on.
+/// Two observers.
 impl<A: RunObserver, B: RunObserver> RunObserver for (A, B) {
     fn after(&mut self, step: &Step<'_>) {
         self.0.after(step);

@@ -20,7 +20,7 @@ pub fn run(run: &Run) -> Result<Outcome, Broken> {
     run_from(run, None, &mut ())
 }
 
-/// As [`run`], from a checkpoint of the same run, if one is given, to the same bits; an observer looks on.
+/// As [`run`], but observed, and from a checkpoint of the same run if one is given, with the same bits.
 ///
 /// # Errors
 /// As [`run`]; or a checkpoint of a run with another rule for its steps.

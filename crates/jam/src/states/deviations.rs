@@ -74,8 +74,8 @@ impl System for Deviations {
         true
     }
 
-    /// Where the force depends on speeds, the uniform flow has a series like everybody else until it is steady. Else it only
-    /// relaxes: `dV/dt = f(Delta y) - V` with a constant, for other laws with another factor of `V`.
+    /// If the force depends on speeds, the uniform flow has a series like that of a pedestrian until it is steady.
+    /// Otherwise it only relaxes: `dV/dt = f(Delta y) - V` with a constant, for other laws with another factor of `V`.
     fn series(&self, order: usize, unit: f64, coefficients: &mut [f64]) {
         let (n, dimension) = (self.pedestrians, self.dimension());
         let (first, distance, speed) = self.extras();

@@ -1,4 +1,4 @@
-//! Samples that a second run does not confirm, and errors that nobody knows.
+//! Samples that a second run does not confirm, and unknown errors.
 
 use jam::errors::stated;
 use jam::laws::{Algebraic, Logarithmic, Model};
@@ -46,7 +46,7 @@ fn a_shift_that_spacings_lose_is_not_taken_for_a_uniform_flow() {
     assert!((stop.time - 0.1564).abs() < 1e-3 && errors.confirmed_until.is_none(), "{stop:?}");
 }
 
-/// Waves grow from a small shift until two overlap at t = 57.9.
+/// Waves grow from a small shift until two pedestrians overlap at t = 57.9.
 fn growing(method: Method, step: f64) -> Run {
     let law = Logarithmic { v0: 6.04, a_v: 0.00114, epsilon: 0.0314 };
     let ring = Ring { pedestrians: 18, length: 12.34295 };

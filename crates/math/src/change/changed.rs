@@ -1,4 +1,5 @@
-//! A number at a reference together with its changes: what [`Change`](super::Change) finds on a tape, kept beside it.
+//! A number at a reference together with its changes: it carries with it what [`Change`](super::Change) reads from a
+//! tape.
 //!
 //! Sums and products of such numbers are numbers of their kind, so they serve as coefficients of power series: the series
 //! of a formula and of its difference from the reference come from the same recurrences, and no two nearly equal numbers
@@ -10,7 +11,7 @@ use crate::number::Number;
 use crate::series::{Coefficient, sign_of};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A value at the reference, and by how much those of `W` pedestrians differ from it.
+/// A value at the reference, and the differences of `W` pedestrians from it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Changed<const W: usize> {
     /// At the reference.
@@ -87,8 +88,8 @@ impl<const W: usize> Div for Changed<W> {
     }
 }
 
-/// A function of a number: its value, what it keeps of the reference, and its rule for changes. Not part of a kernel:
-/// functions are needed at order 0 only, so that they are compiled once.
+/// A function of a number: its value, the values it stores of the reference, and its rule for changes. It is not part of a kernel:
+/// functions are needed only at order 0, so they are compiled once.
 #[inline(never)]
 fn apply(
     number: f64,
@@ -102,7 +103,7 @@ fn apply(
     value(number)
 }
 
-/// The functions, each with what it keeps and its rule.
+/// The functions, each with the values it stores and its rule.
 macro_rules! functions {
     ($($name:ident, $kept:ident, $rule:ident;)*) => {
         $(#[inline(always)]

@@ -20,7 +20,7 @@ use std::path::PathBuf;
 
 /// In the archive, the folder of the crates that the lock file names.
 const VENDOR: &str = "vendor";
-/// In the archive, what tells cargo of that folder; `.cargo/config.toml` includes it where it exists.
+/// The file in the archive that points cargo to that folder; `.cargo/config.toml` includes it where it exists.
 const VENDORED_CONFIG: &str = ".cargo/vendored.toml";
 /// Documents that belong into the archive when they have been made.
 const DOCUMENTS: [&str; 2] = [DOCUMENT_PDF, PAGE];

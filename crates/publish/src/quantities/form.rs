@@ -46,7 +46,7 @@ impl Form {
         Form { mantissa: mantissa.to_owned(), exponent: Some(exponent) }
     }
 
-    /// Rounded where the error begins, which stands behind it in brackets: one digit, rounded up, in units of the last
+    /// Rounded where the error begins, with the error in brackets after it: one digit, rounded up, in units of the last
     /// place. Without an error above 0, every digit.
     pub fn uncertain(value: f64, error: f64) -> Form {
         if !(error > 0.0 && error.is_finite()) {

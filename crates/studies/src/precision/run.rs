@@ -115,7 +115,7 @@ fn distance(instant: &Instant, state: &[f64]) -> (f64, f64) {
     (gaps.fold(0.0, larger), speeds.fold(0.0, larger))
 }
 
-/// The larger of two numbers; infinite when the second is none, so that no error is lost.
+/// The larger of two numbers; infinite if the second is NaN, so that no error is lost.
 fn larger(a: f64, b: f64) -> f64 {
     if b.is_nan() { f64::INFINITY } else { math::larger(a, b) }
 }

@@ -18,8 +18,7 @@ pub type Distances = [f64; 3];
 
 /// The scene as the reference has it.
 ///
-/// # Errors
-/// There is none of this name.
+/// # Errors No scene has this name.
 pub fn exact_scene() -> Result<Scene, Failure> {
     scene(NAME, Parameters::Doubles).ok_or_else(|| Failure::work(format!("no scene {NAME}")))
 }

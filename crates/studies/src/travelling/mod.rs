@@ -24,7 +24,7 @@ use wave::{Family, Wave, resampled};
 const GAP: f64 = 0.5;
 /// Rings, with the number of places of a profile.
 const RINGS: [(usize, usize); 3] = [(67, 97), (134, 161), (268, 257)];
-/// As many places more tell the error.
+/// Number of additional points that estimate the error.
 const FINER: f64 = 1.5;
 /// The amplitude of the first wave, and by how much that of the second is larger.
 const FIRST: [f64; 2] = [2e-4, 1e-4];
