@@ -4,7 +4,7 @@
 figures *args:
     cargo xtask figures {{args}}
 
-# recompute and judge against the committed reference
+# recompute and compare with the committed reference
 verify *args:
     cargo xtask verify {{args}}
 
@@ -24,7 +24,7 @@ list *args:
 bless *args:
     cargo xtask bless {{args}}
 
-# compute the tables of error against work again and compare them
+# recompute the accuracy tables and compare them
 accuracy *args:
     cargo xtask accuracy {{args}}
 
@@ -32,11 +32,11 @@ accuracy *args:
 report *args:
     cargo xtask report {{args}}
 
-# run a scene of yours
+# run your own scene
 simulate *args:
     cargo xtask simulate {{args}}
 
-# compute the stability map of a scene of yours
+# compute the stability map of your own scene
 map *args:
     cargo xtask map {{args}}
 

@@ -104,7 +104,7 @@ class Setting:
 
 def exponents(quick):
     """Tolerances are ten to the minus these, the loosest first."""
-    return range(6, 15, 2) if quick else range(5, 16)
+    return range(4, 15, 2) if quick else range(3, 16)
 
 
 def series(quick):

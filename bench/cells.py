@@ -45,7 +45,7 @@ def main(options):
     scratch.mkdir(parents=True, exist_ok=True)
     build.system_packages(False, {"odeint"})
     odeint = build.programs(scratch, {"odeint"}, options.march)["odeint"]
-    example = ["cargo", "build", "--release", "-p", "scene", "--example", "cells"]
+    example = ["cargo", "build", "--release", "-p", "sweep", "--example", "cells"]
     build.run(example, "cargo build", cwd=ROOT)
     target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
     cells, states = target / "release" / "examples" / "cells", scratch / "states.csv"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what the checks need and this machine lacks, where that is possible (Debian, as root):
 #   checks/install.sh [compiler] [python] [browser] [wasm] [git] [valgrind] [slurm] [parallel]
-# Exit code 0: all of it is there; 5: something is missing and cannot be installed here; another one: an installation
+# Exit code 0: everything is installed; 5: something is missing and cannot be installed here; other codes: an installation
 # failed.
 set -euo pipefail
 packages=()

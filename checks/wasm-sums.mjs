@@ -2,7 +2,7 @@
 import { readFileSync } from "node:fs";
 
 const module = new WebAssembly.Module(readFileSync(process.argv[2]));
-// what a run of one's own would tell
+// what a user's run would report
 const page = Object.fromEntries(WebAssembly.Module.imports(module).map(({ name }) => [name, () => {}]));
 const instance = new WebAssembly.Instance(module, { page });
 const { memory, figure_count, sums, answer } = instance.exports;

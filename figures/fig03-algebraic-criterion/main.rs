@@ -1,4 +1,4 @@
-//! Figure 3 (fig:rec-models): the criterion of the algebraic models over strength and distance.
+//! Figure 3 (fig:rec-models): the criterion of the algebraic models over strength and gap.
 
 use figures::panels::map_grid;
 use figures::titles;

@@ -1,4 +1,4 @@
-//! Figure 5 (fig:sfm): the criterion of the exponential model over strength and range, for three distances.
+//! Figure 5 (fig:sfm): the criterion of the exponential model over strength and range, for three gaps.
 
 use figures::panels::map_grid;
 use figures::titles;

@@ -1,4 +1,4 @@
-//! Figure 6 (fig:avsfm): as figure 5, with a space requirement that grows with speed (a_v = 0.15).
+//! Figure 6 (fig:avsfm): as figure 5, with velocity-dependent size (a_v = 0.15).
 
 use figures::panels::map_grid;
 use figures::titles;

@@ -1,4 +1,5 @@
-//! Figure 11 (fig:jams): trajectories of 133 pedestrians: speeds and some of them (a), all of them in a window (b).
+//! Figure 11 (fig:jams): trajectories of 133 pedestrians: speeds of all and paths of some (a), paths of all in a window
+//! (b).
 
 use figures::panels::trajectories;
 use figures::{Failure, Job, figure};

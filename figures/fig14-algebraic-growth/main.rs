@@ -1,4 +1,4 @@
-//! Figure 14 (fig:d-k): growth rates of the algebraic models over distance and wave number.
+//! Figure 14 (fig:d-k): growth rates of the algebraic models over gap and wave number.
 
 use figures::panels::map_grid;
 use figures::titles;

@@ -1,4 +1,4 @@
-//! Figure 15 (fig:d-k-exp): growth rates of the exponential model over distance and wave number.
+//! Figure 15 (fig:d-k-exp): growth rates of the exponential model over gap and wave number.
 
 use figures::panels::map_grid;
 use figures::titles;

@@ -1,4 +1,4 @@
-//! Supplement 1: published minus regenerated numbers of figures 12 (t = 300) and 13, with the errors of reading.
+//! Supplement 1: published minus regenerated values of figures 12 (t = 300) and 13, with reading errors.
 
 use figures::panels::points;
 use figures::titles::number;

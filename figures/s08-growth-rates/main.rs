@@ -1,5 +1,5 @@
-//! Supplement 8: growth rates of every wave of the rings of the paper, measured in runs, on the curves of the linear
-//! theory; below them what is left.
+//! Supplement 8: growth rates of every wave on the paper's rings, measured in runs, on the curves of the linear theory;
+//! below them the residuals.
 
 use figures::panels::points;
 use figures::{Failure, Job, figure};

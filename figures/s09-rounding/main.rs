@@ -1,5 +1,5 @@
-//! Supplement 9: what rounding does to Heun's scheme on the stable run of figure 4, against the length of the step; and
-//! the curve of the paper's scheme, steps of 1e-5 in positions, wrapped and unwrapped, beside the solution.
+//! Supplement 9: the effect of rounding on Heun's scheme in the stable run of figure 4, against the step size; and the
+//! curve of the paper's scheme (steps of 1e-5 in positions, wrapped and unwrapped) beside the solution.
 
 use figures::panels::points;
 use figures::titles::number;

@@ -1,5 +1,5 @@
-//! Supplement 10: the published curves of figures 12 (left) and 13 over the regenerated ones, and by which scheme they
-//! were made.
+//! Supplement 10: the published curves of figures 12 (left) and 13 over the regenerated ones, and the schemes that may
+//! have made them.
 
 use figures::panels::points;
 use figures::{Failure, Job, figure};

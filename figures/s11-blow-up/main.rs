@@ -1,5 +1,5 @@
 //! Supplement 11: the blow-up of the unstable algebraic run of figure 4, from the tables of the hard cases: speeds that
-//! double from pedestrian to pedestrian, the smallest gap, and what steps of fixed length report instead.
+//! double from pedestrian to pedestrian, the smallest gap, and what fixed steps report instead.
 
 use figures::panels::points;
 use figures::{Failure, Job, figure};

@@ -1,4 +1,4 @@
-//! Supplement 12: what a pedestrian and step of Heun's scheme costs on rings of 10 to 10^7, from archived timings.
+//! Supplement 12: the cost per pedestrian and step of Heun's scheme on rings of 10 to 10^7, from archived timings.
 
 use figures::panels::points;
 use figures::{Failure, Job, figure};

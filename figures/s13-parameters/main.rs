@@ -1,4 +1,4 @@
-//! Supplement 13: how far the jams of figures 11 to 13 depend on what was chosen.
+//! Supplement 13: how the jams of figures 11 to 13 depend on the choices made.
 
 use figures::{Failure, Job, figure};
 use plot::style::FULL_WIDTH;

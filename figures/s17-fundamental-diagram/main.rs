@@ -1,5 +1,5 @@
-//! Supplement 17: the fundamental diagram. Speed and flow of the uniform flow against the density, the inverse of the
-//! headway, with the part that is unstable; on top the pedestrians of the run of figure 11 when its jams travel steadily.
+//! Supplement 17: the fundamental diagram. It shows speed and flow of the uniform flow against the density (the inverse
+//! of the headway), with the unstable part, and the pedestrians of figure 11's run once its jams travel steadily.
 
 use figures::panels::points;
 use figures::{Failure, Job, figure};

@@ -1,8 +1,8 @@
-//! Supplement 18: what an unstable uniform flow becomes, over planes of parameters. The paper asks for it and looks at three
-//! points. A plane takes minutes, so its table is committed (`data/outcomes`); `checks/outcomes.sh` computes it again.
+//! Supplement 18: the outcome of unstable uniform flows over planes of parameters, of which the paper simulates three
+//! points. A plane takes minutes, so its table is committed (`data/outcomes`); `checks/outcomes.sh` recomputes it.
 
-use figures::outcomes::{self, Titled};
 use figures::{Failure, Job, figure};
+use planes::outcomes::{self, Titled};
 use plot::Picture;
 use plot::style::FULL_WIDTH;
 use std::process::ExitCode;

@@ -1,5 +1,5 @@
-//! Supplement 19: lasting waves of the algebraic law with relative speed, which the paper simulates nowhere: the speeds of
-//! all (a), the standard deviation (b), and how everybody walks in the end (c).
+//! Supplement 19: lasting waves of the algebraic law with relative speed, which the paper does not simulate: the speeds
+//! of all pedestrians (a), the standard deviation (b), and the final paths (c).
 
 use figures::panels::{points, trajectories};
 use figures::{Failure, Job, figure};

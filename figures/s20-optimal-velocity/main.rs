@@ -1,5 +1,6 @@
-//! Supplement 20: the laws as optimal-velocity models. Their `V(s)` with the slope of 1/2 beyond which the uniform flow is
-//! unstable; what the desired speed does to the order of events; a run of the logarithmic law with widening.
+//! Supplement 20: the laws as optimal-velocity models. It shows their `V(s)` with the slope of 1/2 beyond which the
+//! uniform flow is unstable, the effect of the desired speed on the order of events, and a run of the logarithmic law
+//! with widening.
 
 use figures::panels::points;
 use figures::{Failure, Job, figure};

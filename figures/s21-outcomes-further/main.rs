@@ -1,8 +1,8 @@
-//! Supplement 21: what a flow becomes over further planes: of the logarithmic law over start, headway and the axes of figure 10,
-//! of the algebraic law with relative speed over widening. The tables are committed, as those of supplement 18.
+//! Supplement 21: outcomes over further planes: of the logarithmic law over shift, headway and the axes of figure 10,
+//! of the algebraic law with relative speed over widening. The tables are committed, as in supplement 18.
 
-use figures::outcomes::{self, Titled};
 use figures::{Failure, Job, figure};
+use planes::outcomes::{self, Titled};
 use plot::Picture;
 use plot::style::FULL_WIDTH;
 use std::process::ExitCode;

@@ -1,8 +1,8 @@
-//! Supplement 22: what a flow of the exponential law becomes over the planes of figures 5 and 6. The tables of the planes are
-//! committed, as those of supplement 18.
+//! Supplement 22: outcomes of the exponential law over the planes of figures 5 and 6. The tables are committed, as in
+//! supplement 18.
 
-use figures::outcomes::{self, Titled};
 use figures::{Failure, Job, figure};
+use planes::outcomes::{self, Titled};
 use plot::Picture;
 use plot::style::FULL_WIDTH;
 use std::process::ExitCode;

@@ -1,4 +1,5 @@
-//! Supplement 23: a run of each outcome of the logarithmic law, side by side: the speed of all, and the paths of some.
+//! Supplement 23: one run for each outcome of the logarithmic law, side by side: the speeds of all pedestrians and the
+//! paths of some.
 
 use figures::panels::trajectories;
 use figures::{Failure, Job, figure};

@@ -1,5 +1,6 @@
-//! Supplement 24: how the waves of supplement 19 begin: standard deviation of the speeds of travelling waves against the
-//! strength of the force, on rings of 67, 134 and 268 pedestrians (a), and close to the threshold of the ring (b).
+//! Supplement 24: the onset of the waves of supplement 19: the standard deviation of the speeds of travelling waves
+//! against the strength of the force, on rings of 67, 134 and 268 pedestrians (a), and close to the threshold of the
+//! ring (b).
 
 use figures::{Failure, Job, figure};
 use plot::style::COLUMN_WIDTH;

@@ -1,8 +1,9 @@
-//! Supplement 25: what a flow of the algebraic law becomes with widening, over strength and gap, the third class of figure 3; and
-//! over relative speed and strength, between its first class and its second. The tables are committed, as those of supplement 18.
+//! Supplement 25: outcomes of the algebraic law with widening over strength and gap (the third class of figure 3), and
+//! over relative speed and strength (between its first and second class). The tables are committed, as in supplement
+//! 18.
 
-use figures::outcomes::{self, Titled};
 use figures::{Failure, Job, figure};
+use planes::outcomes::{self, Titled};
 use plot::Picture;
 use plot::style::FULL_WIDTH;
 use std::process::ExitCode;

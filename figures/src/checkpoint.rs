@@ -1,4 +1,4 @@
-//! A long run: its progress, and a checkpoint from which it is resumed after a kill.
+//! Progress of a long run, and a checkpoint file from which it is resumed after a kill.
 //!
 //! The file: a line `checkpoint 3 RUN SUM`, then the seconds of CPU so far and the run, as 64-bit words. `RUN` is the
 //! SHA-256 of the program and of the scene, `SUM` that of everything behind the line: what is damaged, cut off or of
@@ -63,16 +63,16 @@ const SILENCE: Duration = Duration::from_secs(1);
 impl CheckpointOptions {
     /// Runs the scene, from the checkpoint if there is one; if it is to be checked, its steps are asked for their errors.
     ///
-    /// # Errors
-    /// The program cannot be read, which a checkpoint has to tell from others.
+    /// # Errors The program cannot be read; its hash identifies the checkpoint.
     pub fn run(&self, scene: &Scene, is_checked: bool) -> Result<Ended, Failure> {
         let clock = ProcessTime::now();
         let mut keeper = CheckpointWriter::new(self, scene)?;
         let (from, before) = keeper.load(scene).unzip();
         let (steps, done) = from.as_ref().map_or((0, 0.0), |from| (from.steps(), from.fraction(scene)));
         keeper.start(done, before.unwrap_or(0.0));
-        let has_errors = is_checked && from.is_none() && scene.method.needs_series();
-        let propagated = has_errors.then(|| Propagated::new(scene));
+        // a checkpoint does not keep the errors before it
+        let is_whole = from.is_none() || !scene.method.needs_series();
+        let propagated = (is_checked && is_whole).then(|| Propagated::new(scene));
         let mut timed = Timed { propagated, spent: Duration::ZERO };
         let (outcome, broken) = match run_from(scene, from, &mut (&mut keeper, &mut timed)) {
             Ok(outcome) => (outcome, None),
@@ -82,6 +82,11 @@ impl CheckpointOptions {
         let own = clock.elapsed().saturating_sub(timed.spent).as_secs_f64();
         let (seconds, propagated) = (before.unwrap_or(0.0) + own, timed.propagated);
         Ok(Ended { outcome, broken, seconds, resumed_steps: steps, propagated })
+    }
+
+    /// Whether the outcome of the run is judged.
+    pub fn judging(&self) -> Judging {
+        if self.no_outcome { Judging::No } else { Judging::Along }
     }
 
     /// Removes the checkpoint of a run whose results are safe.
@@ -127,7 +132,7 @@ impl<'a> CheckpointWriter<'a> {
         Ok(CheckpointWriter { care, run, before, clock, started, done, next_word, next_writing, is_bar_shown: false })
     }
 
-    /// The checkpoint and the seconds before it; `None` when there is none to believe.
+    /// The checkpoint and the seconds before it; `None` without a valid one.
     fn load(&self, scene: &Scene) -> Option<(Checkpoint, f64)> {
         let file = self.care.checkpoint.as_ref().filter(|_| !self.run.is_empty())?;
         let bytes = std::fs::read(file).ok()?;
@@ -137,7 +142,7 @@ impl<'a> CheckpointWriter<'a> {
             .flatten()
             .and_then(|(seconds, words)| Some((Checkpoint::parse(words, scene)?, f64::from_le_bytes(*seconds))));
         if found.is_none() {
-            say(&format!("{}: damaged, or of another run or program; the run starts over", file.display()));
+            say(&format!("{}: damaged, or from another run or program; the run starts over", file.display()));
         }
         found
     }
@@ -153,7 +158,7 @@ impl<'a> CheckpointWriter<'a> {
         }
     }
 
-    /// A checkpoint that cannot be written is told; the run is worth more and goes on.
+    /// A checkpoint that cannot be written is reported; the run continues.
     fn write(&self, underway: &PartialRun<'_>) {
         let Some(file) = &self.care.checkpoint else { return };
         let seconds = self.before + self.clock.elapsed().as_secs_f64();
@@ -186,7 +191,7 @@ impl<'a> CheckpointWriter<'a> {
 
 impl RunObserver for CheckpointWriter<'_> {
     fn judging(&self) -> Judging {
-        if self.care.no_outcome { Judging::No } else { Judging::Along }
+        self.care.judging()
     }
 
     fn between(&mut self, underway: &PartialRun<'_>) {
@@ -204,7 +209,7 @@ impl RunObserver for CheckpointWriter<'_> {
     }
 }
 
-/// A line on stderr. The reader may be gone, as when the runner was killed: the run goes on.
+/// Writes a line to stderr. If there is no reader, as after a kill of the runner, the run continues.
 fn say(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
 }

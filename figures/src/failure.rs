@@ -1,4 +1,4 @@
-//! Failures of a binary, and the exit codes that tell them apart.
+//! Failures of a program and their exit codes.
 
 use files::table::TableError;
 use std::io::Write as _;

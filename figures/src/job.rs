@@ -1,13 +1,11 @@
-//! A figure's binary: tables first, from runs and laws; then the picture, from the tables alone.
+//! The main function of a figure: tables first, from runs and laws; then the picture, from the tables alone.
 
 use crate::failure::{Failure, exit};
-use crate::planes::cells_of;
 use clap::Parser;
 use files::scene_file::{self, Kind, Panel, SceneFile};
 use files::table::{Cell, Sheet, Table};
 use files::write::{atomic, with_path};
 use plot::Picture;
-use scene::sweep::{self, Sweep};
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -19,7 +17,7 @@ struct Arguments {
     /// The scene file
     #[arg(long)]
     scene: PathBuf,
-    /// PANEL=DIR: where the run of a panel lies
+    /// PANEL=DIR: folder of a panel's run
     #[arg(long = "run", value_parser = run_folder)]
     runs: Vec<(String, PathBuf)>,
     /// Folder of the tables
@@ -31,13 +29,10 @@ struct Arguments {
     /// Folder of values from outside
     #[arg(long, default_value = "data/reference")]
     reference: PathBuf,
-    /// Folder of archived timings
-    #[arg(long, default_value = "data/timing")]
-    timing: PathBuf,
     /// File for what is known of the tables' accuracy
     #[arg(long)]
     report: Option<PathBuf>,
-    /// Draw from the tables that are there
+    /// Draw from the existing tables
     #[arg(long)]
     draw_only: bool,
 }
@@ -108,12 +103,17 @@ pub fn finite_csv(name: &str, rows: &Sheet) -> Result<Vec<u8>, Failure> {
 }
 
 impl Job {
+    /// Where the table of this name lies.
+    pub fn table_file(&self, name: &str) -> PathBuf {
+        self.arguments.tables.join(format!("{name}.csv"))
+    }
+
     /// Writes a table under this name.
     ///
     /// # Errors
     /// The file cannot be written.
     pub fn write(&self, name: &str, table: &Table) -> Result<(), Failure> {
-        Ok(atomic(&self.arguments.tables.join(format!("{name}.csv")), &table.to_csv())?)
+        Ok(atomic(&self.table_file(name), &table.to_csv())?)
     }
 
     /// Writes a table that has words, or empty cells, under this name.
@@ -121,7 +121,7 @@ impl Job {
     /// # Errors
     /// It holds a number that is not finite, or the file cannot be written.
     pub fn write_rows(&self, name: &str, rows: &Sheet) -> Result<(), Failure> {
-        Ok(atomic(&self.arguments.tables.join(format!("{name}.csv")), &finite_csv(name, rows)?)?)
+        Ok(atomic(&self.table_file(name), &finite_csv(name, rows)?)?)
     }
 
     /// The same, of a figure with one run, for a table that is not made from it.
@@ -138,7 +138,7 @@ impl Job {
     /// # Errors
     /// It is missing.
     pub fn read_rows(&self, name: &str) -> Result<Sheet, Failure> {
-        Ok(Sheet::read(&self.arguments.tables.join(format!("{name}.csv")))?)
+        Ok(Sheet::read(&self.table_file(name))?)
     }
 
     /// Reads a table of this figure.
@@ -146,7 +146,7 @@ impl Job {
     /// # Errors
     /// It is missing or damaged.
     pub fn read(&self, name: &str) -> Result<Table, Failure> {
-        Ok(Table::read(&self.arguments.tables.join(format!("{name}.csv")))?)
+        Ok(Table::read(&self.table_file(name))?)
     }
 
     /// Reads a table of the run of a panel: `std` or `trajectories`.
@@ -157,14 +157,12 @@ impl Job {
         Ok(Table::read(&self.run_file(panel, name)?)?)
     }
 
-    /// Takes a table of the run of a panel as it is, under the name `target`.
+    /// Copies a table of a panel's run unchanged, under the name `target`.
     ///
     /// # Errors
     /// As [`Job::run_table`], or the copy cannot be written.
     pub fn take(&self, panel: &str, name: &str, target: &str) -> Result<(), Failure> {
-        let file = self.run_file(panel, name)?;
-        let bytes = std::fs::read(&file).map_err(|error| with_path(error, &file))?;
-        Ok(atomic(&self.arguments.tables.join(format!("{target}.csv")), &bytes)?)
+        self.copy(&self.run_file(panel, name)?, target)
     }
 
     /// Takes the standard deviations of all runs, each under the name of its panel.
@@ -187,36 +185,37 @@ impl Job {
     /// # Errors
     /// It is missing or damaged.
     pub fn reference(&self, name: &str) -> Result<Table, Failure> {
-        Ok(Table::read(&self.arguments.reference.join(format!("{name}.csv")))?)
+        Ok(Table::read(&self.committed("reference", name)?)?)
     }
 
-    /// Reads a table of the report of accuracy, which lies beside the values from outside.
+    /// Reads an accuracy table, which is committed.
     ///
     /// # Errors
     /// It is missing.
     pub fn accuracy(&self, name: &str) -> Result<Sheet, Failure> {
-        Ok(Sheet::read(&self.arguments.reference.with_file_name("accuracy").join(format!("{name}.csv")))?)
+        Ok(Sheet::read(&self.committed("accuracy", name)?)?)
     }
 
-    /// The cells of the sweep of a panel, as committed: a plane takes minutes. The table is taken over under the panel's name.
-    ///
-    /// # Errors
-    /// It is missing, or not one of this sweep.
-    pub fn take_outcomes(&self, panel: &str) -> Result<(), Failure> {
-        let file = self.arguments.reference.with_file_name("outcomes").join(format!("{panel}.csv"));
-        let bytes = std::fs::read(&file).map_err(|error| with_path(error, &file))?;
-        self.outcomes(panel, &file, &bytes)?;
-        Ok(atomic(&self.arguments.tables.join(format!("{panel}.csv")), &bytes)?)
-    }
-
-    /// Takes a table that was committed beside the planes, which says how sure they are.
+    /// Takes a table that is committed below `data`, in this folder, as it is.
     ///
     /// # Errors
     /// It is missing, or the copy cannot be written.
-    pub fn take_of_planes(&self, name: &str) -> Result<(), Failure> {
-        let file = self.arguments.reference.with_file_name("outcomes").join(format!("{name}.csv"));
-        let bytes = std::fs::read(&file).map_err(|error| with_path(error, &file))?;
-        Ok(atomic(&self.arguments.tables.join(format!("{name}.csv")), &bytes)?)
+    pub fn take_committed(&self, folder: &str, name: &str) -> Result<(), Failure> {
+        self.copy(&self.committed(folder, name)?, name)
+    }
+
+    /// A committed table, which the scene must name: a figure is stale when one of those has changed.
+    fn committed(&self, folder: &str, name: &str) -> Result<PathBuf, Failure> {
+        let table = format!("{folder}/{name}");
+        match self.recipe.reads.contains(&table) {
+            true => Ok(self.arguments.reference.with_file_name(table + ".csv")),
+            false => Err(Failure::input(format!("{}: reads: must name {table}", self.recipe.file))),
+        }
+    }
+
+    fn copy(&self, file: &Path, target: &str) -> Result<(), Failure> {
+        let bytes = std::fs::read(file).map_err(|error| with_path(error, file))?;
+        Ok(atomic(&self.table_file(target), &bytes)?)
     }
 
     /// States how a table was computed, for the manifest.
@@ -224,28 +223,12 @@ impl Job {
         self.report.insert(name.to_owned(), json!({ "method": method }));
     }
 
-    /// The sweep of a panel, and its cells from the table of this figure.
-    ///
-    /// # Errors
-    /// As [`Job::take_outcomes`].
-    pub fn plane(&self, panel: &str) -> Result<(Sweep, Vec<sweep::Cell>), Failure> {
-        let file = self.arguments.tables.join(format!("{panel}.csv"));
-        let bytes = std::fs::read(&file).map_err(|error| with_path(error, &file))?;
-        self.outcomes(panel, &file, &bytes)
-    }
-
-    fn outcomes(&self, panel: &str, file: &Path, bytes: &[u8]) -> Result<(Sweep, Vec<sweep::Cell>), Failure> {
-        let sweep = sweep::read(&self.recipe.file, &self.panel(panel)?.tables)?;
-        let cells = cells_of(&file.display().to_string(), &String::from_utf8_lossy(bytes), &sweep)?;
-        Ok((sweep, cells))
-    }
-
     /// Reads a table of archived timings: seconds are measured once, on one machine, and kept.
     ///
     /// # Errors
     /// It is missing or damaged.
     pub fn timing(&self, name: &str) -> Result<Table, Failure> {
-        Ok(Table::read(&self.arguments.timing.join(format!("{name}.csv")))?)
+        Ok(Table::read(&self.committed("timing", name)?)?)
     }
 
     /// Reads a table of archived timings that has words.
@@ -253,7 +236,7 @@ impl Job {
     /// # Errors
     /// It is missing.
     pub fn timing_rows(&self, name: &str) -> Result<Sheet, Failure> {
-        Ok(Sheet::read(&self.arguments.timing.join(format!("{name}.csv")))?)
+        Ok(Sheet::read(&self.committed("timing", name)?)?)
     }
 
     /// The panel of this name.

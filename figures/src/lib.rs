@@ -1,17 +1,13 @@
-//! What the figures' binaries share: the command line and where tables and pictures go ([`job`]), panels that several
-//! figures draw ([`panels`], [`planes`], [`outcomes`]) and their titles ([`titles`]), exit codes ([`failure`]); and the programs for scenes of
-//! one's own ([`simulate`] with [`checkpoint`], [`map`]); the contact sheet of published laws ([`gallery`]).
+//! What the programs of the figures share: the command line and the output folders ([`job`]), panels used by several
+//! figures ([`panels`]) and their titles ([`titles`]), exit codes ([`failure`]); the programs
+//! for user scenes ([`simulate`] with [`checkpoint`], [`map`]).
 
 pub mod checkpoint;
 pub mod failure;
-pub mod gallery;
 pub mod job;
 pub mod map;
-pub mod outcomes;
 pub mod panels;
-pub mod planes;
 pub mod simulate;
-pub mod sweep;
 pub mod titles;
 pub mod uniform;
 

@@ -1,4 +1,4 @@
-//! Panels that several figures draw.
+//! Panels used by several figures.
 
 use crate::failure::Failure;
 use crate::job::Job;

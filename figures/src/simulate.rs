@@ -1,4 +1,4 @@
-//! Running a scene from the command line: tables, events and a summary.
+//! Runs a scene from the command line: tables, events and a summary.
 
 use crate::checkpoint::CheckpointOptions;
 use crate::failure::{Failure, print};
@@ -7,7 +7,7 @@ use crate::uniform;
 use files::scene_file::{self, Kind};
 use files::table::Table;
 use files::write::atomic_all;
-use jam::errors::{self, Errors};
+use jam::errors::Errors;
 use jam::events::Event;
 use jam::outcome::{Decision, Verdict};
 use jam::run::Outcome;
@@ -55,7 +55,7 @@ pub struct Arguments {
     /// File for the final state: n, x, v
     #[arg(long, value_name = "FILE")]
     state: Option<PathBuf>,
-    /// The scheme: as the scene says, or the paper's (Heun, steps of 1e-5, positions)
+    /// The scheme of the scene, or the paper's (Heun, steps of 1e-5, positions)
     #[arg(long, value_parser = ["adaptive", "paper"], default_value = "adaptive")]
     scheme: String,
     /// Run by another method at a tighter tolerance, to estimate the error
@@ -85,14 +85,13 @@ fn methods() -> String {
 
 /// Runs the scene and writes what was asked for.
 ///
-/// # Errors
-/// A bad scene or option (nothing is written); a run that cannot go on, whose tables are written; a file that cannot be
-/// written.
+/// # Errors A bad scene or option (nothing is written); a run that cannot continue (its tables are written); a file
+/// that cannot be written.
 pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     let scene = read_scene(arguments)?;
     let is_checked = !(arguments.no_check || arguments.check);
-    let ended = arguments.care.run(&scene, is_checked)?;
-    let errors = is_checked.then(|| errors::errors_of(&scene, &ended.outcome, ended.propagated.as_ref(), &mut ()));
+    let mut ended = arguments.care.run(&scene, is_checked)?;
+    let errors = is_checked.then(|| ended.checked(&scene, &mut (), &mut arguments.care.judging()));
     let errors = errors.as_ref();
     let flow = stability(&scene);
     let summary = summary::of_run(&scene, &ended, flow, errors);
@@ -295,7 +294,7 @@ fn in_words(
     text
 }
 
-/// What became of the run, in a line.
+/// The outcome of the run, in one line.
 fn fate(verdict: &Verdict) -> String {
     let Verdict { class, time, decision, .. } = verdict;
     match decision {

@@ -1,22 +1,14 @@
-//! What stands in titles, legends and labels: the paper's symbols with the numbers of the scene.
+//! Titles, legends and labels: the paper's symbols with the numbers of the scene.
 
 use files::reader::{Section, Value};
 use files::scene_file::Panel;
+use files::symbols;
 
 /// The paper's symbol of a parameter, in the markup of labels without its dollars.
 pub fn symbol(parameter: &str) -> &str {
     match parameter {
-        "mu" => "\\mu",
-        "delta" => "\\delta",
-        "a_v" => "\\tilde a_v",
-        "v0" => "v_0'",
-        "d_gap" => "d'",
-        "headway" => "\\Delta y",
         "k" => "\\text{wave number }k",
-        "epsilon" => "\\varepsilon",
-        "shift" => "\\epsilon_1",
-        "pedestrians" => "N",
-        other => other,
+        other => symbols::latex(other),
     }
 }
 

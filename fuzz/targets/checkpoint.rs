@@ -1,4 +1,4 @@
-//! Checkpoints: bytes that a killed run left, of any contents, are those of the scene or are not taken.
+//! Checkpoints: the bytes that a killed run left, whatever they are, belong to the scene or are rejected.
 
 use files::scene_file;
 use jam::run::Checkpoint;

@@ -1,4 +1,4 @@
-//! The manifest: what is read as one is written as the same; what is not says where.
+//! The manifest: what is accepted is written back unchanged; an error says where it is.
 
 use checkout::manifest;
 

@@ -1,4 +1,4 @@
-//! Every kept input once more: for plain `cargo test`, without a fuzzer.
+//! Replays every stored input, for plain `cargo test` without a fuzzer.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! Runs: a scene that is accepted, if it is small, runs to its end, stops with an event or says why it cannot go on.
+//! Runs: a small scene that is accepted runs to its end, stops with an event, or reports why it cannot continue.
 
 use files::scene_file::{self, Kind};
 use jam::run::Samples;

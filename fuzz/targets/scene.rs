@@ -1,4 +1,4 @@
-//! Scene files: whatever stands in one, it is accepted or refused with a line that exists and words that name the key.
+//! Scene files: any text is accepted, or refused with an existing line and a message that names the key.
 
 use files::reader::SceneError;
 use files::scene_file::{self, Kind, Panel, SceneFile};
@@ -33,7 +33,7 @@ fn accepted(recipe: &SceneFile, text: &str) {
             Kind::Curve => scene::curve::table(&recipe.file, &panel.tables).map(|table| {
                 assert!(table.rows().flatten().all(|number| number.is_finite()), "{table:?}");
             }),
-            Kind::Sweep => scene::sweep::read(&recipe.file, &panel.tables).map(|_| ()),
+            Kind::Sweep => sweep::read(&recipe.file, &panel.tables).map(|_| ()),
             Kind::Drawing => Ok(()),
         };
         tables.unwrap_or_else(|error| refused(&error, text));

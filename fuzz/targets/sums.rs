@@ -1,4 +1,4 @@
-//! Lists of sums: what is read as one is written as a list that reads back as the same.
+//! Lists of sums: what is accepted is written back as an equal list.
 
 use checkout::sums::{State, Sums};
 

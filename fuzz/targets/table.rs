@@ -1,4 +1,4 @@
-//! Tables: what is read as one is written as CSV that reads back as the same.
+//! Tables: what is accepted is written as CSV that reads back as the same table.
 
 use files::table::{Table, TableError};
 

@@ -1,4 +1,4 @@
-//! Starting a program and waiting for it.
+//! Starts a program and waits for it.
 
 use crate::lock;
 use checkout::disk;
@@ -21,14 +21,14 @@ const PATIENCE: Duration = Duration::from_millis(2);
 pub struct Usage {
     /// Seconds on a processor.
     pub cpu: f64,
-    /// Largest resident memory, in bytes; 0 where the system does not tell.
+    /// Largest resident memory, in bytes; 0 where the system does not report it.
     pub memory: u64,
 }
 
-/// What a program says on stderr of the part of its work that is done, 0 to 1.
+/// The progress that a program reports on stderr, 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Message {
-    /// It goes on where another one was killed: `resumed 0.40`.
+    /// It continues where a killed program stopped: `resumed 0.40`.
     Resumed(f64),
     /// It has come so far: `progress 0.42`, perhaps with the seconds that are left: `progress 0.42 left 17`.
     Progress(f64),
@@ -47,7 +47,7 @@ impl Message {
     }
 }
 
-/// Runs a program with its words in the file `log`, except those about progress, which go to `heard`; kills it when
+/// Runs a program with its output in the file `log`, except for progress reports, which go to `heard`; kills it when
 /// `stop` becomes true.
 ///
 /// # Errors
@@ -62,7 +62,7 @@ pub fn run_logged(
     run_measured(command, log, stop, heard).map(|_| ())
 }
 
-/// As [`run_logged`]; tells what the program used.
+/// As [`run_logged`]; also returns the resources that the program used.
 ///
 /// # Errors
 /// As [`run_logged`].

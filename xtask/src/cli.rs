@@ -137,7 +137,7 @@ pub struct VerifyArgs {
     /// Write an HTML page of the differences
     #[arg(long, value_name = "FILE.html")]
     pub report: Option<PathBuf>,
-    /// Append machine, toolchain and sums to data/attestations.jsonl unless they are there
+    /// Append machine, toolchain and sums to data/attestations.jsonl unless already listed
     #[arg(long, conflicts_with_all = ["ids", "budget"])]
     pub attest: bool,
     /// Compute nothing: compare a receipt, copied from the page in a browser, with the committed sums

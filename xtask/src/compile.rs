@@ -1,4 +1,4 @@
-//! Building programs: those of the figures only when a source has changed, the others when a verb needs them.
+//! Builds programs: those of the figures only when a source has changed, the others when a verb needs them.
 
 use crate::sources::{Inputs, Sources};
 use checkout::disk;
@@ -28,17 +28,20 @@ pub struct Package {
     pub name: &'static str,
     /// Programs beside those of figures.
     pub tools: &'static [&'static str],
-    /// Whether its figures are the supplements.
-    pub supplements: bool,
+    /// Whether its figures are the supplements; `None` if it makes no figure.
+    pub supplements: Option<bool>,
 }
 
 /// The figures of the paper, and what runs scenes.
-pub const FIGURES: Package = Package { name: "figures", tools: &["simulate", "map", "sweep"], supplements: false };
+pub const FIGURES: Package = Package { name: "figures", tools: &["simulate", "map"], supplements: Some(false) };
+/// Planes of outcomes.
+pub const PLANES: Package = Package { name: "planes", tools: &["sweep"], supplements: None };
 /// The supplements, and the tables of accuracy.
-pub const STUDIES: Package = Package { name: "studies", tools: &["precision", "hard", "studies"], supplements: true };
+pub const STUDIES: Package =
+    Package { name: "studies", tools: &["precision", "hard", "studies"], supplements: Some(true) };
 
 /// Removes what is built of our own sources.
-const CLEAN: &str = "clean --quiet --release --locked -p math -p ode -p jam -p files -p scene -p plot -p reference -p figures -p studies";
+const CLEAN: &str = "clean --quiet --release --locked -p math -p ode -p jam -p files -p scene -p sweep -p plot -p reference -p figures -p planes -p studies";
 
 /// What was built: the hashes of the sources, and size and date of each program, so that one that was built by hand since
 /// then is not taken for ours.
@@ -63,7 +66,7 @@ impl Package {
     }
 
     fn programs(self, all: &[Figure]) -> impl Iterator<Item = &str> {
-        let figures = all.iter().filter(move |figure| figure.is_supplement() == self.supplements);
+        let figures = all.iter().filter(move |figure| Some(figure.is_supplement()) == self.supplements);
         self.tools.iter().copied().chain(figures.map(|figure| figure.slug.as_str()))
     }
 
@@ -128,7 +131,7 @@ pub fn tools(paths: &Paths, package: Package) -> Result<(), Failure> {
 }
 
 /// Builds a program that no figure is made by (`verify`, `publish`, ...) and gives the command that starts it on this
-/// checkout. Cargo sees by itself when there is nothing to do.
+/// checkout. Cargo finds out when there is nothing to do.
 ///
 /// # Errors
 /// Unsupported: no cargo. Failed: the build fails.
@@ -148,7 +151,7 @@ fn cargo(paths: &Paths, words: &str) -> Result<(), Failure> {
     })
 }
 
-/// Whether the fonts that the pictures embed are there, byte for byte.
+/// Whether the fonts of the pictures exist with the expected bytes.
 ///
 /// # Errors
 /// Unsupported: one is missing or damaged, with its name. Failed: one cannot be read.

@@ -1,4 +1,4 @@
-//! Chooses the figures that fit into a budget of time.
+//! Chooses the figures that fit into a time budget.
 
 use crate::child::Usage;
 use crate::plan::{self, Node, Wish};
@@ -25,8 +25,8 @@ pub struct Choice<'a> {
     pub seconds: f64,
 }
 
-/// The figures that fit into `budget` seconds on so many threads, the cheapest first: by the seconds of the last runs
-/// here, where there are none by the committed ones. A program of which neither is known does not fit.
+/// The figures that fit into `budget` seconds on the given number of threads, the cheapest first. Seconds are those of
+/// the last runs on this machine, or else the committed ones. A program for which neither is known does not fit.
 ///
 /// # Errors
 /// A stored run cannot be read.

@@ -1,4 +1,4 @@
-//! Conditions for making a document about the figures: they are up to date, and they are the committed ones.
+//! Preconditions of documents about the figures: the figures are up to date, and they are the committed ones.
 
 use crate::record::{self, FigureState, Records};
 use crate::sources::Sources;
@@ -15,8 +15,8 @@ use std::process::Command;
 /// Problems named in a message; the rest is counted.
 const SHOWN: usize = 5;
 
-/// Checks that the figures of the paper are fresh, that each of their outputs has the committed sum, and that so have the
-/// committed pictures of the supplements. Runs nothing.
+/// Checks that the figures of the paper are up to date, and that their outputs and the committed pictures of the
+/// supplements have the committed sums. Runs nothing.
 ///
 /// # Errors
 /// Stale: a figure is older than what it is made from, or was never made. Differs: a file has another sum.

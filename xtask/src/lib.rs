@@ -1,4 +1,5 @@
-//! The runner: it builds the figures' programs, starts them in the right order, and has others judge what they wrote.
+//! The runner: it builds the programs of the figures, starts them in the right order, and has another program judge
+//! their outputs.
 //!
 //! It links no physics, no judging and no publishing. `verbs` holds the verbs of the command line; the modules beside it
 //! are what they share. Data flows `sources -> record -> plan -> pool -> work -> measured`.

@@ -1,4 +1,4 @@
-//! The lock: one run at a time in one target folder.
+//! The lock: one run at a time in a target folder.
 
 use checkout::disk;
 use checkout::failure::Failure;
@@ -18,7 +18,7 @@ pub struct Lock {
 }
 
 impl Lock {
-    /// Takes the lock; says so on stderr when it has to wait for another run.
+    /// Takes the lock; reports on stderr if it has to wait for another run.
     ///
     /// # Errors
     /// The lock file cannot be written or locked.
@@ -35,7 +35,7 @@ impl Lock {
         match file.try_lock() {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => {
-                eprintln!("waiting for another cargo xtask that works in this folder");
+                eprintln!("waiting for another cargo xtask in this folder");
                 file.lock().map_err(Failure::at(&path))?;
             }
             Err(TryLockError::Error(error)) => return Err(Failure::at(&path)(error)),

@@ -1,4 +1,4 @@
-//! `cargo xtask VERB`: reads the command line, runs the verb, turns its end into an exit code.
+//! `cargo xtask VERB`: reads the command line, runs the verb, and turns its result into an exit code.
 
 use checkout::failure::Failure;
 use checkout::paths::Paths;

@@ -1,4 +1,4 @@
-//! Measurements of each figure once it is made: the errors of its runs, for the manifest, and their events.
+//! Measures each figure that was made: the errors of its runs, for the manifest, and their events.
 
 use crate::estimate::{self, Estimate};
 use crate::pins::{CRATE, RUSTC};
@@ -33,8 +33,8 @@ impl Measured {
         let errors = self.entries.iter().flat_map(|(name, entry)| entry.error.iter().map(move |error| (name, error)));
         let flagged = errors.filter(|(_, (_, error))| is_flagged(**error));
         let words = |(name, (column, error)): (&String, (&String, &Option<f64>))| match error {
-            Some(error) => format!("error of {name}, column {column}: {error:.1e} of the drawn range"),
-            None => format!("error of {name}, column {column}: unknown, the check says nothing"),
+            Some(error) => format!("error of {name}, column {column}: {error:.1e} of the data range"),
+            None => format!("error of {name}, column {column}: unknown: the second run gives no estimate"),
         };
         flagged.map(words).collect()
     }
@@ -46,7 +46,7 @@ impl Measured {
     }
 }
 
-/// What a figure's binary says of its tables (`--report`).
+/// The report of a figure's program on its tables (`--report`).
 #[derive(Debug, Default, Deserialize)]
 struct Report {
     #[serde(default)]
@@ -67,8 +67,7 @@ struct TableReport {
 /// Measures one figure that is up to date. `estimates` has every run of it by key; `scenes` gives the scene under which
 /// a run's events are listed, by key.
 ///
-/// # Errors
-/// An output, or what the binary said of it, cannot be read.
+/// # Errors An output or the program's report on it cannot be read.
 pub fn measure(
     paths: &Paths,
     survey: &FigureState<'_>,

@@ -1,4 +1,4 @@
-//! The WebAssembly module that the page carries: built where the compiler, or Debian's, can.
+//! Builds the WebAssembly module of the page where the compiler, or Debian's, can.
 
 use checkout::failure::Failure;
 use checkout::paths::Paths;
@@ -8,7 +8,7 @@ use std::process::Command;
 
 /// What it is built for.
 const TARGET: &str = "wasm32-unknown-unknown";
-/// The profile of the workspace that it is built with.
+/// The profile with which it is built.
 const PROFILE: &str = "page";
 /// Two doubles at a time, which every browser of the last years can; the bits stay.
 const FEATURES: &str = "-Ctarget-feature=+simd128";
@@ -51,14 +51,14 @@ pub fn compiler(paths: &Paths) -> Option<Compiler> {
     (has_sources && process::first_line(DEBIAN_LINKER, &["--version"]).is_some()).then_some(Compiler::Debian)
 }
 
-/// Whether a folder holds the standard library: the compiler names it whether it is there or not.
+/// Whether a folder holds the standard library: the compiler names it whether it exists or not.
 fn has_library(folder: &Path) -> bool {
     let is_std = |name: &str| name.starts_with("libstd-") && name.ends_with(".rlib");
     let mut files = std::fs::read_dir(folder).into_iter().flatten().flatten();
     files.any(|file| file.file_name().to_str().is_some_and(is_std))
 }
 
-/// Builds the module; `None`, with a word on stderr, where nobody can.
+/// Builds the module; `None`, with a message on stderr, if no compiler can.
 ///
 /// # Errors
 /// Failed: it does not compile.
@@ -92,7 +92,7 @@ fn flags(paths: &Paths) -> Vec<String> {
     std::iter::once(FEATURES.to_owned()).chain(folders.into_iter().filter_map(short)).collect()
 }
 
-/// To build its library, a released compiler must be told that it may.
+/// A released compiler needs this permission to build the library from source.
 fn debian(cargo: &mut Command) {
     cargo.arg("-Zbuild-std=std,panic_abort");
     cargo.env("RUSTC_BOOTSTRAP", "1").env("RUSTC", DEBIAN_COMPILER);

@@ -1,5 +1,5 @@
-//! The inputs of a build from outside: the compiler, and the crates of the lock file. As named texts, so that a change can
-//! be told with both versions.
+//! Inputs of a build from outside: the compiler, and the crates of the lock file. They are stored as named texts, so
+//! that a change can be reported with both versions.
 
 use crate::sources::Inputs;
 use checkout::disk;

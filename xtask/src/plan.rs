@@ -1,4 +1,4 @@
-//! The plan: what has to be done, in which order.
+//! The plan: what to do, and in which order.
 
 use crate::pool::Job;
 use crate::record::FigureState;
@@ -50,8 +50,8 @@ pub struct Wish {
     pub measure: bool,
 }
 
-/// The nodes that fulfil the wishes (one for each figure surveyed). Runs that are stored and sound are not done again
-/// unless `force`; a run that several figures share stands once, under the name of the first.
+/// The nodes that fulfil the wishes (one for each figure surveyed). Runs that are stored and intact are not repeated
+/// unless `force`; a run that several figures share appears once, under the name of the first.
 ///
 /// # Errors
 /// A stored run cannot be read.

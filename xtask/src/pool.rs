@@ -1,4 +1,4 @@
-//! Nodes at work in parallel: longest first, none before what it needs.
+//! Runs nodes in parallel: the longest first, and none before its inputs.
 
 use checkout::failure::Failure;
 use std::any::Any;
@@ -19,7 +19,7 @@ pub struct Job {
 /// How a node ended.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome<T> {
-    /// Well, with what it made.
+    /// Success, with its result.
     Done(T),
     /// Badly.
     Failed(Failure),
@@ -83,7 +83,7 @@ pub fn run<T: Send>(
     outcomes
 }
 
-/// Waits for the heaviest job that may start; `None` when there is none left.
+/// Waits for the heaviest job that may start; `None` if no job is left.
 fn take(jobs: &[Job], phases: &Mutex<Vec<Phase>>, changed: &Condvar, stop: &AtomicBool) -> Option<usize> {
     let mut phases = guard(phases);
     loop {
@@ -116,10 +116,10 @@ fn lose_dependents(jobs: &[Job], phases: &mut [Phase]) {
     }
 }
 
-/// What a panic said.
+/// The message of a panic.
 fn words_of(panic: &(dyn Any + Send)) -> &str {
     let text = panic.downcast_ref::<String>().map(String::as_str);
-    text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("a panic without words")
+    text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("a panic without a message")
 }
 
 /// A thread that panicked leaves the phases as they were before its change: they stay usable.

@@ -1,4 +1,4 @@
-//! Progress of the nodes at work, on stderr: one line that changes on a terminal, else a plain line now and then.
+//! Shows progress on stderr: one changing line on a terminal, plain lines elsewhere.
 
 use crate::child::Message;
 use checkout::print::duration;
@@ -26,7 +26,7 @@ pub struct Track {
 }
 
 impl Track {
-    /// Seconds that are left if it goes on as it went; `None` before it has come anywhere.
+    /// Estimated remaining seconds at the present rate; `None` before any progress.
     pub fn left(&self) -> Option<f64> {
         (self.done > self.from).then(|| self.seconds * (1.0 - self.done) / (self.done - self.from))
     }
@@ -56,7 +56,7 @@ impl ProgressDisplay {
         ProgressDisplay { inner: Mutex::new(inner), is_terminal: std::io::stderr().is_terminal() }
     }
 
-    /// Takes down what a node says, and shows it when it is time to. Returns at once.
+    /// Records the progress of a node, and shows it when an update is due. Returns at once.
     pub fn hear(&self, node: &str, word: Message) {
         let mut inner = self.inner.lock().unwrap_or_else(PoisonError::into_inner);
         let now = Instant::now();
@@ -99,7 +99,7 @@ impl Default for ProgressDisplay {
     }
 }
 
-/// A word that nobody can read any more is no reason to stop.
+/// An error on stderr, as when its reader is gone, is ignored.
 fn say(text: &str) {
     let _ = std::io::stderr().write_all(text.as_bytes());
 }

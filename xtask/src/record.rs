@@ -1,4 +1,4 @@
-//! Records of the inputs from which each figure was last made, and the reasons why it is stale.
+//! Records of the inputs from which each figure was last made, and the reasons why a figure is stale.
 
 use crate::measured::Measured;
 use crate::pins::{CRATE, RUSTC};
@@ -22,9 +22,9 @@ pub struct Record {
     pub inputs: Inputs,
     /// Every output with its hash.
     pub outputs: Hashes,
-    /// Hash of what its binary said of its accuracy; empty when it said nothing.
+    /// Hash of its program's report on accuracy; empty without a report.
     pub report: String,
-    /// What the manifest says of it, once its runs were compared with their checks.
+    /// Its manifest entries, once its runs have been compared with their second runs.
     pub measured: Option<Measured>,
 }
 
@@ -35,7 +35,7 @@ impl Record {
     }
 }
 
-/// All figures as they were made, by folder of tables (which tells the schemes apart).
+/// All figures as they were made, by folder of tables (which distinguishes the schemes).
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Records {
     /// By the name of the folder of tables, `data/fig04`.
@@ -56,11 +56,10 @@ fn sum(records: &Records) -> Result<String, Failure> {
 }
 
 impl Records {
-    /// Reads the records; none when there is no file, one of another form, or one that is not as it was written (then
-    /// everything counts as stale): what it says of errors and events would go into the manifest.
+    /// Reads the records. Without a file, or if it is malformed or not as it was written, there are none and everything
+    /// counts as stale, since the errors and events in it would enter the manifest.
     ///
-    /// # Errors
-    /// None at present.
+    /// # Errors Failed: the records cannot be serialised.
     pub fn read(paths: &Paths) -> Result<Records, Failure> {
         let sealed: Sealed = serde_json::from_str(&disk::read_own(&paths.state())).unwrap_or_default();
         let is_whole = sum(&sealed.records)? == sealed.sha256;
@@ -83,7 +82,7 @@ impl Records {
     }
 }
 
-/// A figure, what it is made from now, and why it is stale.
+/// A figure, its present inputs, and the reasons why it is stale.
 #[derive(Clone, Debug)]
 pub struct FigureState<'a> {
     /// The figure.
@@ -118,14 +117,14 @@ pub fn survey<'a>(
         if let Some(record) = record.filter(|record| paths.scheme == Scheme::Adaptive && record.measured.is_none())
             && report(paths, figure)? != record.report
         {
-            reasons.push("what it said of its accuracy is not as recorded".to_owned());
+            reasons.push("its stated accuracy differs from the record".to_owned());
         }
         Ok(FigureState { figure, runs, inputs, outputs, reasons })
     };
     figures.iter().zip(made).map(look).collect()
 }
 
-/// The hash of what a figure's binary said of its accuracy; empty when it said nothing.
+/// The hash of a program's report on accuracy; empty without a report.
 ///
 /// # Errors
 /// It cannot be read.
@@ -153,7 +152,7 @@ pub fn scenes(paths: &Paths, all: &[Figure], numeric: &str) -> BTreeMap<String, 
 /// Why a figure is stale: each input and output that is not as recorded.
 pub fn reasons(record: Option<&Record>, inputs: &Inputs, outputs: &Hashes) -> Vec<String> {
     let Some(record) = record else {
-        return vec!["not made here before".to_owned()];
+        return vec!["has not been made here yet".to_owned()];
     };
     let made_from = changes(&record.inputs, inputs, ["changed", "is gone", "is new"]);
     let made = changes(&record.outputs, outputs, ["was edited", "is missing", "was not made by the figure"]);
@@ -180,7 +179,7 @@ fn values(name: &str, old: &Inputs, new: &Inputs) -> String {
     }
 }
 
-/// What kind of input a name stands for.
+/// The kind of input that a name denotes.
 pub fn kind(name: &str) -> &'static str {
     match name {
         RUSTC => "toolchain",

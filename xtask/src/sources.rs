@@ -22,7 +22,7 @@ const NUMERIC_SOURCES: [&str; 8] = [
     "figures/Cargo.toml",
 ];
 /// Sources that every figure shares.
-const SHARED_SOURCES: [&str; 10] = [
+const SHARED_SOURCES: [&str; 9] = [
     "crates/formula/",
     "crates/math/",
     "crates/ode/",
@@ -32,11 +32,9 @@ const SHARED_SOURCES: [&str; 10] = [
     "crates/plot/",
     "figures/src/",
     "figures/Cargo.toml",
-    "data/reference/",
 ];
 /// Sources that supplements share: no figure of the paper reads them.
-const SUPPLEMENT_SOURCES: [&str; 5] =
-    ["crates/reference/", "crates/studies/", "data/accuracy/", "data/outcomes/", "data/timing/"];
+const SUPPLEMENT_SOURCES: [&str; 4] = ["crates/planes/", "crates/reference/", "crates/studies/", "crates/sweep/"];
 /// Folders that are searched for sources.
 const SOURCE_FOLDERS: [&str; 6] =
     ["crates", "figures", "data/accuracy", "data/outcomes", "data/reference", "data/timing"];
@@ -103,20 +101,32 @@ impl Sources {
 
     /// What determines the numbers of a run besides its scene.
     pub fn numeric(&self) -> String {
-        let mut inputs = self.below(&[&NUMERIC_SOURCES[..], &SINGLE_SOURCES].concat());
-        inputs.extend(self.pins.clone());
-        hashing::digest(&inputs)
+        hashing::digest(&self.numbers_from(&[]))
     }
 
-    /// What a figure is made from: shared sources, its own folder, and its runs by panel and key.
+    /// What determines the numbers of a plane besides its scene.
+    pub fn sweep(&self) -> String {
+        hashing::digest(&self.numbers_from(&["crates/sweep/"]))
+    }
+
+    /// What a figure is made from: shared sources, its own folder, the committed tables that its scene names, and its runs by
+    /// panel and key.
     pub fn figure(&self, figure: &Figure, runs: &[(String, String)]) -> Inputs {
         let folder = Paths::figure_folder(&figure.slug);
         let supplement = if figure.is_supplement() { &SUPPLEMENT_SOURCES[..] } else { &[] };
         let starts = [&SHARED_SOURCES[..], &SINGLE_SOURCES, supplement, &[folder.as_str()]].concat();
         let mut inputs = self.below(&starts);
+        let reads = figure.recipe.iter().flat_map(|recipe| &recipe.reads).map(|name| Paths::table(name));
+        inputs.extend(reads.filter_map(|name| Some((name.clone(), self.files.get(&name)?.clone()))));
         inputs.extend(self.pins.clone());
         inputs.extend(self.keys.get(&figure.slug).cloned().unwrap_or_default());
         inputs.extend(runs.iter().map(|(panel, key)| (format!("run {panel}"), key.clone())));
+        inputs
+    }
+
+    fn numbers_from(&self, more: &[&str]) -> Inputs {
+        let mut inputs = self.below(&[&NUMERIC_SOURCES[..], &SINGLE_SOURCES, more].concat());
+        inputs.extend(self.pins.clone());
         inputs
     }
 

@@ -1,4 +1,4 @@
-//! Stored runs: a folder for each, named by the hash of what determines the run, with a list of sums written last.
+//! Stored runs: one folder for each, named by the hash of its inputs, with a list of sums that is written last.
 
 use checkout::disk;
 use checkout::failure::Failure;
@@ -30,8 +30,8 @@ pub fn fresh(paths: &Paths, key: &str) -> PathBuf {
     paths.store().join(files::write::draft_name(key))
 }
 
-/// Whether the stored run is there and every byte of it is as it was stored. The list must name every file: one that
-/// lost its end would otherwise let the files it no longer names pass.
+/// Whether the stored run exists and every byte of it is unchanged. The list must name every file: one that lost its
+/// end would otherwise let the files it no longer names pass.
 ///
 /// # Errors
 /// A file of it cannot be read.
@@ -48,14 +48,14 @@ pub fn is_sound(folder: &Path) -> Result<bool, Failure> {
         && hashes.iter().zip(sums.by_name.values()).all(|(found, listed)| found.as_ref() == Some(listed)))
 }
 
-/// Stores the run that lies in `fresh`: writes its sums, then moves it into its place.
+/// Stores the run in the folder `fresh`: writes its sums, then moves the folder into the store.
 ///
 /// # Errors
 /// The run wrote nothing, or the folder cannot be read, written or moved.
 pub fn adopt(fresh: &Path, folder: &Path) -> Result<(), Failure> {
     let names = disk::names(fresh)?;
     if names.is_empty() {
-        return Err(Failure::Failed(format!("{}: the run wrote nothing", fresh.display())));
+        return Err(Failure::Failed(format!("{}: the run wrote no files", fresh.display())));
     }
     let paths: Vec<PathBuf> = names.iter().map(|name| fresh.join(name)).collect();
     let hashes = hashing::hash_all(&paths)?;

@@ -1,4 +1,4 @@
-//! Carries out a plan: starts programs, puts their outputs in place, shows progress on stderr.
+//! Carries out a plan: starts programs, moves their outputs into place, and shows progress on stderr.
 
 use crate::child::{self, Message, Usage};
 use crate::plan::{Node, Step};
@@ -33,8 +33,8 @@ pub struct Made {
     pub bytes: u64,
 }
 
-/// Carries out the nodes on at most `threads` at a time; `made` is called for each that ends well, as it ends. Failures
-/// are told on stderr at once.
+/// Carries out the nodes on at most `threads` threads; `made` is called for each that succeeds, as it ends. Failures
+/// are reported on stderr at once.
 ///
 /// # Errors
 /// Those of `made`; the failures of nodes are in the outcomes.
@@ -249,8 +249,7 @@ impl Ends {
 
 /// The code to end with when nodes have failed: that of the first.
 ///
-/// # Errors
-/// The failure of the first node that failed, its text told already.
+/// # Errors The failure of the first node that failed; its text has already been reported.
 pub fn verdict<T>(nodes: &[Node], outcomes: &[Outcome<T>]) -> Result<(), Failure> {
     let failed = nodes.iter().zip(outcomes).find_map(|(node, outcome)| match outcome {
         Outcome::Failed(failure) => Some((node, failure)),

@@ -1,6 +1,6 @@
-//! The C functions of the module. A function that answers with text or bytes keeps them and returns their length;
-//! [`answer`] says where they lie, until the next call. A negative length is that of an error message. What a function
-//! reads is written to where [`room`] says before it is called.
+//! The C functions that the module exports. A function that answers with text or bytes keeps them and returns their
+//! length; [`answer`] returns their address, which is valid until the next call. A negative length announces an error
+//! message. Input is written to the address that [`room`] returns before the call.
 #![allow(unsafe_code, reason = "an exported name is `unsafe` since two of the same would clash; nothing else here is")]
 
 use crate::compute::Tables;
@@ -49,7 +49,7 @@ pub extern "C" fn table(figure: usize, table: usize) -> isize {
     keep(bytes)
 }
 
-/// Makes room for a text of so many bytes, which the next call reads; where it is.
+/// Allocates a buffer of the given size for the input of the next call, and returns its address.
 #[unsafe(no_mangle)]
 pub extern "C" fn room(length: usize) -> *mut u8 {
     let mut given = lock(&GIVEN);
@@ -63,7 +63,7 @@ pub extern "C" fn stability(count: usize) -> isize {
     with_given(|text| flow::of(text, count))
 }
 
-/// Runs the scene in the room and tells the page as it goes; the answer is JSON, see [`simulate::run`].
+/// Runs the scene in the buffer and reports progress to the page; the answer is JSON, see [`simulate::run`].
 #[unsafe(no_mangle)]
 pub extern "C" fn run() -> isize {
     with_given(|text| {
@@ -88,7 +88,7 @@ pub extern "C" fn sum() -> isize {
     keep(Ok(files::write::sha256(&lock(&GIVEN)).into_bytes()))
 }
 
-/// Where the answer to the last call lies.
+/// The address of the answer to the last call.
 #[unsafe(no_mangle)]
 pub extern "C" fn answer() -> *const u8 {
     lock(&ANSWER).as_ptr()

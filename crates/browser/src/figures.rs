@@ -1,4 +1,4 @@
-//! Which table comes from what: the one place that says so for this crate.
+//! Which run, map or curve each table comes from. No other module of this crate repeats it.
 
 /// A figure: its id, its scene file, its tables.
 #[derive(Clone, Copy, Debug)]

@@ -1,4 +1,4 @@
-//! Small waves on the uniform flow of a scene: growth rates over the wave number, the margin, the verdict.
+//! Small waves on the uniform flow of a scene: growth rate against wave number, stability margin, verdict.
 
 use crate::given::{FILE, complaint, panel};
 use scene::run::Scene;
@@ -6,12 +6,12 @@ use scene::{summary, uniform::stability};
 use serde_json::{Value, json};
 use std::f64::consts::PI;
 
-/// As many waves of a ring are told one by one; of larger rings the curve tells enough.
+/// Largest number of a ring's waves that are listed; for larger rings the curve suffices.
 const MOST_WAVES: usize = 500;
 
-/// Of a scene: `speed` of the uniform flow, `uniform_flow` as in `summary.json`, `k` and `rate` (`Re z^+`) of so many wave numbers in (0, pi],
-/// `waves` of its ring with `k` and `rate`, and `error`, the largest change of a rate by a step of Newton's method.
-/// Without a uniform flow that answers to waves the last four are null.
+/// Of a scene: `speed` of the uniform flow, `uniform_flow` as in `summary.json`, `k` and `rate` (`Re z^+`) of so many
+/// wave numbers in (0, pi], `waves` of its ring with `k` and `rate`, and `error`, the largest change of a rate by a
+/// step of Newton's method. Without a uniform flow with a linear response the last four are null.
 ///
 /// # Errors
 /// The scene is wrong; see [`complaint`].

@@ -1,4 +1,4 @@
-//! The scene that a page gives: the text of a scene file with `[run]`, and what is told of one that is wrong.
+//! The scene that the page passes in: the text of a scene file with `[run]`, or the reason why it is invalid.
 
 use files::reader::SceneError;
 use files::scene_file::{self, Kind};

@@ -1,7 +1,8 @@
-//! What a page computes in WebAssembly, without a file system and without a clock: all tables of the figures (the scene
-//! files are built in, [`figures`]; the tables come out as bytes, [`compute`]), and a reader's own scene ([`given`]): its
-//! stability ([`flow`]) its run ([`simulate`]), and the claims of the paper on this run ([`rejudge`]). A few C functions are what a browser or Node calls ([`exports`]), a few
-//! others what they are told by ([`page`]).
+//! What the page computes in WebAssembly, without a file system or a clock. It computes all tables of the figures (the
+//! scene files are built in, [`figures`]; [`compute`] returns tables as bytes). For a reader's own scene ([`given`]) it
+//! computes the stability ([`flow`]), the run ([`simulate`]), and the claims of the paper judged on this run
+//! ([`rejudge`]). A browser or Node calls the C functions of [`exports`]; the module calls those of [`page`] to report
+//! progress.
 
 pub mod compute;
 pub mod exports;

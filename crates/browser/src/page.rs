@@ -1,4 +1,4 @@
-//! Functions that the module imports from the page, which follows a run with them. Outside of WebAssembly they do
+//! Functions that the module imports from the page to report the progress of a run. Outside WebAssembly they do
 //! nothing.
 #![allow(unsafe_code, reason = "a foreign function is declared in an `unsafe` block; these are safe to call")]
 

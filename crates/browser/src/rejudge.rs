@@ -1,4 +1,4 @@
-//! The claims of the paper, judged anew on the tables of a run that began from one of its scenes.
+//! Judges the claims of the paper again, on the tables of a run that started from one of the paper's scenes.
 
 use crate::compute::at;
 use crate::figures::{Content, Entry, FIGURES};
@@ -18,7 +18,7 @@ use serde_json::{Value, json};
 pub struct Ran {
     /// Its tables and events.
     pub outcome: Outcome,
-    /// Those of positions and speeds are those at the end; they stand for all samples here.
+    /// The errors of positions and speeds are those at the end, used for all samples.
     pub errors: Errors,
 }
 
@@ -84,7 +84,7 @@ fn determinants(id: &str, panel: &str) -> Result<String, String> {
     Ok(parsed.panel(panel).map_err(|error| error.to_string())?.determinants())
 }
 
-/// A table of the run; nothing where the run does not keep what it holds.
+/// A table of the run; `None` if the run does not record its contents.
 fn sheet(entry: &Entry, ran: &Ran) -> Option<Sheet> {
     let Ran { outcome, errors } = ran;
     let table = match entry.content {

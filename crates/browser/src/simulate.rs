@@ -1,4 +1,4 @@
-//! A run of a scene that somebody watches: samples and events as they come, the summary at the end.
+//! Runs a scene for a viewer: samples and events are passed on as they occur, the summary at the end.
 
 use crate::given::{FILE, complaint, panel};
 use crate::rejudge::Ran;
@@ -15,7 +15,7 @@ use serde_json::{Value, json};
 
 /// Hears of a run as it goes.
 pub trait Hearer {
-    /// A sample: `t`, the standard deviation, then `x` of everybody and `v` of everybody, if the scene keeps them.
+    /// A sample: `t`, the standard deviation, then `x` and `v` of all pedestrians, if the scene records them.
     fn sample(&mut self, numbers: &[f64]);
     /// An event: `event`, `t` and `n` as JSON.
     fn event(&mut self, event: &str);
@@ -23,8 +23,8 @@ pub trait Hearer {
     fn checking(&mut self);
 }
 
-/// Runs a scene as `cargo xtask simulate` does, to the same bits: what `summary.json` says (without the seconds: nobody
-/// has a clock here), and `sums` with the SHA-256 of each table.
+/// Runs a scene as `cargo xtask simulate` does, to the same bits: the contents of `summary.json` (without the seconds,
+/// since there is no clock here), and `sums` with the SHA-256 of each table.
 ///
 /// # Errors
 /// The scene is wrong; see [`complaint`].
@@ -40,9 +40,9 @@ pub fn run_kept(text: &str, hearer: &mut dyn Hearer) -> Result<(Value, Ran), Val
     let panel = panel(text)?;
     let scene = scene::run::read(FILE, &panel.tables).map_err(|error| complaint(&error))?;
     let mut watch = Watch { numbers: Vec::new(), hearer };
-    let ended = end(&scene, &mut watch);
+    let mut ended = end(&scene, &mut watch);
     watch.hearer.checking();
-    let errors = errors::errors_of(&scene, &ended.outcome, ended.propagated.as_ref(), &mut ());
+    let errors = ended.checked(&scene, &mut (), &mut Judging::Along);
     let mut told = summary::of_run(&scene, &ended, stability(&scene), Some(&errors));
     let mut sums = json!({ "std.csv": sha256(&tables::std(&ended.outcome.samples).to_csv()) });
     if scene.keeps_trajectories {
@@ -55,14 +55,14 @@ pub fn run_kept(text: &str, hearer: &mut dyn Hearer) -> Result<(Value, Ran), Val
     Ok((told, Ran { outcome: ended.outcome, errors }))
 }
 
-/// Runs to the end, with the errors that the steps tell where the method has them.
+/// Runs to the end, with the errors estimated by the steps if the method provides them.
 fn end(scene: &Scene, watch: &mut Watch<'_>) -> Ended {
     let (made, propagated) = errors::run_propagated(scene, watch);
     let (outcome, broken) = match made {
         Ok(outcome) => (outcome, None),
         Err(broken) => (*broken.outcome.clone(), Some(broken)),
     };
-    Ended { outcome, broken, seconds: 0.0, resumed_steps: 0, propagated }
+    Ended { outcome, broken, seconds: 0.0, resumed_steps: 0, propagated: Some(propagated) }
 }
 
 /// Tells what is seen.

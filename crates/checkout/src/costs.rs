@@ -1,4 +1,5 @@
-//! The costs of each program of a verification: `data/costs.csv`, measured by `verify --costs`, one program at a time.
+//! The costs of each program in a verification (`data/costs.csv`), measured by `verify --costs`, which runs one program
+//! at a time.
 
 use crate::disk;
 use crate::failure::Failure;

@@ -1,4 +1,4 @@
-//! Files and folders, with errors that name the path.
+//! Operations on files and folders whose errors name the path.
 
 use crate::failure::Failure;
 use std::fs;
@@ -40,7 +40,7 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     files::write::atomic(path, bytes).map_err(Failure::failed)
 }
 
-/// The text of a file of the runner's own, which can be made again: empty when there is none, or none that can be read.
+/// The text of a file of the runner, which can be made again: empty if it does not exist or cannot be read.
 pub fn read_own(path: &Path) -> String {
     let is_file = path.metadata().is_ok_and(|data| data.is_file());
     if is_file { fs::read_to_string(path).unwrap_or_default() } else { String::new() }
@@ -69,7 +69,7 @@ pub fn own_folder(path: &Path) -> Result<(), Failure> {
     create_folder(path)
 }
 
-/// Removes what has the name of a file that is going to be written and is none, so that a file can take its place.
+/// Removes anything that is not a file from the path of a file that will be written.
 ///
 /// # Errors
 /// It cannot be removed.
@@ -99,7 +99,7 @@ pub fn create_folder(path: &Path) -> Result<(), Failure> {
     fs::create_dir_all(path).map_err(Failure::at(path))
 }
 
-/// Removes a file or a folder with everything in it; it is no error when there is none.
+/// Removes a file or a folder with everything in it; it is not an error if it does not exist.
 ///
 /// # Errors
 /// It cannot be removed.
@@ -157,7 +157,7 @@ pub fn names(folder: &Path) -> Result<Vec<String>, Failure> {
     Ok(names)
 }
 
-/// Every file below `folder`, sorted; `enter` says which folders are looked into, by their name.
+/// All files below `folder`, sorted; `enter` selects the folders to search, by name.
 ///
 /// # Errors
 /// A folder cannot be read.

@@ -1,4 +1,4 @@
-//! Events of runs as their tables have them.
+//! Events of runs, read from and written to their tables.
 
 use crate::disk;
 use crate::failure::Failure;

@@ -16,7 +16,7 @@ pub enum Failure {
     Failed(String),
     /// The machine lacks a font, a tool or the toolchain (5).
     Unsupported(String),
-    /// A program that has said itself why it failed; its exit code is passed on.
+    /// A program failed and has already reported why; its exit code is passed on.
     Child(i32),
 }
 

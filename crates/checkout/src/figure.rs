@@ -1,4 +1,4 @@
-//! The figures of the checkout, and how a user names them.
+//! The figures in the checkout, and the names by which a user selects them.
 
 use crate::disk;
 use crate::failure::Failure;

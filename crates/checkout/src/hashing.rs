@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-/// Hashes one file; `None` when there is none.
+/// Hashes a file; `None` if it does not exist.
 pub type HashOne = dyn Fn(&Path) -> Result<Option<String>, Failure> + Sync;
 
 /// The hashes of files, in the order of `paths`; `None` for what is not there or no file.

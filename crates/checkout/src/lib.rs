@@ -1,6 +1,6 @@
-//! The checkout as the runner and the programs about the result see it: where things lie ([`paths`]), the figures and how
-//! a user names them ([`figure`]), what they write ([`outputs`]) and what is committed of it ([`sums`], [`manifest`],
-//! [`events`]). No physics; nothing here judges or starts a figure.
+//! The checkout as the runner and the judging and publishing programs see it: where files lie ([`paths`]), the figures
+//! and the names by which a user selects them ([`figure`]), what they write ([`outputs`]) and what of it is committed
+//! ([`sums`], [`manifest`], [`events`]). This crate contains no physics, judges nothing and starts no figure.
 
 pub mod costs;
 pub mod disk;

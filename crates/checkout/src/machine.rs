@@ -7,7 +7,7 @@ use std::env::consts;
 use std::path::Path;
 use std::process::Command;
 
-/// What tells machines and toolchains apart.
+/// The properties that distinguish machines and toolchains.
 pub fn facts() -> [(&'static str, String); 3] {
     [("processor", processor()), ("system", system()), ("rustc", rustc())]
 }

@@ -1,4 +1,4 @@
-//! The manifest: provenance and error of each output. It has no time and no commit.
+//! The manifest: provenance and error of each output. It contains neither a time nor a commit.
 
 use crate::disk;
 use crate::failure::Failure;
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// Errors above this part of the drawn range are flagged: at a hundred million parts nothing shows in a picture, but a
+/// Errors above this part of the data range are flagged: at a hundred million parts nothing shows in a picture, but a
 /// method that works stays far below.
 pub const FLAGGED_ABOVE: f64 = 1e-8;
 
@@ -26,7 +26,7 @@ pub struct Entry {
     pub binary: String,
     /// Hash of the sources of that program.
     pub sources: String,
-    /// Hash of what the lock file says of the crates that the program is built from.
+    /// Hash of the lock file's entries for the crates from which the program is built.
     pub lock: String,
     /// Hash of the scene file.
     pub scene: String,
@@ -36,7 +36,7 @@ pub struct Entry {
     /// Method, tolerance (or step) and counts of that run (or the method that the figure's binary names).
     #[serde(flatten)]
     pub counts: BTreeMap<String, Value>,
-    /// Error estimate of each column as a part of its drawn range; `null` when there is none.
+    /// Error estimate of each column as a part of its drawn range; `null` without one.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub error: BTreeMap<String, Option<f64>>,
     /// Rows that only the run or only its check has.

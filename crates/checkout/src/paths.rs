@@ -1,4 +1,4 @@
-//! The paths that several crates share.
+//! The paths that several crates use.
 
 use crate::failure::Failure;
 use clap::ValueEnum;
@@ -16,7 +16,7 @@ pub enum Scheme {
     Paper,
 }
 
-/// Places of the checkout. Names with `/` are relative to the root, as they stand in SHA256SUMS.
+/// Paths of the checkout. Names with `/` are relative to the root, as in SHA256SUMS.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Paths {
     /// The folder of the checkout.
@@ -49,7 +49,7 @@ pub const EVENTS: &str = "data/events.csv";
 pub const TOLERANCES: &str = "data/tolerances.toml";
 /// What each program costs, by name.
 pub const COSTS: &str = "data/costs.csv";
-/// Who got which bits, by name.
+/// Machines and their bits, by name.
 pub const ATTESTATIONS: &str = "data/attestations.jsonl";
 /// What the ledger is written by hand from: claims, errata, parameters.
 pub const LEDGER_SOURCES: [&str; 3] = ["paper/claims.toml", "paper/errata.toml", "paper/parameters.toml"];
@@ -148,7 +148,7 @@ impl Paths {
         self.base.join(name)
     }
 
-    /// The folder of generated data; temporary folders of a run that was broken off lie here.
+    /// The folder of generated data, which also holds temporary folders of interrupted runs.
     pub fn data(&self) -> PathBuf {
         self.base.join("data")
     }
@@ -206,7 +206,7 @@ impl Paths {
         if self.base == self.root { self.target.join("store") } else { self.base.join("store") }
     }
 
-    /// From where a run that was killed goes on.
+    /// The checkpoint from which a killed run is resumed.
     pub fn checkpoint(&self, key: &str) -> PathBuf {
         self.store().join(format!("{key}.checkpoint"))
     }
@@ -259,7 +259,7 @@ impl Paths {
         self.own().join("log").join(format!("{}.txt", node.replace([' ', '/'], "-")))
     }
 
-    /// What a figure's binary says of its tables.
+    /// The report of a figure's program on its tables.
     pub fn report(&self, id: &str) -> PathBuf {
         let name = match self.scheme {
             Scheme::Adaptive => format!("{id}.json"),

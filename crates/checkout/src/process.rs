@@ -1,4 +1,4 @@
-//! Starts programs that share the terminal, or reads one line of their output.
+//! Starts programs that share the terminal, and reads single lines from the output of others.
 
 use crate::failure::Failure;
 use std::io::ErrorKind;
@@ -7,8 +7,7 @@ use std::process::{Command, Stdio};
 
 /// Runs a program that shares our stdout and stderr.
 ///
-/// # Errors
-/// It cannot be started; or it ended badly and has said why itself.
+/// # Errors It cannot be started; or it failed and has reported why.
 pub fn run_shown(command: &mut Command) -> Result<(), Failure> {
     let name = command.get_program().to_string_lossy().into_owned();
     let status = command.status().map_err(|error| not_started(&name, &error))?;

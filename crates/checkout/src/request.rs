@@ -1,4 +1,5 @@
-//! A request of the runner to the program `verify`: the figures that were made, their runs, and the folder with their outputs.
+//! A request from the runner to the program `verify`: which figures were made, from which runs, and where their outputs
+//! lie.
 
 use crate::failure::Failure;
 use crate::figure::{self, Figure};
@@ -8,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// The file by which it is told.
+/// The file that contains the request.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Request {
     /// What the names of outputs are relative to.

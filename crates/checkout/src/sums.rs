@@ -1,4 +1,4 @@
-//! Lists of sums in the form of GNU coreutils: 64 hexadecimal digits, two blanks, a name.
+//! Lists of checksums in the format of GNU coreutils: 64 hexadecimal digits, two spaces, a name.
 
 use crate::disk;
 use crate::failure::Failure;
@@ -25,7 +25,7 @@ pub fn record(list: &Path, name: &str, hash: &str) -> Result<(), Failure> {
     disk::write_if_changed(list, sums.to_text().as_bytes())
 }
 
-/// What a comparison of one file says.
+/// The result of comparing one file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {
     /// The same bytes.
@@ -53,8 +53,8 @@ impl State {
 impl Sums {
     /// Parses a list; `file` is only for messages.
     ///
-    /// # Errors
-    /// Usage: a line of another form, a name that leaves the root or has control characters, or one that stands twice; with its number.
+    /// # Errors Usage: a line of another form, a name that leaves the root or has control characters, or a repeated
+    /// name; with the line number.
     pub fn parse(file: &str, text: &str) -> Result<Sums, Failure> {
         let mut by_name = BTreeMap::new();
         for (index, line) in text.lines().enumerate() {
@@ -113,7 +113,7 @@ impl Sums {
     }
 }
 
-/// The committed lists of sums; `None` where there is none yet.
+/// The committed lists of sums; `None` if there is none yet.
 #[derive(Clone, Debug)]
 pub struct Committed {
     paper: Option<Sums>,
@@ -159,7 +159,7 @@ impl Committed {
     }
 }
 
-/// What is said of a line of a list that belongs to no figure.
+/// The message about a line that belongs to no figure.
 pub fn stray(name: &str) -> String {
     format!("belongs to no figure: {name}")
 }

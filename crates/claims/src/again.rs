@@ -1,4 +1,4 @@
-//! Claims judged anew on the tables of another run: a test that has no value there leaves its claim open, with the reason.
+//! Judges claims again on the tables of another run. Where a test has no value, the claim stays open, with the reason.
 
 use crate::entry::{Claim, Measure, Verdict};
 use crate::measure;
@@ -10,7 +10,7 @@ use crate::uncertain::{Outcome, Uncertain};
 use crate::words;
 use checkout::failure::Failure;
 
-/// A test and what it gives now.
+/// A test and its present result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Again {
     /// Whether it tests the statement under the condition, not as it is written.
@@ -19,7 +19,7 @@ pub struct Again {
     pub words: String,
     /// What must be true.
     pub is: Option<String>,
-    /// The value with its error, or why there is none.
+    /// The value with its error, or the reason why it is missing.
     pub value: Result<Uncertain, String>,
     /// Whether the requirement is met; `None` for a measure that only reports.
     pub outcome: Option<Outcome>,

@@ -1,9 +1,8 @@
-//! What an entry of the ledger consists of, as its file spells it: claims, errata, parameters, and the measures of their
-//! tests.
+//! The entries of the ledger as its files spell them: claims, errata, parameters, and the measures of their tests.
 
 use serde::{Deserialize, Serialize};
 
-/// What is said of a statement.
+/// The verdict on a statement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Verdict {
     /// All its tests hold.
@@ -78,7 +77,7 @@ impl Take {
         }
     }
 
-    /// Whether rows are counted, whatever their values.
+    /// Whether rows are counted, regardless of their values.
     pub fn counts(self) -> bool {
         matches!(self, Take::Count | Take::Share)
     }
@@ -120,58 +119,62 @@ pub struct Measure {
     pub less: Option<toml::Value>,
 }
 
-/// A statement of the source.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+/// A statement of the source: as its file has it, with measures as tests, or with what these gave.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Claim {
+pub struct Claim<T = Measure> {
     /// Small letters, digits and hyphens.
     pub id: String,
     /// The LaTeX label near which it stands.
     pub label: String,
     /// The statement in our words.
     pub says: String,
-    /// The verdict that is expected.
+    /// The verdict that is recorded.
     pub verdict: Verdict,
+    /// The verdict of the tests; none in a file written by hand.
+    pub verdict_found: Option<Verdict>,
     /// Under which condition it holds.
     pub condition: Option<String>,
     /// Why it cannot be decided.
     pub why: Option<String>,
-    /// What is found, with placeholders.
+    /// What is found, with placeholders, or with the numbers in their places.
     pub finding: String,
-    /// Tests of the statement as it is written.
-    #[serde(default, rename = "test")]
-    pub tests: Vec<Measure>,
+    /// Tests of the statement as it is written; those that were carried out, with those under the condition.
+    #[serde(default = "Vec::new", alias = "test")]
+    pub tests: Vec<T>,
     /// Tests of the statement under the condition.
-    #[serde(default)]
-    pub under: Vec<Measure>,
+    #[serde(default = "Vec::new", skip_serializing_if = "Vec::is_empty")]
+    pub under: Vec<T>,
 }
 
 /// A slip in the source.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Erratum {
+pub struct Erratum<T = Measure> {
     /// Small letters, digits and hyphens.
     pub id: String,
     /// The LaTeX label near which it stands.
     pub label: String,
     /// What the source has.
     pub says: String,
-    /// What should stand there.
+    /// The corrected text.
     pub should: String,
-    /// The derivation, or the number that shows it, with placeholders.
+    /// The derivation, or the number that shows it; as a finding.
     pub why: String,
     /// Figures that it touches.
     #[serde(default)]
     pub touches: Vec<String>,
+    /// Whether all its tests hold; none without one, where the derivation stands alone, and in a file written by hand.
+    pub confirmed: Option<bool>,
     /// Tests that show it; each must hold.
-    #[serde(default, rename = "test")]
-    pub tests: Vec<Measure>,
+    #[serde(default = "Vec::new", alias = "test")]
+    pub tests: Vec<T>,
 }
 
 /// A constant of the reproduction.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Parameter {
+pub struct Parameter<T = Measure> {
     /// Small letters, digits and hyphens.
     pub id: String,
     /// LaTeX.
@@ -181,14 +184,16 @@ pub struct Parameter {
     /// Figures that it enters.
     #[serde(default)]
     pub figures: Vec<String>,
-    /// Where it stands: `fig11-trajectories/scene.toml: start.shift`.
+    /// Its location: `fig11-trajectories/scene.toml: start.shift`.
     #[serde(default)]
     pub scenes: Vec<String>,
     /// A label of the source, or `chosen: why`.
     pub source: String,
-    /// What depends on it, with placeholders.
+    /// What depends on it; as a finding.
     pub influence: String,
+    /// Whether all its tests hold; as that of an erratum.
+    pub confirmed: Option<bool>,
     /// Tests; each must hold.
-    #[serde(default, rename = "test")]
-    pub tests: Vec<Measure>,
+    #[serde(default = "Vec::new", alias = "test")]
+    pub tests: Vec<T>,
 }

@@ -1,4 +1,4 @@
-//! The expressions of `of` and `where`: formulas whose names are columns, and comparisons of them.
+//! The expressions in `of` and `where`: formulas and comparisons whose names are columns.
 
 use crate::sheet::{Sheet, Stated};
 use crate::uncertain::{Outcome, Relation, Uncertain};
@@ -24,7 +24,7 @@ pub struct Condition {
     right: Right,
 }
 
-/// Where the error of a column's numbers stands.
+/// The source of the errors of a column.
 #[derive(Clone, Copy, Debug)]
 enum Source {
     /// It is stated for the whole column.
@@ -52,14 +52,14 @@ pub enum BoundCondition {
     Word(usize, bool, Cell),
 }
 
-/// The word that stands for an empty cell.
+/// The word that denotes an empty cell.
 pub const EMPTY: &str = "empty";
 
 /// How the names of a measure are bound to columns.
 pub struct Binding<'a> {
     /// The table.
     pub sheet: &'a Sheet,
-    /// Columns whose error stands in another one, and that one.
+    /// Columns whose error is in another column, with that column.
     pub errors: Option<(&'a [String], usize)>,
 }
 
@@ -171,8 +171,8 @@ impl Condition {
         Ok(Condition { left, relation, right })
     }
 
-    /// Finds the columns. A name on the right that is no column is a word, which must stand somewhere in the column on the
-    /// left: a slip of the pen selects nothing otherwise, and nobody notices.
+    /// Finds the columns. A name on the right that is not a column is a word, which must occur in the column on the
+    /// left; otherwise a typing error would silently select nothing.
     ///
     /// # Errors
     /// A name that is no column, a word that stands nowhere, or words that are to be ordered.

@@ -1,7 +1,7 @@
-//! Judges the ledger by the present tables, compares it with the committed one, and writes it.
+//! Judges the ledger on the present tables, compares the result with the committed ledger, and writes it.
 
 use crate::entry::{Claim, Erratum, Parameter, Verdict};
-use crate::report::{JudgedClaim, Ledger};
+use crate::report::{Ledger, Tested};
 use crate::show;
 use crate::source::{Sources, Tests};
 use crate::tables::{Tables, figure_of};
@@ -111,16 +111,21 @@ pub fn write(paths: &Paths, ledger: &Ledger) -> Result<(), Failure> {
     }
 }
 
-impl JudgedClaim {
+impl Claim<Tested> {
+    /// The verdict of the tests.
+    pub fn found(&self) -> Verdict {
+        self.verdict_found.unwrap_or(self.verdict)
+    }
+
     /// Whether the verdict found is the recorded one.
     pub fn is_as_recorded(&self) -> bool {
-        self.verdict == self.verdict_found
+        self.verdict == self.found()
     }
 }
 
 impl Verdicts {
     /// The claims of which another verdict is found than the recorded one.
-    pub fn changed(&self) -> impl Iterator<Item = &JudgedClaim> {
+    pub fn changed(&self) -> impl Iterator<Item = &Claim<Tested>> {
         self.ledger.claims.iter().filter(|claim| !claim.is_as_recorded())
     }
 
@@ -132,7 +137,7 @@ impl Verdicts {
     }
 
     /// Errata and parameters of which a test fails.
-    fn unconfirmed(&self) -> Vec<(&str, &str, &[crate::report::Tested])> {
+    fn unconfirmed(&self) -> Vec<(&str, &str, &[Tested])> {
         let [_, errata, parameters] = LEDGER_SOURCES;
         let of_errata = self.ledger.errata.iter().map(|one| (errata, &*one.id, one.confirmed, &*one.tests));
         let of_parameters = self.ledger.parameters.iter().map(|one| (parameters, &*one.id, one.confirmed, &*one.tests));
@@ -154,7 +159,7 @@ impl Verdicts {
     pub fn differences(&self) -> Vec<String> {
         let mut lines = Vec::new();
         for claim in self.changed() {
-            let (recorded, found) = (claim.verdict.words(), claim.verdict_found.words());
+            let (recorded, found) = (claim.verdict.words(), claim.found().words());
             lines.push(format!("  claim {}: recorded {recorded:?}, found {found:?}", claim.id));
             lines.extend(
                 claim.tests.iter().filter(|test| test.is.is_some()).map(|test| format!("    {}", show::line(test))),
@@ -169,7 +174,7 @@ impl Verdicts {
 
     /// How many claims have each verdict, best first.
     pub fn counts(&self) -> Vec<(Verdict, usize)> {
-        let count = |verdict| self.ledger.claims.iter().filter(|claim| claim.verdict_found == verdict).count();
+        let count = |verdict| self.ledger.claims.iter().filter(|claim| claim.found() == verdict).count();
         Verdict::ALL.into_iter().map(|verdict| (verdict, count(verdict))).collect()
     }
 
@@ -185,9 +190,9 @@ impl Verdicts {
 
     /// For JSON.
     pub fn to_json(&self) -> Value {
-        let claims = self.ledger.claims.iter().map(|claim| {
-            json!({ "id": claim.id, "recorded": claim.verdict, "found": claim.verdict_found, "tests": claim.tests })
-        });
+        let claims = self.ledger.claims.iter().map(
+            |claim| json!({ "id": claim.id, "recorded": claim.verdict, "found": claim.found(), "tests": claim.tests }),
+        );
         let word = if self.is_same() { State::Same.word() } else { State::Differs.word() };
         json!({
             "verdict": word, "claims": claims.collect::<Vec<_>>(),

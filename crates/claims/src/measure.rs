@@ -218,7 +218,7 @@ fn sum(values: &[Uncertain]) -> Uncertain {
     values.iter().fold(Uncertain::exact(0.0), |sum, &value| sum + value)
 }
 
-/// The first of the values in an order, with the interval in which the first of the true ones lies.
+/// The first of the values in an order, with an interval that contains the first of the true values.
 fn extreme(values: &Values, order: impl Fn(&f64, &f64) -> std::cmp::Ordering) -> Uncertain {
     let best = |values: &mut dyn Iterator<Item = f64>| values.min_by(&order);
     let sure = &values.sure;

@@ -1,4 +1,4 @@
-//! The findings: each entry with its tests, values, outcomes and verdict, as in `data/ledger.json`.
+//! The result of judging: each entry with its tests, values, outcomes and verdict, as `data/ledger.json` stores them.
 
 use crate::entry::{Claim, Erratum, Measure, Parameter, Verdict};
 use crate::measure;
@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 /// The form of the file.
 const SCHEMA_VERSION: u32 = 1;
 
-/// A test and what it gave.
+/// A test and its result.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tested {
     /// The name for placeholders.
@@ -29,7 +29,7 @@ pub struct Tested {
     pub command: String,
     /// The files that it reads.
     pub tables: Vec<String>,
-    /// The value; `null` (not a number) when it is none.
+    /// The value; `null` if it is not a number.
     #[serde(deserialize_with = "or_not_a_number")]
     pub value: f64,
     /// Its error; `null` (infinite) when nothing bounds it.
@@ -43,84 +43,17 @@ pub struct Tested {
     pub outcome: Option<Outcome>,
 }
 
-/// A claim and what is found of it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct JudgedClaim {
-    /// Its id.
-    pub id: String,
-    /// Its LaTeX label.
-    pub label: String,
-    /// The statement in our words.
-    pub says: String,
-    /// The verdict that is recorded.
-    pub verdict: Verdict,
-    /// The verdict of the tests.
-    pub verdict_found: Verdict,
-    /// Under which condition it holds.
-    pub condition: Option<String>,
-    /// Why it cannot be decided.
-    pub why: Option<String>,
-    /// What is found, numbers filled in.
-    pub finding: String,
-    /// Its tests.
-    pub tests: Vec<Tested>,
-}
-
-/// An erratum and its tests.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct JudgedErratum {
-    /// Its id.
-    pub id: String,
-    /// Its LaTeX label.
-    pub label: String,
-    /// What the source has.
-    pub says: String,
-    /// What should stand there.
-    pub should: String,
-    /// The derivation or the number, filled in.
-    pub why: String,
-    /// Figures that it touches.
-    pub touches: Vec<String>,
-    /// Whether all its tests hold; `null` without one: then the derivation stands alone.
-    pub confirmed: Option<bool>,
-    /// Its tests.
-    pub tests: Vec<Tested>,
-}
-
-/// A parameter and its tests.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct JudgedParameter {
-    /// Its id.
-    pub id: String,
-    /// LaTeX.
-    pub symbol: String,
-    /// In words.
-    pub name: String,
-    /// Figures that it enters.
-    pub figures: Vec<String>,
-    /// Where it stands.
-    pub scenes: Vec<String>,
-    /// A label, or `chosen: why`.
-    pub source: String,
-    /// What depends on it, numbers filled in.
-    pub influence: String,
-    /// Whether all its tests hold; `null` without one.
-    pub confirmed: Option<bool>,
-    /// Its tests.
-    pub tests: Vec<Tested>,
-}
-
 /// The ledger.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Ledger {
     /// The form of the file.
     pub schema_version: u32,
     /// In the order of their file.
-    pub claims: Vec<JudgedClaim>,
+    pub claims: Vec<Claim<Tested>>,
     /// In the order of their file.
-    pub errata: Vec<JudgedErratum>,
+    pub errata: Vec<Erratum<Tested>>,
     /// In the order of their file.
-    pub parameters: Vec<JudgedParameter>,
+    pub parameters: Vec<Parameter<Tested>>,
 }
 
 impl Ledger {
@@ -139,8 +72,7 @@ impl Ledger {
 
     /// Reads `data/ledger.json`.
     ///
-    /// # Errors
-    /// Stale: there is none. Usage: it is malformed.
+    /// # Errors Stale: the file does not exist. Usage: it is malformed.
     pub fn read(paths: &Paths) -> Result<Ledger, Failure> {
         let path = paths.ledger();
         let missing = || Failure::Stale(format!("{}: no such file; cargo xtask verify makes it", path.display()));
@@ -197,7 +129,7 @@ pub(crate) fn verdict_of(tests: &[(bool, Option<Outcome>)]) -> Verdict {
     }
 }
 
-fn claim(claim: &Claim, tables: &Tables<'_>) -> Result<JudgedClaim, Failure> {
+fn claim(claim: &Claim, tables: &Tables<'_>) -> Result<Claim<Tested>, Failure> {
     let (place, id) = (claim.place(), &claim.id);
     let all = claim.all_tests();
     let tests = tested(&all, id, tables, &place)?;
@@ -207,23 +139,24 @@ fn claim(claim: &Claim, tables: &Tables<'_>) -> Result<JudgedClaim, Failure> {
     let fill = |text: &Option<String>, key: &str| {
         text.as_ref().map(|text| filled(text, &tests, &place, key, &known)).transpose()
     };
-    Ok(JudgedClaim {
+    Ok(Claim {
         id: id.clone(),
         label: claim.label.clone(),
         says: claim.says.clone(),
         verdict: claim.verdict,
-        verdict_found: verdict(&tests),
+        verdict_found: Some(verdict(&tests)),
         condition: fill(&claim.condition, "condition")?,
         why: fill(&claim.why, "why")?,
         finding,
         tests,
+        under: Vec::new(),
     })
 }
 
-fn erratum(erratum: &Erratum, tables: &Tables<'_>) -> Result<JudgedErratum, Failure> {
+fn erratum(erratum: &Erratum, tables: &Tables<'_>) -> Result<Erratum<Tested>, Failure> {
     let (place, id) = (erratum.place(), &erratum.id);
     let tests = tested(&erratum.all_tests(), id, tables, &place)?;
-    Ok(JudgedErratum {
+    Ok(Erratum {
         id: id.clone(),
         label: erratum.label.clone(),
         says: erratum.says.clone(),
@@ -236,13 +169,13 @@ fn erratum(erratum: &Erratum, tables: &Tables<'_>) -> Result<JudgedErratum, Fail
     })
 }
 
-fn parameter(parameter: &Parameter, tables: &Tables<'_>) -> Result<JudgedParameter, Failure> {
+fn parameter(parameter: &Parameter, tables: &Tables<'_>) -> Result<Parameter<Tested>, Failure> {
     let (place, id) = (parameter.place(), &parameter.id);
     let all = parameter.all_tests();
     let tests = tested(&all, id, tables, &place)?;
     let known = known([parameter.name.as_str(), parameter.source.as_str()].into_iter(), &all);
     let influence = filled(&parameter.influence, &tests, &place, "influence", &known)?;
-    Ok(JudgedParameter {
+    Ok(Parameter {
         id: id.clone(),
         symbol: parameter.symbol.clone(),
         name: parameter.name.clone(),
@@ -255,7 +188,7 @@ fn parameter(parameter: &Parameter, tables: &Tables<'_>) -> Result<JudgedParamet
     })
 }
 
-/// Whether all tests with an outcome hold; nothing when there is none.
+/// Whether all tests with an outcome hold; `None` without such tests.
 fn confirmed(tests: &[Tested]) -> Option<bool> {
     let mut outcomes = tests.iter().filter_map(|test| test.outcome).peekable();
     outcomes.peek()?;

@@ -7,7 +7,7 @@ use crate::uncertain::{Outcome, Relation, Uncertain};
 pub enum Requirement {
     /// It compares so with a number.
     Compare(Relation, f64),
-    /// It lies at most so far (second) from a number (first).
+    /// It differs from a number (first) by at most a distance (second).
     Within(f64, f64),
 }
 

@@ -1,4 +1,4 @@
-//! Tables as the ledger reads them: with the errors of their columns; two tables side by side.
+//! Tables as the ledger reads them: with errors for their columns, and with a second table joined to them.
 
 use files::table::{self, Cell, Value};
 use std::cmp::Ordering;
@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 /// An error that is stated for a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stated {
-    /// A part of the range of the column: largest less smallest number; where that is 0, as it is.
+    /// A fraction of the range of the column (largest minus smallest number); absolute if the range is 0.
     OfRange(f64),
     /// As it is for numbers below 1, and a part of those above.
     OfSize(f64),
@@ -32,12 +32,12 @@ pub struct Sheet {
     errors: Vec<Option<Stated>>,
 }
 
-/// What stands behind the name of a column of the second table.
+/// The suffix of a column of the second table.
 pub const BESIDE: &str = "_beside";
-/// What stands behind the name of a column of the next row.
+/// The suffix of a column of the next row.
 pub const NEXT: &str = "_next";
 
-/// Cells by which rows are told apart, in an order.
+/// Cells that identify a row, with an order.
 struct Key<'a>(Vec<&'a Cell>);
 
 impl Ord for Key<'_> {

@@ -1,6 +1,7 @@
 //! The ledger for a reader: one entry with all its tests, or all claims with their verdicts.
 
-use crate::report::{JudgedClaim, JudgedErratum, JudgedParameter, Ledger, Tested};
+use crate::entry::{Claim, Erratum, Parameter};
+use crate::report::{Ledger, Tested};
 use crate::source::Sources;
 use crate::tables::Tables;
 use crate::uncertain::Outcome;
@@ -9,7 +10,7 @@ use checkout::paths::Paths;
 use checkout::print;
 use serde_json::{Value, json};
 
-/// The entry with this id as text and as JSON; nothing when there is none.
+/// The entry with this id as text and as JSON; `None` if it does not exist.
 ///
 /// # Errors
 /// Usage: a file of the ledger is malformed, or a test of this entry cannot be evaluated.
@@ -45,9 +46,9 @@ pub fn list(paths: &Paths) -> Result<(String, Value), Failure> {
     Ok((print::table(&rows), json!({ "claims": claims.collect::<Vec<_>>() })))
 }
 
-fn of_claim(claim: &JudgedClaim) -> String {
+fn of_claim(claim: &Claim<Tested>) -> String {
     let mut text = format!("{} ({})\nsays: {}\n", claim.id, claim.label, claim.says);
-    text.push_str(&format!("verdict: {}", claim.verdict_found.words()));
+    text.push_str(&format!("verdict: {}", claim.found().words()));
     if !claim.is_as_recorded() {
         text.push_str(&format!(", but recorded is: {}", claim.verdict.words()));
     }
@@ -58,14 +59,14 @@ fn of_claim(claim: &JudgedClaim) -> String {
     format!("{text}finding: {}\n{}", claim.finding, tests(&claim.tests))
 }
 
-fn of_erratum(erratum: &JudgedErratum) -> String {
-    let JudgedErratum { id, label, says, should, why, touches, tests: all, .. } = erratum;
+fn of_erratum(erratum: &Erratum<Tested>) -> String {
+    let Erratum { id, label, says, should, why, touches, tests: all, .. } = erratum;
     let touches = if touches.is_empty() { "no figure".to_owned() } else { touches.join(", ") };
     format!("{id} ({label})\nsays: {says}\nshould: {should}\nwhy: {why}\ntouches: {touches}\n{}", tests(all))
 }
 
-fn of_parameter(parameter: &JudgedParameter) -> String {
-    let JudgedParameter { id, symbol, name, figures, scenes, source, influence, tests: all, .. } = parameter;
+fn of_parameter(parameter: &Parameter<Tested>) -> String {
+    let Parameter { id, symbol, name, figures, scenes, source, influence, tests: all, .. } = parameter;
     let (figures, scenes) = (figures.join(", "), scenes.join("\n        "));
     format!(
         "{id}: {symbol}, {name}\nfigures: {figures}\nscenes: {scenes}\nsource: {source}\ninfluence: {influence}\n{}",

@@ -1,4 +1,4 @@
-//! Reads and checks the files written by hand: claims, errata, parameters.
+//! Reads and checks the three files that are written by hand: claims, errata, parameters.
 
 use crate::entry::{Claim, Erratum, Measure, Parameter};
 use checkout::disk;
@@ -100,6 +100,14 @@ impl Sources {
             if !ids.insert(id) {
                 return Err(place.fail("id", "appears twice; claims, errata and parameters share their ids"));
             }
+        }
+        let found =
+            self.claims.iter().find(|one| one.verdict_found.is_some()).map(|one| (one.place(), "verdict_found"));
+        let erratum = self.errata.iter().find(|one| one.confirmed.is_some()).map(|one| (one.place(), "confirmed"));
+        let parameter =
+            self.parameters.iter().find(|one| one.confirmed.is_some()).map(|one| (one.place(), "confirmed"));
+        if let Some((place, key)) = found.or(erratum).or(parameter) {
+            return Err(place.fail(key, "is found by the tests: leave it out"));
         }
         self.claims.iter().try_for_each(|claim| claim.check())?;
         self.entries().into_iter().flatten().try_for_each(|(place, _, measure)| measure.check(&place))

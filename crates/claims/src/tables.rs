@@ -1,4 +1,5 @@
-//! The tables that the ledger reads: where each lies, or that it was handed over, and what error is stated for its columns.
+//! The tables that the ledger reads: where each lies (or that the caller supplied it), and the errors stated for its
+//! columns.
 
 use crate::sheet::{Sheet, Stated};
 use checkout::failure::Failure;
@@ -17,7 +18,7 @@ pub const EVENTS: &str = "events";
 
 /// Tables by name, each read once.
 pub struct Tables<'a> {
-    /// Where those lie that are not read yet; nothing when all were handed over.
+    /// The paths of tables that have not been read yet; `None` if all were supplied.
     files: Option<Files<'a>>,
     read: RefCell<BTreeMap<String, Rc<Sheet>>>,
 }
@@ -37,8 +38,8 @@ pub fn figure_of(table: &str) -> Option<&str> {
 }
 
 impl<'a> Tables<'a> {
-    /// Tables of figures as they lie below `made`, committed ones as they lie in the checkout `paths`, whose manifest
-    /// tells their errors.
+    /// Tables of figures from below `made`, committed tables from the checkout `paths`, whose manifest states their
+    /// errors.
     ///
     /// # Errors
     /// Usage: the manifest is malformed.
@@ -77,7 +78,7 @@ impl<'a> Tables<'a> {
 }
 
 impl Files<'_> {
-    /// Where a table lies.
+    /// The path of a table.
     fn path(&self, table: &str) -> PathBuf {
         let base = if figure_of(table).is_some() { self.made } else { self.paths };
         base.output(&Paths::table(table))

@@ -1,4 +1,4 @@
-//! A value with its error, arithmetic that carries the error along, and comparisons that may stay open.
+//! Values with errors: arithmetic propagates the error, and a comparison may be undecided.
 
 use math::number::Number;
 use serde::{Deserialize, Serialize};
@@ -13,7 +13,7 @@ pub struct Uncertain {
     pub error: f64,
 }
 
-/// What a comparison says of all values that an error allows.
+/// The result of a comparison over all values within the error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Outcome {

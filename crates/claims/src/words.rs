@@ -1,4 +1,4 @@
-//! Words for a reader: a measure as a sentence, numbers with as many digits as their error carries, placeholders.
+//! Text for readers: a measure as a sentence, a number with the digits that its error supports, placeholders.
 
 use crate::check::Operand;
 use crate::entry::{Measure, Take};
@@ -47,7 +47,7 @@ pub fn describe(measure: &Measure, place: &Place) -> Result<String, Failure> {
     }
 }
 
-/// A number in so many digits: plain where that is short, else with an exponent.
+/// A number with the given number of digits: plain where that is short, otherwise with an exponent.
 pub fn significant(value: f64, digits: usize) -> String {
     let digits = digits.max(1);
     let text = format!("{value:.*e}", digits - 1);
@@ -63,7 +63,7 @@ fn exponent_of(text: &str) -> i32 {
     text.rsplit_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0)
 }
 
-/// A value with so many digits, but none that its error does not carry; whole numbers without an error in full.
+/// A value with at most the given number of digits, and none beyond its error; whole numbers without an error in full.
 pub fn number(found: Uncertain, digits: Option<usize>) -> String {
     let Uncertain { value, error } = found;
     if value.fract() == 0.0 && error == 0.0 && value.abs() < LARGEST_WHOLE {
@@ -79,8 +79,7 @@ pub fn number(found: Uncertain, digits: Option<usize>) -> String {
 
 /// A text with numbers in place of `{name}`, `{name:5}` (digits) and `{name:percent}`.
 ///
-/// # Errors
-/// Usage: a name that no test has, with those there are; a brace without its partner; a form that is none of these.
+/// # Errors Usage: an unknown test name (the message lists the valid ones), an unbalanced brace, or another form.
 pub fn fill(text: &str, named: &BTreeMap<&str, Uncertain>, place: &Place, key: &str) -> Result<String, Failure> {
     let mut filled = String::new();
     let mut rest = text;
@@ -114,8 +113,8 @@ fn percent(part: Uncertain) -> String {
     format!("{} %", number(whole, None))
 }
 
-/// A measured number typed into a text: one with a decimal point or an exponent that stands neither in what the entry
-/// repeats of the source nor in its tests. Such numbers belong into placeholders.
+/// A measured number typed into a text: one with a decimal point or an exponent that occurs neither in the entry's
+/// quotation of the source nor in its tests. Such numbers must be placeholders.
 pub fn typed_number<'a>(text: &'a str, known: &str) -> Option<&'a str> {
     let outside = text
         .split('{')

@@ -1,10 +1,11 @@
-//! What every program of the project needs of files, and no physics: scene files read with line numbers ([`scene_file`]),
-//! tables as CSV with numbers in shortest round-trip form ([`table`]), and
-//! writing that leaves either the old file or the whole new one ([`write`]).
+//! Files as every program of the project needs them, without physics: scene files with line numbers ([`scene_file`]),
+//! CSV tables whose numbers have shortest round-trip form ([`table`]), atomic writing ([`write`]); and the paper's symbols of
+//! what both name ([`symbols`]).
 
 pub mod pairs;
 pub mod reader;
 pub mod scene_file;
+pub mod symbols;
 pub mod table;
 pub mod text;
 pub mod write;

@@ -1,4 +1,4 @@
-//! The rows of two tables that belong together.
+//! Pairs the rows of two tables.
 
 use crate::table::{Grid, Value};
 use std::cmp::Ordering;

@@ -1,5 +1,5 @@
-//! A TOML document as a tree that remembers its lines, and a reader that takes typed values from it: every complaint
-//! names file, line, key, the value found and what would be valid.
+//! A TOML document as a tree that keeps line numbers, and a reader that extracts typed values. Every error names file,
+//! line, key, the value found and what would be valid.
 
 use crate::text::hint_in;
 use std::collections::{BTreeMap, BTreeSet};
@@ -55,30 +55,30 @@ impl std::fmt::Display for SceneError {
 
 impl std::error::Error for SceneError {}
 
-/// A value of the file and the line it stands on.
+/// A value of the file and its line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     /// Line, counted from 1.
     pub line: usize,
-    /// Where the value stands: line and column in characters, both counted from 1; of a text its first character, behind
-    /// the quotation mark. Of what stands in no file only the order counts.
+    /// The position of the value: line and column in characters, both counted from 1; for a text, the first character
+    /// after the quotation mark. Values that come from no file have an order only.
     pub place: (usize, usize),
     /// The value.
     pub value: Value,
 }
 
 impl Entry {
-    /// A value that stands in no file, or on a line that is all that is known.
+    /// A value that comes from no file, or of which only the line is known.
     pub fn new(line: usize, value: Value) -> Entry {
         Entry { line, place: (line, 0), value }
     }
 
-    /// The value number `index` of those that a caller gives, which stand in no file.
+    /// Value number `index` of those given by a caller, which come from no file.
     pub fn given(index: usize, value: Value) -> Entry {
         Entry { line: 0, place: (IN_NO_FILE + index, 1), value }
     }
 
-    /// Whether the value stands in no file.
+    /// Whether the value comes from no file.
     pub fn is_in_no_file(&self) -> bool {
         self.line == 0
     }
@@ -98,7 +98,7 @@ pub enum Value {
     Flag(bool),
     /// A table.
     Section(Section),
-    /// A value of a type that no scene uses (boolean, array, date), as it stands in the file.
+    /// A value of a type that no scene uses (boolean, array, date), as written in the file.
     Other(String),
 }
 
@@ -146,7 +146,7 @@ impl Section {
         }
     }
 
-    /// Every value with its dotted key, sorted: the text that tells two scenes apart. Numbers in shortest form.
+    /// Every value with its dotted key, sorted: the text that identifies a scene. Numbers in shortest form.
     pub fn canonical(&self, prefix: &str, lines: &mut Vec<String>) {
         for (key, entry) in &self.entries {
             let name = format!("{prefix}{key}");
@@ -188,7 +188,8 @@ fn whole(digits: &str, radix: u32, line: usize) -> Result<f64, (usize, String)> 
     if nearest as i128 == i128::from(number) {
         Ok(nearest)
     } else {
-        let problem = format!("{digits} is a whole number that no double holds; the nearest is {}", nearest as i128);
+        let problem =
+            format!("{digits} is a whole number that a double cannot represent; the nearest is {}", nearest as i128);
         Err((line, problem))
     }
 }
@@ -232,7 +233,7 @@ impl<'a> Reader<'a> {
         self.section.entries.contains_key(key)
     }
 
-    /// Whether a number stands under this key, which counts as known from now on.
+    /// Whether this key has a number; the key counts as known from now on.
     pub fn is_number(&mut self, key: &'static str) -> bool {
         self.has(key) && matches!(self.section.entries[key].value, Value::Number(_))
     }
@@ -357,8 +358,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The complaint that `key` has a value which is allowed by itself but not here. What the problem says behind "must be"
-    /// is what would be valid.
+    /// The error that `key` has a value which is valid in general but not here. The part of `problem` after "must be"
+    /// states what would be valid.
     pub fn complaint(&self, key: &str, problem: &str) -> SceneError {
         let entry = self.section.entries.get(key);
         let line = entry.map_or(self.section.line, |entry| entry.line);

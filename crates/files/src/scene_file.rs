@@ -1,5 +1,5 @@
-//! A scene file: title, source, and one panel for each set of numbers it asks for. Tables of the file (`[law]`,
-//! `[ring]`, ...) hold for every panel; `[panel.NAME.law]` and the like lie on top of them.
+//! A scene file: title, source, and one or several panels. Top-level tables (`[law]`, `[ring]`, ...) apply to every
+//! panel; tables such as `[panel.NAME.law]` override them.
 
 use crate::reader::{Entry, SceneError, Section, Value};
 use crate::text;
@@ -7,8 +7,8 @@ use std::path::Path;
 
 /// Tables that determine numbers.
 const DETERMINING: [&str; 8] = ["law", "ring", "start", "run", "uniform", "map", "curve", "sweep"];
-/// Everything else that may stand at the top.
-const DESCRIBING: [&str; 4] = ["title", "source", "origin", "panel"];
+/// All other keys that are allowed at the top level.
+const DESCRIBING: [&str; 5] = ["title", "source", "origin", "reads", "panel"];
 
 /// What a panel asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,7 +19,7 @@ pub enum Kind {
     Map,
     /// A function of one variable (`[curve]`).
     Curve,
-    /// What became of runs over two parameters (`[sweep]`).
+    /// Outcomes of runs over two parameters (`[sweep]`).
     Sweep,
     /// No numbers: a drawing.
     Drawing,
@@ -54,6 +54,8 @@ pub struct SceneFile {
     pub title: String,
     /// The label of the paper.
     pub source: String,
+    /// The committed tables that a figure's program reads beside it: names below `data`, without `.csv`.
+    pub reads: Vec<String>,
     /// The panels in alphabetical order.
     pub panels: Vec<Panel>,
     /// Where each number comes from: dotted key, then a label of the paper or `chosen: why`.
@@ -63,8 +65,7 @@ pub struct SceneFile {
 impl SceneFile {
     /// The panel of this name.
     ///
-    /// # Errors
-    /// There is none; the names that exist.
+    /// # Errors There is no such panel; the message lists the names.
     pub fn panel(&self, name: &str) -> Result<&Panel, SceneError> {
         self.panels.iter().find(|panel| panel.name == name).ok_or_else(|| {
             let names: Vec<&str> = self.panels.iter().map(|panel| panel.name.as_str()).collect();
@@ -116,6 +117,7 @@ pub fn read_section(file: &str, document: &Section) -> Result<SceneFile, SceneEr
         file: file.to_owned(),
         title: words(document, "title").map_err(|(line, problem)| complain(line, problem))?,
         source: words(document, "source").map_err(|(line, problem)| complain(line, problem))?,
+        reads: reads(document).map_err(|(line, problem)| complain(line, problem))?,
         panels,
         origin: origin(document).map_err(|(line, problem)| complain(line, problem))?,
     })
@@ -171,6 +173,19 @@ fn words(document: &Section, key: &str) -> Result<String, (usize, String)> {
         None => Ok(String::new()),
         Some(Entry { value: Value::Text(text), .. }) => Ok(text.clone()),
         Some(entry) => Err((entry.line, format!("{key}: must be a text"))),
+    }
+}
+
+/// Names between blanks, as in a path: `reads = "outcomes/plain outcomes/how_sure"`.
+fn reads(document: &Section) -> Result<Vec<String>, (usize, String)> {
+    let names: Vec<String> = words(document, "reads")?.split_whitespace().map(str::to_owned).collect();
+    let is_good = |name: &String| name.split('/').all(|part| !part.is_empty() && !part.starts_with('.'));
+    match names.iter().find(|name| !is_good(name)) {
+        Some(name) => Err((
+            document.entries.get("reads").map_or(0, |entry| entry.line),
+            format!("reads: {name:?}: must be the name of a table below data, such as outcomes/plain"),
+        )),
+        None => Ok(names),
     }
 }
 

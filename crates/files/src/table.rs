@@ -1,5 +1,5 @@
-//! Tables: named columns and rows of cells, as CSV with LF and numbers in shortest round-trip form. The cells of a
-//! [`Table`] are numbers; those of a [`Sheet`] may be words or empty too.
+//! Tables with named columns, written as CSV with LF line ends and numbers in shortest round-trip form. The cells of a
+//! [`Table`] are numbers; those of a [`Sheet`] may also be words or empty.
 
 use crate::text;
 use crate::write;
@@ -9,7 +9,7 @@ use std::fmt::{Display, Write as _};
 use std::io;
 use std::path::Path;
 
-/// What stands in a cell.
+/// The content of a cell.
 pub trait Value: Clone + PartialEq {
     /// The value of a cell's text.
     ///
@@ -288,9 +288,9 @@ impl<V: Value> Grid<V> {
 
     /// Reads CSV as [`Grid::to_csv`] writes it.
     ///
-    /// # Errors
-    /// [`TableError::Malformed`] with the line, for text that is not UTF-8, a name of a column that is not in small
-    /// letters, digits and `_` or stands twice, a cell that is not a value, or a row of another length.
+    /// # Errors [`TableError::Malformed`] with the line, for text that is not UTF-8, a column name that does not
+    /// consist of lower-case letters, digits and `_` or is repeated, a cell that is not a value, or a row of another
+    /// length.
     pub fn parse(bytes: &[u8]) -> Result<Grid<V>, TableError> {
         let text = text::decode(bytes.to_vec()).map_err(|(line, problem)| malformed(line as u64, problem))?;
         let mut reader = csv::ReaderBuilder::new().flexible(true).from_reader(text.as_bytes());

@@ -1,4 +1,4 @@
-//! Checks text written by people and their programs; names what is wrong.
+//! Checks text that people or their programs wrote, and names what is wrong with it.
 
 use std::io;
 use std::path::Path;
@@ -47,7 +47,7 @@ pub fn decode(bytes: Vec<u8>) -> Result<String, (usize, String)> {
     }
 }
 
-/// Why a cell or a value that should be a number is none, where that has a name; with what to write.
+/// The reason why a cell or value is not a number, if it is a known one, and what to write instead.
 pub fn hint(text: &str) -> Option<String> {
     let minus = |character: char| matches!(character, '\u{2212}' | '\u{2010}'..='\u{2014}' | '\u{fe63}' | '\u{ff0d}');
     let plain = text.replace(minus, "-").trim().replace(['\u{a0}', '\u{202f}', '\u{2009}'], "");

@@ -1,4 +1,4 @@
-//! Writing so that a reader never meets half a file, and the hash that names contents.
+//! Atomic writing, and the hash that identifies contents.
 
 use sha2::{Digest, Sha256};
 use std::collections::BTreeSet;
@@ -7,11 +7,11 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// What stands between a file's name and the numbers of a draft of it.
+/// The separator between a file's name and the number of its draft.
 const DRAFT: &str = ".tmp-";
 
-/// A file written under a name of its own beside its place, and renamed over it when it is whole. Dropped before
-/// [`publish`], it leaves nothing.
+/// A file written under a temporary name and renamed to its final name when it is complete. Dropped before [`publish`],
+/// it leaves nothing.
 #[derive(Debug)]
 pub struct Draft {
     place: PathBuf,

@@ -1,4 +1,4 @@
-//! Lists of nodes in which equal nodes are one.
+//! A list of nodes in which equal nodes are stored once.
 
 use crate::operation::{Binary, Id, Operation, Unary, Variable};
 use crate::place::Place;
@@ -16,7 +16,7 @@ pub(crate) enum Key {
     Power(Id, i32),
 }
 
-/// A node that can be told from others.
+/// A node that can be compared with others.
 pub(crate) trait Node {
     fn key(&self) -> Key;
 }
@@ -33,7 +33,7 @@ impl Node for Operation {
     }
 }
 
-/// Nodes, each with the place in the file where it stands first.
+/// Nodes, each with the place of its first occurrence in the file.
 #[derive(Clone, Debug)]
 pub(crate) struct Arena<N> {
     pub(crate) nodes: Vec<(N, Place)>,
@@ -47,7 +47,7 @@ impl<N> Default for Arena<N> {
 }
 
 impl<N: Node> Arena<N> {
-    /// The place of a node, which is added if there is none like it.
+    /// The index of a node, which is added if no equal node exists.
     pub(crate) fn add(&mut self, node: N, place: Place) -> Id {
         let nodes = &mut self.nodes;
         *self.found.entry(node.key()).or_insert_with(|| {

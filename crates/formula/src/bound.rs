@@ -46,7 +46,7 @@ impl Bound {
         self.roots.get(1).copied()
     }
 
-    /// Where a node stands in the file.
+    /// The position of a node in the file.
     pub fn place(&self, node: Id) -> Place {
         self.places[node]
     }

@@ -1,4 +1,5 @@
-//! From trees to a graph: names replaced by what they stand for, sums written out, common parts shared.
+//! Builds a graph from syntax trees: names are replaced by their definitions, sums are expanded, common parts are
+//! shared.
 
 use crate::arena::Arena;
 use crate::graph::Symbol;
@@ -44,7 +45,7 @@ impl Builder {
         self.add(Symbol::Plain(operation), place)
     }
 
-    /// Adds an expression; `names` says what names stand for, `j` is the index of the sum around.
+    /// Adds an expression; `names` defines the names, `j` is the index of the enclosing sum.
     pub(crate) fn expression(
         &mut self,
         entries: &[(Entry, Place)],

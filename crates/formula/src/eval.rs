@@ -1,4 +1,4 @@
-//! Evaluation: operations carried out in the order of the list, by numbers of any kind.
+//! Evaluates the list of operations in order, for any kind of number.
 
 use crate::Bound;
 use crate::operation::{Binary, Id, Operation, Unary, Variable};
@@ -6,12 +6,11 @@ use crate::place::Error;
 use math::number::Number;
 
 impl Bound {
-    /// The value of a root in doubles, by carrying out what it needs in the order of the list.
+    /// The value of a root in doubles: the operations it needs are evaluated in the order of the list.
     ///
     /// Infinite values on the way are allowed, as long as the result is finite.
     ///
-    /// # Errors
-    /// The result is not finite: the operation that is to blame, its operands, and where it stands.
+    /// # Errors The result is not finite: the responsible operation, its operands, and its position.
     pub fn eval(&self, root: Id, variable: impl FnMut(Variable) -> f64) -> Result<f64, Error> {
         let values = self.values(root, |constant| constant, variable);
         let value = values[root];

@@ -18,7 +18,7 @@ pub struct Expression {
 }
 
 impl Expression {
-    /// Parses a text whose first character stands at `place` of `file`.
+    /// Parses a text whose first character is at `place` in `file`.
     ///
     /// # Errors
     /// What is wrong, with its place, what was found and what would be valid.
@@ -27,7 +27,7 @@ impl Expression {
         graph.and_then(|(names, graph)| Ok(Expression { names, bound: graph.bind(&[])? }))
     }
 
-    /// The names in the order in which they first stand in the text, and where.
+    /// The names in the order of their first occurrence in the text, with positions.
     pub fn names(&self) -> &[(String, Place)] {
         &self.names
     }

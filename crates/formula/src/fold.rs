@@ -1,4 +1,4 @@
-//! Constant folding: parameters become numbers, and parts without variables are computed.
+//! Constant folding: parameters become numbers, and parts without variables are evaluated.
 
 use crate::Bound;
 use crate::arena::Arena;
@@ -9,7 +9,7 @@ use crate::place::{Place, Problem};
 use math::number::{Number, whole};
 use std::collections::BTreeMap;
 
-/// What became of a node.
+/// The result of folding a node.
 #[derive(Clone, Copy, Debug)]
 enum Folded {
     /// A number, from an operation; where it is not finite, which of [`Folder::problems`] is to blame.
@@ -124,7 +124,7 @@ impl Folder {
         Folded::Node(self.arena.add(operation, self.place))
     }
 
-    /// The node that stands for an operand.
+    /// The node that replaces an operand.
     fn operand(&mut self, folded: Folded) -> Id {
         match folded {
             Folded::Node(id) => id,

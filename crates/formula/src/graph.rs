@@ -1,4 +1,4 @@
-//! Formulas whose parameters are still symbols.
+//! A law's formulas as a graph whose parameters are still symbols.
 
 use crate::Bound;
 use crate::arena::{Arena, Key, Node};
@@ -32,7 +32,7 @@ impl Node for Symbol {
 pub struct Parameter {
     /// Its name.
     pub name: String,
-    /// Where its value stands.
+    /// The position of its value.
     pub place: Place,
     /// The value in the file.
     pub value: f64,

@@ -1,4 +1,4 @@
-//! The formulas of a law: which names there are, what they stand for, in which order they are computed.
+//! The formulas of a law: resolves names and determines the order of evaluation.
 
 use crate::build::Builder;
 use crate::graph::{Graph, Parameter, Symbol};
@@ -35,9 +35,9 @@ impl<'a> From<&'a str> for Given<'a> {
 pub struct Definition<'a> {
     /// The key.
     pub name: &'a str,
-    /// Where the key stands.
+    /// The position of the key.
     pub key: Place,
-    /// Where the value stands: the number, or the first character of the string behind the quotation mark.
+    /// The position of the value: of the number, or of the first character of the string after the quotation mark.
     pub value: Place,
     /// The value.
     pub given: Given<'a>,
@@ -190,12 +190,8 @@ fn order(definitions: &[Definition<'_>], uses: &[Vec<(usize, Place)>]) -> Result
                         State::Open => {
                             let inside = path.iter().map(|(open, _)| *open).skip_while(|open| open != next);
                             let circle: Vec<&str> = inside.chain([*next]).map(|open| definitions[open].name).collect();
-                            let found = format!("a circle of names: {}", circle.join(" -> "));
-                            return Err(Problem::new(
-                                *place,
-                                found,
-                                "named expressions that do not lead back to themselves",
-                            ));
+                            let found = format!("circular definitions: {}", circle.join(" -> "));
+                            return Err(Problem::new(*place, found, "named expressions without circular references"));
                         }
                     }
                 }

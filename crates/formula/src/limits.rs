@@ -1,4 +1,4 @@
-//! Limits on formulas, so that no text exhausts stack, memory or time.
+//! Limits on formulas, which keep any text from exhausting stack, memory or time.
 
 /// Bytes of one expression.
 pub const LONGEST_TEXT: usize = 16_384;

@@ -1,4 +1,4 @@
-//! The operations that formulas consist of.
+//! The operations of the language.
 
 /// The place of a node in its graph; operands come before what uses them.
 pub type Id = usize;

@@ -1,4 +1,4 @@
-//! Places in a file, and errors that name one.
+//! Positions in a file, and errors that carry one.
 
 /// A place in a file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]

@@ -1,4 +1,4 @@
-//! Text to tokens.
+//! The tokeniser.
 
 use crate::limits::LONGEST_TEXT;
 use crate::place::{Place, Problem};
@@ -19,7 +19,7 @@ pub(crate) struct Lexeme<'a> {
     pub(crate) token: Token<'a>,
     pub(crate) text: &'a str,
     pub(crate) place: Place,
-    /// Whether nothing stands between this token and the one before.
+    /// Whether this token directly follows the one before.
     pub(crate) joined: bool,
 }
 
@@ -35,22 +35,18 @@ const LOOKALIKES: [(&str, &str, &str); 13] = [
     ("\u{b9}\u{2070}\u{2074}\u{2075}\u{2076}\u{2077}\u{2078}\u{2079}\u{207b}", "a superscript", "^ and the exponent"),
     ("\u{221a}", "a root sign", "sqrt(...)"),
     ("\u{3c0}", "a Greek letter", "pi"),
-    ("\u{a0}\u{2002}\u{2003}\u{2009}\u{202f}\u{feff}", "a special blank", "an ordinary blank"),
+    ("\u{a0}\u{2002}\u{2003}\u{2009}\u{202f}\u{feff}", "a special blank", "an ordinary space"),
     ("{}", "a brace", "parentheses ( )"),
     ("|", "a bar", "abs(...)"),
     ("=<>", "a comparison", "an expression without comparisons; min(a, b) and max(a, b) choose"),
     (";", "a semicolon", "a comma between arguments"),
 ];
 
-/// Cuts a text whose first character stands at `start` into tokens; the last one is [`Token::End`].
+/// Splits a text whose first character is at `start` into tokens; the last one is [`Token::End`].
 pub(crate) fn tokens(text: &str, start: Place) -> Result<Vec<Lexeme<'_>>, Problem> {
     if text.len() > LONGEST_TEXT {
         let found = format!("an expression of {} bytes", text.len());
-        return Err(Problem::new(
-            start,
-            found,
-            format!("up to {LONGEST_TEXT} bytes; named expressions share the load"),
-        ));
+        return Err(Problem::new(start, found, format!("up to {LONGEST_TEXT} bytes; split it into named expressions")));
     }
     let (mut lexemes, mut rest, mut place) = (Vec::new(), text, start);
     loop {

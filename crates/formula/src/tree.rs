@@ -1,4 +1,4 @@
-//! The syntax tree: a list in the order of evaluation, so that nothing recurses over it however long a text is.
+//! The syntax tree, stored as a list in evaluation order, so that no code recurses over it, however long the text.
 
 use crate::operation::{Binary, Unary};
 use crate::place::Place;
@@ -45,7 +45,7 @@ pub(crate) struct Tree {
 }
 
 impl Tree {
-    /// The names in it and where they stand, in the order of the text.
+    /// The names in it with their positions, in the order of the text.
     pub(crate) fn names(&self) -> impl Iterator<Item = (&str, Place)> {
         self.entries.iter().filter_map(|(entry, place)| match entry {
             Entry::Name(name) => Some((&**name, *place)),

@@ -1,4 +1,4 @@
-//! The second integration, twice, so that it tells its own error.
+//! The second integration. It is done twice, so that it estimates its own error.
 
 use math::double_double::DoubleDouble;
 use reference::flow::Form;
@@ -6,7 +6,7 @@ use reference::number::Real;
 use reference::solution::{End, Kind, Question, Sample, Solution, solve};
 use reference::solver::Care;
 
-/// Speeds beyond so many desired speeds are a blow-up.
+/// Speeds above this multiple of the desired speed are a blow-up.
 const FASTEST: f64 = 1e6;
 
 /// Two solutions that differ in the nodes of their steps.

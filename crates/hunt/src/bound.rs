@@ -1,4 +1,4 @@
-//! The errors that a run may have: ten times those that it states, any where it states none.
+//! The allowed errors of a run: ten times the stated ones, and no limit where none is stated.
 
 use crate::stated::Stated;
 use reference::solution::Kind;

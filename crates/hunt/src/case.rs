@@ -1,4 +1,4 @@
-//! A run with its right values, for a third integration elsewhere (`checks/hunt.py`).
+//! A run with its correct values, for a third integration by `checks/hunt.py`.
 
 use crate::answer::{Answer, Numbers};
 use crate::bound::Bound;
@@ -22,6 +22,10 @@ fn case(seed: u64, text: &str, panel: &scene_file::Panel) -> Option<Value> {
     let scene = scene::run::read("scene.toml", &panel.tables).ok()?;
     let mut propagated = Propagated::new(&scene);
     let outcome = jam::run::run_from(&scene, None, &mut propagated).ok()?;
+    let (refused, stated) = stated::of(&scene, &outcome, &propagated);
+    if refused.is_some() {
+        return None;
+    }
     let mut question = question::read(text, &panel.name).ok()?;
     question.times = judge::times(&scene, &outcome);
     let answer = Answer::new(&question, Numbers::Doubles);
@@ -31,7 +35,7 @@ fn case(seed: u64, text: &str, panel: &scene_file::Panel) -> Option<Value> {
     }
     let end = outcome.statistics.time;
     let (right, _) = answer.at(end)?;
-    let bound = Bound::new(&stated::of(&scene, &outcome, &propagated));
+    let bound = Bound::new(&stated);
     let std = scene::tables::std(&outcome.samples);
     let rows: Vec<&[f64]> = std.rows().filter(|row| row[0] > 0.0).collect();
     let right_std: Vec<f64> = rows.iter().filter_map(|row| Some(answer.at(row[0])?.0.std)).collect();

@@ -1,4 +1,4 @@
-//! Random scenes over decades of every parameter, as the text of scene files.
+//! Draws random scenes, with every parameter varied over decades, as the text of scene files.
 
 mod formulas;
 

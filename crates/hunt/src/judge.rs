@@ -1,4 +1,4 @@
-//! A scene run as its user would, and judged by the second integration.
+//! Runs a scene as its user would, and judges the result by the second integration.
 
 use crate::answer::{Answer, Numbers};
 use crate::bound::Bound;
@@ -14,7 +14,7 @@ use reference::solution::{End, Kind, Question};
 use scene::run::Scene;
 use std::panic::catch_unwind;
 
-/// What became of a run.
+/// The result of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
     /// Of which panel.
@@ -111,13 +111,15 @@ fn judge_panel(text: &str, panel: &scene_file::Panel) -> Verdict {
             verdict.ending = "panicked".into();
             verdict.findings.push("the run panicked".into());
         }
-        Ok((Err(broken), propagated)) => {
-            let stated = stated::of(&scene, &broken.outcome, &propagated);
-            ended(&mut verdict, &scene, &broken.outcome, Some(&broken), (question, &stated));
-        }
-        Ok((Ok(outcome), propagated)) => {
-            let stated = stated::of(&scene, &outcome, &propagated);
-            ended(&mut verdict, &scene, &outcome, None, (question, &stated));
+        Ok((made, propagated)) => {
+            let (outcome, broken) = match made {
+                Ok(outcome) => (outcome, None),
+                Err(broken) => (*broken.outcome.clone(), Some(broken)),
+            };
+            let (refused, stated) = stated::of(&scene, &outcome, &propagated);
+            let broken = refused.or(broken);
+            let outcome = broken.as_ref().map_or(&outcome, |broken| &*broken.outcome);
+            ended(&mut verdict, &scene, outcome, broken.as_ref(), (question, &stated));
         }
     }
     verdict
@@ -226,13 +228,15 @@ fn ending(scene: &Scene, outcome: &Outcome, broken: Option<&Broken>) -> String {
     if kinds.is_empty() { format!("{end}{beyond}") } else { format!("{end}: {}{beyond}", kinds.join(", ")) }
 }
 
-/// A run that could not go on: is there a reason in the equations, or in what its user asked for?
+/// A run that could not continue: is the reason in the equations, or in the user's settings?
 fn reason(verdict: &mut Verdict, scene: &Scene, broken: &Broken, answer: &Answer) {
     let Answer { solution, .. } = answer;
-    let time = 1.001 * broken.outcome.statistics.time;
+    // a run that is not confirmed has gone on beyond where it should have ended
+    let is_unconfirmed = matches!(broken.failure, ode::Failure::NotConfirmed { .. });
+    let time = if is_unconfirmed { scene.t_end } else { 1.001 * broken.outcome.statistics.time };
     let is_own = match broken.failure {
         ode::Failure::TooManySteps { .. } => true,
-        ode::Failure::NotFinite { .. } => scene.is_fixed(),
+        ode::Failure::NotFinite { .. } | ode::Failure::NotConfirmed { .. } => scene.is_fixed(),
         _ => false,
     };
     let ends_there = matches!(solution.end, End::Singular | End::BlownUp) && solution.time <= time;
@@ -453,7 +457,7 @@ fn crossing(verdict: &mut Verdict, happening: &Event, kind: Kind, scene: &Scene,
         }
         return;
     };
-    let allowed = bound.moment(kind, rate) + 1e-9 * time;
+    let allowed = bound.moment(kind, rate) + 1e-9 * time + stated::FINEST * scene.t_end;
     Compared { what: "event", time, found, right: time, uncertainty, allowed, range: scene.t_end }.note(verdict);
     let is_first = crossings.iter().any(|(n, t, ..)| *n == happening.pedestrian && t - time <= 2.0 * allowed)
         || answer.solution.time - time <= 2.0 * allowed;

@@ -1,7 +1,7 @@
-//! A test that hunts: random scenes ([`draw`]) are run as their users would run them and judged ([`judge`]) by a second
-//! integration ([`answer`], `crates/reference`) that shares nothing with the first but the formula: not the reader of
-//! scenes, not the laws, not the methods, not the elementary functions. Of a law that a scene gives as formulas both have
-//! the parsed graph (`crates/formula`), which has tests of its own; how it is carried out is written twice.
+//! Differential testing of random scenes. Each scene ([`draw`]) is run as a user would run it and judged ([`judge`]) by
+//! a second integration ([`answer`], `crates/reference`). The two share the formula of the law, but neither the scene
+//! reader, the laws, the methods nor the elementary functions. When the law is given as formulas, they also share the
+//! parsed graph (`crates/formula`), which has its own tests; its evaluation is implemented twice.
 
 pub mod answer;
 pub mod bound;

@@ -1,4 +1,4 @@
-//! What a scene asks, read a second time from its text.
+//! Reads a second time, from the text of a scene, what it asks for.
 
 use formula::{Definition, Given, Place};
 use reference::formula::Formula;

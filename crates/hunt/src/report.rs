@@ -1,11 +1,11 @@
-//! The verdicts over many scenes.
+//! Summarises the verdicts over many scenes.
 
 use crate::judge::{Ratio, Verdict, scene};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A scene and what became of its panels.
+/// A scene and the verdicts on its panels.
 #[derive(Clone, Debug)]
 pub struct Hunted {
     /// What it was drawn from.
@@ -14,7 +14,8 @@ pub struct Hunted {
     pub verdicts: Vec<Verdict>,
 }
 
-/// Hunts through the scenes of seeds `from .. from + count`, with so many threads; the order of results is that of seeds.
+/// Hunts through the scenes of seeds `from .. from + count` on `threads` threads; results are in the order of the
+/// seeds.
 pub fn hunt(from: u64, count: u64, threads: usize) -> Vec<Hunted> {
     let next = AtomicU64::new(from);
     let work = || {

@@ -1,10 +1,10 @@
-//! The errors that a run states, and how honest they are.
+//! The errors that a run states, compared with its true errors.
 
 use crate::answer::Answer;
 use crate::judge::{Ratio, is_beyond, is_blown_up, kind};
 use jam::errors;
 use jam::errors::Propagated;
-use jam::run::{Outcome, run};
+use jam::run::{Broken, Outcome, run};
 use jam::states::StateVariables;
 use ode::{Control, Method};
 use scene::run::Scene;
@@ -76,11 +76,18 @@ pub fn ratios(scene: &Scene, outcome: &Outcome, answer: &Answer, stated: &Stated
 }
 
 /// The part of a run that places within steps are known to.
-const FINEST: f64 = 1e-17;
+pub(crate) const FINEST: f64 = 1e-17;
 
-/// What a run states; of the table of trajectories, of which it states nothing, what [`difference`] finds.
-pub fn of(scene: &Scene, outcome: &Outcome, propagated: &Propagated) -> Stated {
+/// What a run states, and the run up to there if its check does not confirm all of it; of the table of trajectories, of which
+/// it states nothing, what [`difference`] finds.
+pub fn of(scene: &Scene, outcome: &Outcome, propagated: &Propagated) -> (Option<Broken>, Stated) {
     let errors = errors::errors_of(scene, outcome, Some(propagated), &mut ());
+    let cost = errors.cost;
+    let (refused, errors) = match errors::refused(scene, outcome, &errors, &mut ()) {
+        Some((broken, errors)) => (Some(broken), errors),
+        None => (None, errors),
+    };
+    let outcome = refused.as_ref().map_or(outcome, |broken| &*broken.outcome);
     let or_none = |error: Option<f64>| error.unwrap_or(f64::INFINITY);
     let end = [or_none(errors.positions), or_none(errors.speeds)];
     let table = difference(scene, outcome).table;
@@ -91,13 +98,8 @@ pub fn of(scene: &Scene, outcome: &Outcome, propagated: &Propagated) -> Stated {
         Some(_) => table[i],
     };
     let table = [with_end(0), with_end(1)];
-    Stated {
-        std: or_none(errors.std),
-        end,
-        events: errors.events.into_iter().map(or_none).collect(),
-        table,
-        cost: errors.cost,
-    }
+    let events = errors.events.into_iter().map(or_none).collect();
+    (refused, Stated { std: or_none(errors.std), end, events, table, cost })
 }
 
 /// A run's difference from a second one by the same code, by extrapolation (`dop853` if it is that) at a

@@ -1,4 +1,5 @@
-//! The table of a run, `t, n, x, v`, as frames: every pedestrian at every whole multiple of the time between samples.
+//! Reads the table of a run (`t, n, x, v`) as frames, one for each multiple of the sampling interval, with every
+//! pedestrian.
 
 use checkout::failure::Failure;
 use csv::ByteRecord;

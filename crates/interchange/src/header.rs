@@ -1,4 +1,4 @@
-//! The header of both files: the run, the ring, and the units.
+//! The header of both output files: the run, the ring, and the units.
 
 use checkout::failure::Failure;
 use files::reader::{POSITIVE, Reader, SceneError};
@@ -30,7 +30,7 @@ pub struct Units {
 pub struct Header {
     /// What it shows, in words, on one line.
     pub title: String,
-    /// The label of the paper, on one line; empty for a scene of one's own.
+    /// The label of the paper, on one line; empty for a user's scene.
     pub source: String,
     /// The SHA-256 of everything in the scene that determines numbers.
     pub scene: String,

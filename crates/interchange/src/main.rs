@@ -1,4 +1,5 @@
-//! Runs a scene with a sample for each frame and writes its table for other programs: `export SCENE.toml --out DIR ...`.
+//! The program `export SCENE.toml --out DIR ...`: runs a scene with one sample for each frame, and writes its
+//! trajectories for other programs.
 
 use checkout::failure::Failure;
 use checkout::figure;

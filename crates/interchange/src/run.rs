@@ -1,4 +1,4 @@
-//! The run that is exported: made by `simulate` with a sample for each frame.
+//! Has `simulate` make the run to export, with one sample for each frame.
 
 use crate::header::Header;
 use checkout::failure::Failure;
@@ -60,7 +60,8 @@ fn with_trajectories(determinants: &str) -> Option<String> {
     is_left_out.then(|| determinants.replace(STD, "run.record = \"trajectories\""))
 }
 
-/// Refuses a frame rate that gives more rows than a run may have: `simulate` would speak of samples, which nobody asked for.
+/// Refuses a frame rate that gives more rows than a run may have: the message of `simulate` would speak of samples,
+/// which the user did not ask for.
 fn refuse_too_many(determinants: &str, header: &Header, t_end: Option<f64>) -> Result<(), Failure> {
     let scenes = determinants.lines().find_map(|line| line.strip_prefix("run.t_end = ")?.parse::<f64>().ok());
     // what is missing is told by `simulate`

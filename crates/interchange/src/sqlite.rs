@@ -1,5 +1,5 @@
-//! JuPedSim's trajectory file, a database of SQLite, version 2: the tables of its `SqliteTrajectoryWriter`, with what
-//! [`Header::facts`] says among the metadata.
+//! JuPedSim's trajectory file, version 2: an SQLite database with the tables of its `SqliteTrajectoryWriter`, and with
+//! [`Header::facts`] among its metadata.
 
 use crate::frames::Row;
 use crate::header::Header;

@@ -1,4 +1,4 @@
-//! Text as PedPy and the archive of pedestrian experiments have it: comments with the frame rate and the columns, then a
+//! The text format of PedPy and of the pedestrian dynamics data archive: comments with frame rate and columns, then one
 //! line for each pedestrian in each frame.
 
 use crate::frames::Row;

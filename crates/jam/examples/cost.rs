@@ -1,6 +1,6 @@
-//! Does one thing again and again, for `checks/cost.sh`, which counts the instructions, and for `cargo xtask bench`, which
-//! measures the time as well: `cost NAME COUNT`. Without arguments it lists the names, each with its pedestrians. Prints
-//! seconds of CPU.
+//! Repeats one operation, for `checks/cost.sh` (which counts instructions) and `cargo xtask bench` (which also measures
+//! time): `cost NAME COUNT`. Without arguments it lists the names and the number of pedestrians of each. It prints CPU
+//! seconds.
 //!
 //! | name | once is |
 //! |---|---|
@@ -100,15 +100,9 @@ const STEPS: [(&str, usize); 6] = [
 const PLAIN: [&str; 3] = ["algebraic-q2", "exponential", "logarithmic"];
 
 fn laws() -> Vec<(&'static str, Model)> {
-    let algebraic = |relative, power, widening| {
-        let (strength, epsilon, desired_speed) = (0.45, 0.1, 3.0);
-        Model::Algebraic(Algebraic { strength, relative, power, widening, epsilon, desired_speed })
-    };
-    let exponential = |contact, widening| {
-        let (strength, range, epsilon, desired_speed) = (1.5, 1.5, 0.1, 3.0);
-        Model::Exponential(Exponential { strength, range, contact, widening, epsilon, desired_speed })
-    };
-    let logarithmic = |widening| Model::Logarithmic(Logarithmic { desired_speed: 1.0, widening, epsilon: 0.01 });
+    let algebraic = |delta, q, a_v| Model::Algebraic(Algebraic { mu: 0.45, delta, q, a_v, epsilon: 0.1, v0: 3.0 });
+    let exponential = |c, a_v| Model::Exponential(Exponential { a: 1.5, b: 1.5, c, a_v, epsilon: 0.1, v0: 3.0 });
+    let logarithmic = |a_v| Model::Logarithmic(Logarithmic { v0: 1.0, a_v, epsilon: 0.01 });
     vec![
         ("algebraic-all", algebraic(1.0, 1.5, 0.1)),
         ("algebraic-relative-q2", algebraic(1.0, 2.0, 0.0)),

@@ -1,6 +1,6 @@
-//! Nanoseconds for one pedestrian and one step of Heun's scheme against the number of pedestrians: the columns of
-//! `data/timing/scale.csv`. For each law: in one piece with AVX2 (`four`) and with AVX-512 (`eight`), and with AVX2 in
-//! blocks (`blocks`; small rings are never cut). `scale [LARGEST]`.
+//! Nanoseconds per pedestrian and step of Heun's scheme against the number of pedestrians: the columns of
+//! `data/timing/scale.csv`. For each law: in one piece with AVX2 (`four`) and AVX-512 (`eight`), and in blocks with
+//! AVX2 (`blocks`; small rings are never divided). `scale [LARGEST]`.
 //!
 //! Time is that of the thread on its processor, each number the lowest of several, so that what else the machine does
 //! counts little.
@@ -22,9 +22,9 @@ const CUT_FROM: usize = 3000;
 
 fn main() {
     let largest = std::env::args().nth(1).and_then(|text| text.parse().ok()).unwrap_or(10_000_000);
-    let (strength, power, epsilon) = (0.45, 2.0, 0.1);
-    let algebraic = Algebraic { strength, relative: 0.0, power, widening: 0.0, epsilon, desired_speed: 3.0 };
-    let logarithmic = Logarithmic { desired_speed: 1.0, widening: 0.0, epsilon: 0.01 };
+    let (mu, q, epsilon) = (0.45, 2.0, 0.1);
+    let algebraic = Algebraic { mu, delta: 0.0, q, a_v: 0.0, epsilon, v0: 3.0 };
+    let logarithmic = Logarithmic { v0: 1.0, a_v: 0.0, epsilon: 0.01 };
     let laws = [(Model::Algebraic(algebraic), 200.0 / 67.0), (Model::Logarithmic(logarithmic), 200.0 / 133.0)];
     let columns =
         laws.each_ref().map(|(model, _)| VARIANTS.map(|(name, _, _)| format!(",{}_{name}", model.name())).concat());

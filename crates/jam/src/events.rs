@@ -1,4 +1,4 @@
-//! Events of a run: overlap, negative speed, exchange of places, blow-up, each with its time and pedestrian.
+//! Events of a run (overlap, negative speed, exchange of places, blow-up), each with its time and pedestrian.
 
 mod quiet;
 
@@ -68,7 +68,7 @@ pub struct Event {
     pub pedestrian: usize,
     /// The spacing `s_n` to the pedestrian ahead then, in units of `a_0`.
     pub gap: f64,
-    /// The length of the step in which it lies, in units of `tau`; 0 at the start.
+    /// The length of the step that contains it, in units of `tau`; 0 at the start.
     pub step: f64,
 }
 
@@ -139,7 +139,7 @@ pub struct Watch<'a> {
 /// What happens to several pedestrians within this time happens at once.
 const AT_ONCE: f64 = 1e-9;
 
-/// A step in which an event may lie is searched in this many parts.
+/// Number of parts in which a step that may contain an event is searched.
 const PARTS: u32 = 16;
 
 impl<'a> Watch<'a> {
@@ -160,7 +160,8 @@ impl<'a> Watch<'a> {
         (self.seen, self.near) = (None, None);
     }
 
-    /// What happens at the start of a run, at time `t`: everybody to whom it does. A speed of 0 that falls is negative at once.
+    /// The events at the start of a run, at time `t`, with all pedestrians concerned. A falling speed of 0 is negative
+    /// at once.
     pub fn start(&mut self, t: f64, state: &[f64], rates: &[f64]) -> Vec<Event> {
         self.after.read(self.form, &*self.force, state, rates);
         self.seen = Some(t);
@@ -252,13 +253,13 @@ impl<'a> Watch<'a> {
         self.found.push(event);
     }
 
-    /// The first event of each kind so far, of everybody to whom it happened at once, in order of time.
+    /// The first event of each kind so far, for all pedestrians to whom it happened at that time, in order of time.
     pub fn found(&self) -> &[Event] {
         &self.found
     }
 
-    /// As [`Watch::look`], for those who want to know what is new and nothing else: a step near a uniform flow, in which
-    /// nothing can happen, is passed over, and the watch goes on to show an earlier one.
+    /// As [`Watch::look`], for those who want to know what is new and nothing else: a step near a uniform flow, in
+    /// which nothing can happen, is skipped, and the watch still shows an earlier one.
     pub fn look_for_new(&mut self, step: &mut Step<'_>) -> Vec<Event> {
         self.is_quiet = self.nothing_can_happen(step);
         if self.is_quiet { Vec::new() } else { self.look(step) }
@@ -319,8 +320,8 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// The first event of this kind in the step, of everybody but those `known` to whom it happens at once; none that is
-    /// not at once with the `first` of all.
+    /// The first event of this kind in the step, for all pedestrians to whom it happens at the same time, except those
+    /// in `known`; only events simultaneous with `first` are returned.
     fn locate(&self, kind: EventKind, first: Option<f64>, known: &[usize], step: &mut Step<'_>) -> Vec<Event> {
         let count = self.before.gaps.len();
         let (mut gaps, mut speeds) = (vec![0.0; count], vec![0.0; count]);

@@ -1,4 +1,4 @@
-//! Jams in a snapshot: how many, how long; and how fast they travel from one snapshot to the next.
+//! Jams in a snapshot: their number and lengths, and their speed from one snapshot to the next.
 
 /// A jam: consecutive pedestrians that are all slower than a threshold.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,8 +16,8 @@ pub struct Jam {
 /// Speeds that differ by no more than this fraction of the desired speed are no jam.
 const CONTRAST: f64 = 0.1;
 
-/// The threshold that tells a jam from free flow in a snapshot: half way between the lowest and the highest speed.
-/// `None` while they differ by no more than a tenth of the desired speed. Speeds and threshold have one unit.
+/// The threshold between jam and free flow in a snapshot: half way between the lowest and the highest speed. `None`
+/// while they differ by no more than a tenth of the desired speed. Speeds and threshold have one unit.
 pub fn threshold(speeds: &[f64], desired_speed: f64) -> Option<f64> {
     let low = speeds.iter().copied().fold(f64::INFINITY, |a, b| if b < a { b } else { a });
     let high = speeds.iter().copied().fold(f64::NEG_INFINITY, |a, b| if b > a { b } else { a });
@@ -25,7 +25,7 @@ pub fn threshold(speeds: &[f64], desired_speed: f64) -> Option<f64> {
 }
 
 /// The jams of a snapshot on a ring of the given length; positions unwrapped, growing with the number of the
-/// pedestrian, as many as speeds. Empty when everybody is slower than the threshold, or nobody.
+/// pedestrian, as many as speeds. Empty if all pedestrians are slower than the threshold, or none is.
 pub fn find(positions: &[f64], speeds: &[f64], length: f64, threshold: f64) -> Vec<Jam> {
     let count = speeds.len();
     let speed = |n: usize| speeds[n % count];
@@ -66,8 +66,8 @@ pub struct Drift {
 }
 
 impl Drift {
-    /// Takes the jams of the next snapshot, `interval` after the one before, on a ring of the given length. A jam that moves
-    /// by half the ring or more in that time is not told from one that moves the other way.
+    /// Takes the jams of the next snapshot, `interval` after the one before, on a ring of the given length. A jam that
+    /// moves by half the ring or more in that time cannot be distinguished from one that moves the other way.
     pub fn follow(&mut self, jams: &[Jam], length: f64, interval: f64) {
         let around = |distance: f64| distance - length * (distance / length).round();
         if jams.len() != self.before.len() || jams.is_empty() {
@@ -89,9 +89,8 @@ impl Drift {
         &self.before
     }
 
-    /// The mean speed of the jams on the ground, in units of `a_0 / tau`, negative when they travel backwards, and the time it was
-    /// measured over. `None`
-    /// while there are none, or right after their number changed.
+    /// The mean speed of the jams on the ground, in units of `a_0 / tau`, negative when they travel backwards, and the
+    /// time over which it was measured. `None` while there are no jams, or just after their number has changed.
     pub fn speed(&self) -> Option<(f64, f64)> {
         (self.time > 0.0).then(|| (self.distance / self.time, self.time))
     }

@@ -1,5 +1,6 @@
-//! Force-based models of pedestrians in single file on a ring: laws of motion, the uniform flow and its stability, events
-//! and jams of a run, and what became of it. Pure: no files, no clock, the same bits on every machine.
+//! Force-based models of pedestrians in single file on a ring: laws of motion, the uniform flow and its stability,
+//! events and jams of a run, and its outcome. The crate uses no files and no clock, and gives the same bits on every
+//! machine.
 //!
 //! A run of a law of your own, here the optimal-velocity model of Bando et al. (1995):
 //!
@@ -38,11 +39,11 @@
 //! ```
 //! use jam::laws::{Logarithmic, Model};
 //!
-//! let law = Model::Logarithmic(Logarithmic { desired_speed: 1.0, widening: 0.0, epsilon: 0.01 });
+//! let law = Model::Logarithmic(Logarithmic { v0: 1.0, a_v: 0.0, epsilon: 0.01 });
 //! assert_eq!(law.parameters(), ["a_v", "epsilon", "v0"]);
 //! let faster = law.with("v0", 1.5)?;
 //! assert_eq!(faster.desired_speed(), 1.5);
-//! // an acceleration: spacing, own speed, speed ahead; far from everybody, from rest
+//! // an acceleration: spacing, own speed, speed ahead; far from all others, from rest
 //! assert!((faster.acceleration(10.0, 0.0, 0.0) - 1.5).abs() < 1e-12);
 //! assert!(law.with("mu", 1.0).unwrap_err().contains("a_v, epsilon, v0"));
 //! # Ok::<(), String>(())
@@ -137,8 +138,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A [`run::RunObserver`] sees samples, events and steps as they come, and can end a run. Runs of many hours go on from a
-//! [`run::Checkpoint`].
+//! A [`run::RunObserver`] receives samples, events and steps as they occur, and can end a run. Long runs can be resumed
+//! from a [`run::Checkpoint`].
 //!
 //! # Accuracy
 //!

@@ -1,19 +1,20 @@
-//! Numbers that the figures draw.
+//! The quantities that the figures draw.
 
 use math::simd::{Kernel, dispatch};
 
-/// The standard deviation over the pedestrians (at least one), in the unit of the values, divided by `N` (not `N - 1`): the mean first, then the squares of what
-/// is left; 0 of numbers that are all equal. Sums run in eight lanes, `n` modulo 8, which are then added in pairs: one fixed order for any vector width.
-pub fn spread(values: &[f64]) -> f64 {
+/// The standard deviation over the pedestrians (at least one), in the unit of the values, divided by `N` (not `N - 1`): first
+/// the mean, then the squares of the differences from it; 0 for equal numbers. Sums run in eight lanes, `n` modulo 8, which are
+/// then added in pairs, so the order is the same for any vector width.
+pub fn speed_std(speeds: &[f64]) -> f64 {
     // the mean of equal numbers is rounded
-    if values.iter().all(|value| *value == values[0]) {
+    if speeds.iter().all(|speed| *speed == speeds[0]) {
         return 0.0;
     }
-    let spread = |scale: f64| dispatch(Spread { values, scale });
-    match spread(1.0) {
+    let std = |scale: f64| dispatch(Std::<true> { values: speeds, scale });
+    match dispatch(Std::<false> { values: speeds, scale: 1.0 }) {
         // squares of tiny or huge numbers are no longer doubles, or not with all digits: powers of 2 cost none
-        found if found < TINY => spread(UP),
-        found if found > HUGE => spread(DOWN),
+        found if found < TINY => std(UP),
+        found if found > HUGE => std(DOWN),
         found => found,
     }
 }
@@ -29,26 +30,27 @@ const HUGE: f64 = 1e130;
 /// Number of running sums.
 const LANES: usize = 8;
 
-/// The standard deviation, computed in units of `1 / scale`.
-struct Spread<'a> {
+/// The standard deviation, computed in units of `1 / scale`, which is 1 if it is not `SCALED`.
+struct Std<'a, const SCALED: bool> {
     values: &'a [f64],
     scale: f64,
 }
 
-impl Kernel for Spread<'_> {
+impl<const SCALED: bool> Kernel for Std<'_, SCALED> {
     type Output = f64;
 
     #[inline(always)]
     fn run(self) -> f64 {
-        let Spread { values, scale } = self;
+        let Std { values, scale } = self;
         let count = values.len() as f64;
         let lanes = InLanes::new(values);
         let mean = lanes.sum(|value| value) / count;
         let squares = lanes.sum(|value| {
-            let rest = scale * (value - mean);
+            let rest = if SCALED { scale * (value - mean) } else { value - mean };
             rest * rest
         });
-        (squares / count).sqrt() / scale
+        let spread = (squares / count).sqrt();
+        if SCALED { spread / scale } else { spread }
     }
 }
 

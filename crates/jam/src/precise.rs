@@ -1,5 +1,5 @@
-//! The stability of a uniform flow once more, by other means and to twice the digits: what it differs by from
-//! [`Model::response`] and [`Response::margin`] is the error of these.
+//! The stability of a uniform flow by independent means in double-double arithmetic. The difference from
+//! [`Model::response`] and [`Response::margin`] is their error.
 //!
 //! The law is carried out in double-double numbers; its slopes are differences, not derivatives; the steady speed is improved by
 //! Newton's method; the powers of `e^{ik}` are products. What is shared is the law as a formula.

@@ -24,7 +24,7 @@ pub struct Bend {
     pub speed: f64,
     /// Weight of the speed ahead, per `a_0 / tau`.
     pub ahead: f64,
-    /// What is added; the bend lies where the sum is 0.
+    /// The constant added; the bend is where the sum is 0.
     pub offset: f64,
 }
 

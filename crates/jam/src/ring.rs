@@ -1,4 +1,4 @@
-//! The ring of pedestrians and how it starts.
+//! The ring of pedestrians and its initial state.
 
 /// `N` pedestrians on a ring of length `L`.
 #[derive(Clone, Copy, Debug, PartialEq)]

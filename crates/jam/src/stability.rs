@@ -39,7 +39,7 @@ pub struct Response {
 pub enum Waves {
     /// All `k` in (0, pi].
     All,
-    /// Those of a ring of so many: `k = 2 pi l / N`.
+    /// The waves of a ring of N pedestrians: `k = 2 pi l / N`.
     Ring(usize),
 }
 
@@ -164,7 +164,7 @@ impl Response {
         if re_b > 0.0 || margin > -re_b { margin } else { -re_b }
     }
 
-    /// The largest margin over the waves, and the `k` where it lies (0: the limit of long waves).
+    /// The largest margin over the waves, and its `k` (0: the limit of long waves).
     pub fn margin(&self, waves: Waves) -> (f64, f64) {
         match waves {
             Waves::Ring(pedestrians) => {
@@ -210,7 +210,7 @@ impl Response {
         self.refined(coarse, step)
     }
 
-    /// Whether it depends on one's own spacing and speed and the speed ahead alone.
+    /// Whether it depends only on a pedestrian's own spacing and speed and on the speed ahead.
     fn looks_at_one(&self) -> bool {
         self.spacings.iter().all(|(j, _)| *j == 0) && self.speeds.iter().all(|(j, _)| *j == 0 || *j == 1)
     }

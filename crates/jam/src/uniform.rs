@@ -1,4 +1,4 @@
-//! The uniform flow: equal gaps, equal and constant speeds.
+//! The uniform flow: equal spacings, equal and constant speeds.
 
 use crate::laws::{Formula, Model};
 
@@ -23,7 +23,7 @@ impl std::fmt::Display for NoUniformFlow {
         }
         write!(
             f,
-            "no uniform flow at headway L/N = {:?}: at no speed from -1e12 v_0 to v_0 does the drive balance the force with room left; a longer ring, fewer pedestrians or a weaker force has a uniform flow",
+            "no uniform flow at headway L/N = {:?}: at no speed from -1e12 v_0 to v_0 does the drive balance the force at a positive gap; a longer ring, fewer pedestrians or a weaker force has a uniform flow",
             self.headway
         )
     }
@@ -78,7 +78,7 @@ pub fn of_formula(formula: &Formula, headway: f64, wanted: Option<f64>) -> Resul
 }
 
 /// The steady speed of any law: where the acceleration of the uniform flow falls through 0, from 0 to the largest speed
-/// at which it has a value; if there is none, the one next below 0; the one next to `wanted`, if that is given.
+/// at which it has a value; if there is none, the nearest one below 0; if `wanted` is given, the one closest to it.
 ///
 /// # Errors
 /// [`NoUniformFlow`]: none, or several from 0 on and none is `wanted`.

@@ -1,4 +1,4 @@
-//! Single waves: the start of a run that holds one, and how much of it a state holds.
+//! Single waves: a start that contains one wave, and the amplitude of a wave in a state.
 
 use crate::stability::Complex;
 

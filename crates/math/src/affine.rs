@@ -1,4 +1,4 @@
-//! How a formula depends on some of its variables: linearly with constant slopes, or in another way.
+//! Whether a formula is linear in some of its variables, and with which constant slopes.
 //!
 //! [`Affine`] carries no value. The variables that are not counted stand for anything, so what it says holds for all values
 //! of all variables: it is read off the formula, not off samples of it.

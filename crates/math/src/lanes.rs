@@ -1,4 +1,4 @@
-//! Several doubles side by side: what one instruction of wide registers works on.
+//! Several doubles side by side, as one instruction on wide registers processes them.
 //!
 //! Operations are plain loops of fixed length, which the compiler turns into vector code; for the body of a
 //! [`Kernel`](crate::simd::Kernel). The operations of several registers do not wait for each other, so a processor

@@ -1,4 +1,4 @@
-//! Numbers with which a formula can be carried out.
+//! Kinds of numbers with which a formula can be evaluated.
 //!
 //! A formula is written once, as a function of any [`Number`]. What comes out depends on the numbers that go in:
 //!

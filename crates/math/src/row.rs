@@ -1,4 +1,4 @@
-//! Functions of a row of numbers, in place, each as several short loops.
+//! Functions applied in place to a row of numbers, each as several short loops.
 //!
 //! A processor looks some hundred instructions ahead for work. The operations of one logarithm wait for each other over
 //! more than a hundred cycles, so a loop over whole logarithms shows it two or three of them at a time, and its units
@@ -136,7 +136,7 @@ fn reduce(reduced: impl Fn(f64) -> Reduced, x: &[f64], r: &mut [f64], missing: &
     }
 }
 
-/// The second half of an exponential, of x and what became of its first half.
+/// The second half of an exponential, from x and the result of the first half.
 #[inline(always)]
 fn expand(second: impl Fn(f64, Reduced) -> f64, x: &mut [f64], r: &[f64], missing: &[f64], shifted: &[f64]) {
     let n = x.len();

@@ -1,4 +1,4 @@
-//! Runs a loop with the widest vector registers that the processor has.
+//! Runs a loop with the widest vector registers of the processor.
 //!
 //! The compiler turns a plain loop over [`lane`](crate::lane) functions into vector
 //! instructions, for the instruction set it may assume: on x86-64 two doubles at a
@@ -8,7 +8,10 @@
 //! is fused or reordered. Elsewhere (ARM, WebAssembly) there is one copy only.
 #![allow(unsafe_code)] // the only module that needs it: see `dispatch_up_to`
 
-/// A computation that is worth compiling for several widths: its arguments.
+#[cfg(target_arch = "x86_64")]
+use std::sync::atomic::{AtomicU8, Ordering};
+
+/// A computation compiled for several widths, with its arguments.
 pub trait Kernel {
     /// What the computation returns; `()` if it writes to slices it holds.
     type Output;
@@ -53,20 +56,44 @@ pub fn dispatch_up_to<K: Kernel>(limit: Width, kernel: K) -> K::Output {
     kernel.run()
 }
 
-/// The widest registers of this processor. The standard library asks it once.
+/// The widest registers of this processor, which is asked once.
 #[inline]
 pub fn available() -> Width {
     #[cfg(target_arch = "x86_64")]
-    {
-        use std::arch::is_x86_feature_detected as has;
-        if has!("avx512f") && has!("avx512dq") && has!("avx512vl") {
-            return Width::Eight;
-        }
-        if has!("avx2") {
-            return Width::Four;
-        }
+    match KNOWN.load(Ordering::Relaxed) {
+        EIGHT => return Width::Eight,
+        FOUR => return Width::Four,
+        UNKNOWN => return detect(),
+        _ => {}
     }
     Width::Baseline
+}
+
+/// What the processor answered: one load for a kernel, where the features one by one are three.
+#[cfg(target_arch = "x86_64")]
+static KNOWN: AtomicU8 = AtomicU8::new(UNKNOWN);
+#[cfg(target_arch = "x86_64")]
+const UNKNOWN: u8 = 0;
+#[cfg(target_arch = "x86_64")]
+const BASELINE: u8 = 1;
+#[cfg(target_arch = "x86_64")]
+const FOUR: u8 = 2;
+#[cfg(target_arch = "x86_64")]
+const EIGHT: u8 = 3;
+
+#[cfg(target_arch = "x86_64")]
+#[cold]
+fn detect() -> Width {
+    use std::arch::is_x86_feature_detected as has;
+    let (width, known) = if has!("avx512f") && has!("avx512dq") && has!("avx512vl") {
+        (Width::Eight, EIGHT)
+    } else if has!("avx2") {
+        (Width::Four, FOUR)
+    } else {
+        (Width::Baseline, BASELINE)
+    };
+    KNOWN.store(known, Ordering::Relaxed);
+    width
 }
 
 #[cfg(target_arch = "x86_64")]

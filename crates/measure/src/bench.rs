@@ -1,4 +1,4 @@
-//! `bench`: seconds of CPU and instructions of the parts that runs consist of; against another commit, ratios.
+//! `bench`: CPU seconds and instructions of the parts of a run; against another commit, ratios.
 
 use crate::benchmarks::{self, Measured, Tree};
 use checkout::disk;

@@ -1,4 +1,4 @@
-//! What `bench` measures, and how: programs of one or two trees in turn, seconds of CPU and counted instructions.
+//! The benchmarks: programs of one or two source trees run in turn, with CPU seconds and instruction counts.
 
 use crate::pairs::{self, Ratio};
 use checkout::disk;

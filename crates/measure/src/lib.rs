@@ -1,5 +1,5 @@
-//! Seconds of CPU and instructions of the parts that runs consist of; against another commit, ratios. A program that the
-//! runner starts ([`mod@bench`]).
+//! CPU seconds and instructions of the parts of a run; against another commit, ratios. The runner starts this program
+//! ([`mod@bench`]).
 
 pub mod bench;
 pub mod benchmarks;

@@ -1,4 +1,4 @@
-//! Paired measurements: how many times slower one program is than another, and how sure that is.
+//! Paired measurements: the ratio of the times of two programs, with a confidence interval.
 
 /// The median of ratios with an interval that holds the true median at least 95 times of 100, whatever their
 /// distribution is: only that the pairs are independent is taken for granted.

@@ -1,9 +1,9 @@
-//! Places where the rates bend sharply, and steps that would pass one unseen.
+//! Sharp bends of the right-hand side, and steps that would cross one unnoticed.
 //!
-//! A stage, a coefficient or an error estimate knows of a bend only what the step samples of it. A step from one side of a
-//! narrow bend to the other, or into it and back, may sample nothing: every estimate is then that of another equation.
-//! The system therefore tells how far it is from its bends, in units of their width ([`System::bends`]), and a step that
-//! touches one may not be long on that scale.
+//! A stage, a coefficient or an error estimate knows of a bend only what the step samples of it. A step from one side
+//! of a narrow bend to the other, or into it and back, may sample nothing: every estimate is then that of another
+//! equation. The system therefore reports its distance from its bends, in units of their width ([`System::bends`]), and
+//! a step that touches one may not be long on that scale.
 
 use crate::system::System;
 use math::simd::{Kernel, dispatch};
@@ -27,7 +27,7 @@ const EDGE: f64 = 37.0;
 /// stages of a step of this length, or its coefficients, see.
 const LIMIT: f64 = 8.0;
 
-/// A path between the ends is looked at in so many parts.
+/// Number of parts in which the path between the ends is examined.
 const PARTS: u32 = 32;
 
 impl Bends {
@@ -55,7 +55,7 @@ impl Bends {
         (first < 1.0).then_some(first)
     }
 
-    /// Goes on from the end of the step looked at last.
+    /// Continues from the end of the last step examined.
     pub(crate) fn advance(&mut self) {
         std::mem::swap(&mut self.before, &mut self.after);
     }

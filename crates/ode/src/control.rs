@@ -1,7 +1,8 @@
-//! How long the steps are.
+//! Step size control.
 
 use crate::system::{Group, Measure, System};
 use crate::vector::{largest, smallest};
+use math::lane;
 
 /// The rule for the length of the steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,6 +67,8 @@ pub(crate) struct Controller {
 const SMALLEST: f64 = 0.2;
 const LARGEST: f64 = 6.0;
 const SAFETY: f64 = 0.9;
+/// An error of so much asks for the smallest factor, whatever the method.
+const HUGE: f64 = 1e300;
 /// Share of the proportional part, which answers to the change of the error; the rest is integral.
 const PROPORTIONAL: f64 = 0.2;
 
@@ -79,14 +82,15 @@ impl Controller {
     pub(crate) fn accept(&mut self, error: f64) -> f64 {
         // a vanishing error would ask for an infinite step
         let error = if error > 1e-10 { error } else { 1e-10 };
-        let integral = math::pow(error, -(1.0 - PROPORTIONAL) * self.exponent);
-        let proportional = math::pow(self.previous / error, PROPORTIONAL * self.exponent);
+        // error^-(1 - P) (previous / error)^P
+        let logarithm = PROPORTIONAL * lane::ln(self.previous) - lane::ln(error);
         self.previous = error;
-        (SAFETY * integral * proportional).clamp(SMALLEST, LARGEST)
+        (SAFETY * lane::exp(self.exponent * logarithm)).clamp(SMALLEST, LARGEST)
     }
 
     /// The factor for another try after a rejected step; NaN asks for the smallest.
     pub(crate) fn reject(&self, error: f64) -> f64 {
-        if error.is_finite() { (SAFETY * math::pow(error, -self.exponent)).clamp(SMALLEST, 0.9) } else { SMALLEST }
+        let is_huge = error.is_nan() || error > HUGE;
+        if is_huge { SMALLEST } else { (SAFETY * lane::exp(-self.exponent * lane::ln(error))).clamp(SMALLEST, 0.9) }
     }
 }

@@ -1,4 +1,4 @@
-//! An accepted step as an observer sees it: states at both ends and the solution anywhere between.
+//! An accepted step as an observer sees it: the states at both ends, and the solution anywhere in between.
 
 use crate::control::Norm;
 use crate::system::System;
@@ -80,7 +80,7 @@ pub(crate) trait Stepper {
     fn interpolate(&mut self, system: &dyn System, ends: &Ends<'_>, theta: f64, part: Part<'_>) -> u64;
 }
 
-/// Some of the components of a state that lie side by side, to be written.
+/// A contiguous part of a state, for writing.
 pub(crate) struct Part<'a> {
     /// The first of them.
     pub(crate) from: usize,
@@ -153,7 +153,7 @@ impl Step<'_> {
         self.part_at(t, Part { from: 0, values: state });
     }
 
-    /// The same of some components that lie side by side: what [`Step::at`] writes there, for less.
+    /// The same for a contiguous part of the components: what [`Step::at`] writes there, at lower cost.
     pub fn components_at(&mut self, t: f64, range: Range<usize>, state: &mut [f64]) {
         self.part_at(t, Part { from: range.start, values: &mut state[range] });
     }
@@ -162,7 +162,7 @@ impl Step<'_> {
         self.part_at_fraction(self.fraction(t), part);
     }
 
-    /// The fraction of the step at which the time `t` lies.
+    /// The fraction of the step that corresponds to the time `t`.
     pub fn fraction(&self, t: f64) -> f64 {
         let near = nearby(self.end, self.ends.h);
         if (t - self.start).abs() < near {
@@ -174,7 +174,7 @@ impl Step<'_> {
         }
     }
 
-    /// Writes the rates of any state. They are not counted: who looks on does not change what a run says of itself.
+    /// Writes the rates of any state. They are not counted, since an observer does not change the statistics of a run.
     pub fn rates_of(&self, state: &[f64], rates: &mut [f64]) {
         self.system.rates(state, rates);
     }

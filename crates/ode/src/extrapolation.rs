@@ -30,8 +30,8 @@ impl Extrapolation {
         Extrapolation { scheme: vec![zeros(); ROWS], earlier: zeros(), change: zeros(), state: zeros(), rates: zeros() }
     }
 
-    /// The midpoint rule with `substeps`: leaves the change of the state in `self.change`; false if it leaves the domain,
-    /// where it goes on unless `guarded`.
+    /// The midpoint rule with `substeps`: leaves the change of the state in `self.change`; false if it leaves the
+    /// domain, in which case it continues unless `guarded`.
     fn midpoint(&mut self, system: &dyn System, from: &Trial<'_>, substeps: usize, guarded: bool) -> bool {
         let h = from.h / substeps as f64;
         self.earlier.fill(0.0);

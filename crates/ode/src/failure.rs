@@ -1,8 +1,8 @@
-//! Why an integration could not go on.
+//! Reasons why an integration cannot continue.
 
 use crate::methods::Method;
 
-/// Why an integration could not go on.
+/// The reason why an integration could not continue.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Failure {
     /// The error, or the end of the domain, asks for a step shorter than [`SHORTEST`](crate::SHORTEST).
@@ -26,6 +26,12 @@ pub enum Failure {
         /// Its length.
         step: f64,
     },
+    /// A second solution, by other steps, ends early or differs by as much as the numbers are large. No integration finds that
+    /// by itself: it is for those who make the second one.
+    NotConfirmed {
+        /// The time up to which both agree.
+        time: f64,
+    },
     /// The system gives no Taylor series.
     NoSeries,
     /// The method has no error estimate and cannot choose its steps.
@@ -41,6 +47,7 @@ impl Failure {
             Failure::StepTooSmall { .. } => "step_too_small",
             Failure::TooManySteps { .. } => "too_many_steps",
             Failure::NotFinite { .. } => "not_finite",
+            Failure::NotConfirmed { .. } => "not_confirmed",
             Failure::NoSeries => "no_series",
             Failure::NoErrorEstimate(_) => "no_error_estimate",
             Failure::NotResumable => "not_resumable",
@@ -52,13 +59,19 @@ impl std::fmt::Display for Failure {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Failure::StepTooSmall { time, step } => {
-                write!(f, "at t = {time:?} the tolerance asks for a step of {step:e}, too small to go on")
+                write!(f, "at t = {time:?} the tolerance asks for a step of {step:e}, too small to continue")
             }
             Failure::TooManySteps { time, steps } => {
-                write!(f, "{steps} steps, as many as are allowed, reach t = {time:?} only")
+                write!(f, "{steps} steps, the limit, reach only t = {time:?}")
             }
             Failure::NotFinite { time, step } => {
                 write!(f, "in the step of {step:e} from t = {time:?} the state is no longer finite")
+            }
+            Failure::NotConfirmed { time } => {
+                write!(
+                    f,
+                    "a second run by other steps confirms the numbers up to t = {time:?} only; later ones are left out"
+                )
             }
             Failure::NoSeries => {
                 write!(

@@ -1,4 +1,4 @@
-//! The two drivers: steps of fixed length, and steps as long as the error allows.
+//! The two drivers: fixed steps, and steps adapted to the error.
 
 use crate::ballistic::Ballistic;
 use crate::bends::Bends;
@@ -46,8 +46,7 @@ pub struct Statistics {
 
 /// Integrates from the start, showing every accepted step to the observer, until the end or the observer's `Break`.
 ///
-/// # Errors
-/// See [`Failure`]. What the observer saw until then stands.
+/// # Errors See [`Failure`]. What the observer saw before remains valid.
 pub fn integrate(problem: &Problem<'_>, observer: &mut dyn Observer) -> Result<Statistics, Failure> {
     if !problem.method.suits(problem.system) {
         return Err(Failure::NoSeries);
@@ -63,8 +62,8 @@ pub fn integrate(problem: &Problem<'_>, observer: &mut dyn Observer) -> Result<S
     run.end(made, observer)
 }
 
-/// Goes on from a mark of the same problem to the same bits, counts included, as the run that showed it. The observer must
-/// be as it was then.
+/// Continues from a mark of the same problem, with the same bits and counts as the run that produced the mark. The
+/// observer must be as it was then.
 ///
 /// # Errors
 /// [`Failure::NotResumable`] for a mark of a run with another rule for its steps; else as [`integrate`].
@@ -177,7 +176,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Makes `count` steps of Heun's scheme that nobody needs to see, if the system can do so and nothing happens.
+    /// Makes `count` Heun steps that no observer needs to see, if the system can do so and no event occurs.
     fn batch(&mut self, h: f64, count: u64) -> Batch {
         if count == 0 {
             return Batch::NeedsInspection;
@@ -353,8 +352,8 @@ const LONGEST_BURST: u64 = 4096;
 /// As many components are brought on by adaptive steps between two marks.
 const WORK_BETWEEN_MARKS: u64 = 1 << 18;
 
-/// No adaptive step is shorter. The equations do not know the time and its sum is compensated, so a step may lie far below
-/// the rounding of the time: near a wall of the force it is as short as the room is small.
+/// Lower limit of adaptive steps. The equations are autonomous and the time is summed with compensation, so a step may
+/// be far below the rounding of the time: near a wall of the force it is as short as the gap is small.
 pub const SHORTEST: f64 = 1e-290;
 
 /// A larger defect is taken for a sign that the law is another one at the end of the step than at its start.

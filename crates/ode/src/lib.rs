@@ -1,5 +1,5 @@
-//! Integration of autonomous systems of ordinary differential equations: fixed steps and adaptive ones, output from
-//! interpolation inside the steps, events located on it. Knows no pedestrians.
+//! Integration of autonomous systems of ordinary differential equations with fixed or adaptive steps, dense output, and
+//! event location. This crate knows nothing about pedestrians.
 //!
 //! A caller describes its equations as a [`System`], picks a [`Method`] and a [`Control`], and hands an [`Observer`] to
 //! [`integrate`], which shows it every accepted [`Step`].

@@ -1,6 +1,6 @@
-//! A small difference from a solution, carried over steps by the linearised equations, for systems that tell them
-//! ([`crate::System::tangent`]). A step whose solution has become slow may be long for a difference, which then takes more
-//! orders than the step, or is carried over it in several pieces.
+//! Propagates a small difference from a solution by the linearised equations, for systems that provide them
+//! ([`crate::System::tangent`]). A step may be too long for a difference when the solution itself has become slow. The
+//! difference is then computed with more orders than the step, or in several pieces.
 
 use crate::dense::Step;
 use crate::system::{System, Tangent};
@@ -24,12 +24,12 @@ pub(crate) struct Linear {
     is_known: bool,
     is_steady: bool,
     steady_for: u32,
-    /// The rows of all pieces, which are equally long; what stands behind them is of no meaning.
+    /// The rows of all pieces, which are equally long; what follows them is unused.
     rows: Vec<f64>,
     /// How late the solution is: this part of the difference, a shift along the solution, is carried exactly. Of a motion
     /// that is thrown back by a wall all but a small rest is of this kind.
     late: f64,
-    /// The components of which that is told.
+    /// The components concerned.
     forced: Vec<Range<usize>>,
     /// Scratch for states and rates.
     state: RefCell<[Vec<f64>; 2]>,
@@ -39,7 +39,7 @@ pub(crate) struct Linear {
 }
 
 /// Terms of a series from the first that is smaller than this part are left out.
-const REST: f64 = 3e-3;
+const REST: f64 = 1e-2;
 
 /// A piece is at most so long, in units of the time in which differences move: terms of longer ones would cancel.
 const LONGEST: f64 = 10.0;
@@ -47,12 +47,12 @@ const LONGEST: f64 = 10.0;
 /// More pieces than this would cost more than the step.
 const MOST_PIECES: f64 = 100.0;
 
-/// Coefficients that change by no more than this part over a step stand for those of a few more steps.
+/// Coefficients that change by at most this fraction over a step are reused for a few more steps.
 const STEADY: f64 = 0.01;
 const STEADY_FOR: u32 = 3;
 
 impl Linear {
-    /// For a system; `None` if it does not tell its linearised equations.
+    /// For a system; `None` if it does not provide its linearised equations.
     pub(crate) fn new(system: &dyn System) -> Option<Linear> {
         let size = system.tangent_size();
         let zeros = || vec![0.0; size];
@@ -89,17 +89,20 @@ impl Linear {
             self.rows.resize(self.pieces * self.length, 0.0);
         }
         let rates = step.rates_before();
-        self.late = lateness(&self.forced, rates, error);
-        for (row, (error, rate)) in self.rows.iter_mut().zip(error.iter().zip(rates)) {
-            *row = error - self.late * rate;
+        // a motion that is all but uniform is thrown back by nothing
+        self.late = if self.is_steady { 0.0 } else { lateness(&self.forced, rates, error) };
+        dispatch(Unshifted { error, rates, late: self.late, result: &mut self.rows[..dimension] });
+        if self.pieces > 1 {
+            self.growth.iter_mut().for_each(|growth| *growth *= share);
         }
-        self.growth.iter_mut().for_each(|growth| *growth *= share);
         for piece in 0..self.pieces {
             let (done, rest) = self.rows.split_at_mut(piece * self.length);
             let rows = &mut rest[..self.length];
             if piece > 0 {
                 whole(&done[done.len() - self.length..], dimension, 1.0, &mut rows[..dimension]);
-                self.start.iter_mut().zip(&self.growth).for_each(|(start, growth)| *start += growth);
+                if !self.is_steady {
+                    self.start.iter_mut().zip(&self.growth).for_each(|(start, growth)| *start += growth);
+                }
             }
             let growth = if self.is_steady { &[][..] } else { &self.growth[..] };
             step.system.difference(Tangent { start: &self.start, growth }, order, unit, rows);
@@ -114,7 +117,6 @@ impl Linear {
         self.is_steady = self.steady_for > 0;
         if self.is_steady {
             self.steady_for -= 1;
-            self.growth.fill(0.0);
             return before;
         }
         // after steady steps `end` is that of an earlier one, near enough
@@ -127,10 +129,10 @@ impl Linear {
         if self.fastest > before { self.fastest } else { before }
     }
 
-    /// Writes the difference at the end of the step, of what was there at its start.
-    pub(crate) fn end(&self, step: &Step<'_>, result: &mut [f64]) {
+    /// Writes the difference at the end of the step, of what was there at its start, and what the step has added.
+    pub(crate) fn end(&self, step: &Step<'_>, added: &[f64], result: &mut [f64]) {
         self.rest(1.0, result);
-        self.shift(step.rates_after(), result);
+        dispatch(Shifted { late: self.late, rates: step.rates_after(), added, result });
     }
 
     /// The same at the fraction `theta` of the step.
@@ -139,17 +141,13 @@ impl Linear {
         step.at_fraction(theta, state);
         step.rates_of(state, rates);
         self.rest(theta, result);
-        self.shift(rates, result);
+        result.iter_mut().zip(rates).for_each(|(result, rate)| *result += self.late * *rate);
     }
 
     fn rest(&self, theta: f64, result: &mut [f64]) {
         let place = theta * self.pieces as f64;
         let piece = (place as usize).min(self.pieces - 1);
         whole(&self.rows[piece * self.length..][..self.length], result.len(), place - piece as f64, result);
-    }
-
-    fn shift(&self, rates: &[f64], result: &mut [f64]) {
-        result.iter_mut().zip(rates).for_each(|(result, rate)| *result += self.late * rate);
     }
 }
 
@@ -191,6 +189,44 @@ impl Kernel for Products<'_> {
             }
         }
         [along, squares].map(|sums| sums.iter().sum())
+    }
+}
+
+/// Writes `error - late * rates`.
+struct Unshifted<'a> {
+    error: &'a [f64],
+    rates: &'a [f64],
+    late: f64,
+    result: &'a mut [f64],
+}
+
+impl Kernel for Unshifted<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        for (result, (error, rate)) in self.result.iter_mut().zip(self.error.iter().zip(self.rates)) {
+            *result = error - self.late * rate;
+        }
+    }
+}
+
+/// Adds `late * rates + added`.
+struct Shifted<'a> {
+    late: f64,
+    rates: &'a [f64],
+    added: &'a [f64],
+    result: &'a mut [f64],
+}
+
+impl Kernel for Shifted<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        for (result, (rate, added)) in self.result.iter_mut().zip(self.rates.iter().zip(self.added)) {
+            *result = (*result + self.late * rate) + added;
+        }
     }
 }
 

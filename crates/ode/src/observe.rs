@@ -1,4 +1,4 @@
-//! Looking at a solution while it is made: samples at regular times, the first crossing of zero.
+//! Observers: samples at regular times, and the first zero crossing of a quantity.
 
 use crate::dense::{Step, nearby};
 use crate::integrate::Statistics;
@@ -41,7 +41,7 @@ pub struct Place {
     pub slow_until: u64,
 }
 
-/// All that an integration has to know to go on.
+/// The state from which an integration can continue.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ResumePoint<'a> {
     /// Between which steps.

@@ -1,4 +1,4 @@
-//! One step of any explicit Runge-Kutta method, and its interpolant.
+//! One step of an explicit Runge-Kutta method, and its interpolant.
 
 use crate::control::Norm;
 use crate::dense::{Ends, Part, Stepper, Trial, cubic};

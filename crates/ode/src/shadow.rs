@@ -1,16 +1,16 @@
-//! The error of a solution by Taylor's method, carried along with it.
+//! Propagates the error of a solution by Taylor's method along with the solution.
 //!
-//! Each step tells its own error: how far the slope of its series is, at its end, from what the law says there. What
-//! becomes of these errors later the linearised equations tell ([`crate::linear`]), where the system knows them. Elsewhere a
-//! second solution shows it that lies close by; near enough, it needs few orders of the series and not every step, so it
-//! costs a small part of the first one.
+//! Each step estimates its own error by the difference at its end between the slope of its series and the right-hand
+//! side. The linearised equations propagate these errors ([`crate::linear`]), if the system provides them. Otherwise a
+//! neighbouring second solution is used; near enough, it needs few orders of the series and not every step, so it costs
+//! a small part of the first one.
 
 use crate::dense::Step;
 use crate::linear::Linear;
 use crate::system::{Measure, System};
 use crate::taylor::{Change, forced};
 use crate::vector::largest;
-use math::simd::dispatch;
+use math::simd::{Kernel, dispatch};
 
 /// The error of a solution, step by step.
 #[derive(Clone, Debug)]
@@ -41,7 +41,7 @@ pub struct Shadow {
     length: f64,
     power: usize,
     is_sure: bool,
-    /// Carries the error over each step by itself, where the system tells how small differences move.
+    /// Propagates the error over each step separately, if the system provides its linearised equations.
     linear: Option<Linear>,
     is_linear_known: bool,
     /// The error at the end of the step looked at last, if it is carried so.
@@ -55,7 +55,7 @@ const ORDERS: usize = 6;
 const MORE: usize = 2;
 const FEWEST: usize = 4;
 
-/// An expansion shall reach over so many steps: over more, what the first of them add would wait too long.
+/// Number of steps that an expansion should cover; with more, the errors of the first of them would be added too late.
 const MARGIN: f64 = 1.15;
 
 /// So many steps an expansion lasts at most: what they add is carried on from the next one only.
@@ -106,19 +106,16 @@ impl Shadow {
         }
     }
 
-    /// Goes along with a step, in which rates are rounded by so much, of each component with a force by itself; false for a
-    /// method whose steps do not tell their error.
+    /// Follows a step in which the rates have the given rounding errors (one for each component with a force); false
+    /// for a method whose steps give no error estimate.
     pub fn follow(&mut self, step: &mut Step<'_>, rounding: f64) -> bool {
         if !step.stepper.own_error(step.system, &step.ends, &mut self.own) {
             return false;
         }
         self.advance(step);
         self.power = step.stepper.error_power() + 1;
-        let states = step.ends.before.iter().zip(step.ends.after);
-        let errors = self.error.iter().zip(&mut self.own);
-        for ((error, own), (before, after)) in errors.zip(states) {
-            *own += (ROUNDING * (after - before).abs()).copysign(*error);
-        }
+        let (before, after) = (step.ends.before, step.ends.after);
+        dispatch(Rounded { before, after, error: &self.error, own: &mut self.own });
         self.round(step, rounding);
         if !self.arrive(step) {
             self.added.iter_mut().zip(&self.own).for_each(|(added, own)| *added += own);
@@ -154,11 +151,10 @@ impl Shadow {
         self.arrive(step);
     }
 
-    /// Finds the error at the end of a step, where each step carries it by itself.
+    /// Computes the error at the end of a step that is propagated separately.
     fn arrive(&mut self, step: &Step<'_>) -> bool {
         let Some(linear) = self.linear.as_ref().filter(|_| self.has_rows) else { return false };
-        linear.end(step, &mut self.after);
-        self.after.iter_mut().zip(&self.own).for_each(|(after, own)| *after += own);
+        linear.end(step, &self.own, &mut self.after);
         true
     }
 
@@ -241,8 +237,8 @@ impl Shadow {
         }
     }
 
-    /// How far so many orders of the series are worth while: to where the last two terms are as large as [`REST`] of the
-    /// difference.
+    /// The distance over which the given number of orders of the series is useful: to where the last two terms are as
+    /// large as [`REST`] of the difference.
     fn convergent(&self, step: &Step<'_>, last: usize) -> f64 {
         let n = self.error.len();
         let limit = |k: usize| {
@@ -273,7 +269,7 @@ impl Shadow {
         }
     }
 
-    /// The error that series since some steps ago tell.
+    /// The error given by the series of the last steps.
     fn sum(&self, theta: f64, result: &mut [f64]) {
         if self.has_rows {
             let h = (self.elapsed - (1.0 - theta) * self.length) / self.unit;
@@ -291,12 +287,12 @@ impl Shadow {
         }
     }
 
-    /// The part of the own error of a step that is there at the fraction `theta` of it.
+    /// The part of a step's own error that has accrued at the fraction `theta` of it.
     fn own_share(&self, theta: f64) -> f64 {
         (0..self.power).fold(1.0, |power, _| power * theta)
     }
 
-    /// The error at the end of the step looked at last, where each step carries it by itself.
+    /// The error at the end of the last step, when each step is propagated separately.
     pub fn after(&self) -> Option<&[f64]> {
         self.linear.as_ref().filter(|_| self.has_rows).map(|_| &self.after[..])
     }
@@ -304,6 +300,26 @@ impl Shadow {
     /// How many components it has.
     pub fn dimension(&self) -> usize {
         self.error.len()
+    }
+}
+
+/// Adds what rounding makes of the change in a step, with the sign of the error.
+struct Rounded<'a> {
+    before: &'a [f64],
+    after: &'a [f64],
+    error: &'a [f64],
+    own: &'a mut [f64],
+}
+
+impl Kernel for Rounded<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let states = self.before.iter().zip(self.after);
+        for ((error, own), (before, after)) in self.error.iter().zip(self.own).zip(states) {
+            *own += (ROUNDING * (after - before).abs()).copysign(*error);
+        }
     }
 }
 

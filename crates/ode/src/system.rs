@@ -1,4 +1,4 @@
-//! What a caller says about its equations.
+//! What a caller provides about its equations.
 
 use std::ops::Range;
 
@@ -41,8 +41,7 @@ pub trait System {
     /// are given.
     fn series(&self, _order: usize, _unit: f64, _coefficients: &mut [f64]) {}
 
-    /// How many numbers say how a small difference from a solution moves near a state: coefficients of the linearised
-    /// equations. 0 of a system that does not tell.
+    /// The number of coefficients of the linearised equations at a state; 0 for a system that does not provide them.
     fn tangent_size(&self) -> usize {
         0
     }
@@ -82,7 +81,7 @@ pub struct Tangent<'a> {
     pub growth: &'a [f64],
 }
 
-/// What became of many steps made at once (see [`System::heun`]).
+/// The result of a batch of steps (see [`System::heun`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Batch {
     /// The steps were made and nothing happened in them.

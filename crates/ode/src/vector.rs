@@ -1,4 +1,4 @@
-//! Sums over stages, vectorised over components. The order of the additions is fixed: blocks of four stages.
+//! Sums over stages, vectorised over components. The order of the additions is fixed, in blocks of four stages.
 
 use crate::tableau::Row;
 use math::simd::{Kernel, dispatch};
@@ -71,17 +71,17 @@ impl<const STARTED: bool> WeightedSum<'_, STARTED> {
                 sum[lane] += weight * k[lane];
             }
         }
-        let result = &mut self.result[from..][..LANES];
+        for sum in &mut sum {
+            *sum *= self.factor;
+        }
         if STARTED {
             let start = &self.start[from..][..LANES];
             for lane in 0..LANES {
-                result[lane] = start[lane] + sum[lane] * self.factor;
-            }
-        } else {
-            for lane in 0..LANES {
-                result[lane] = sum[lane] * self.factor;
+                sum[lane] += start[lane];
             }
         }
+        // at the end: between two stores the compiler would read the start anew, one number at a time
+        self.result[from..][..LANES].copy_from_slice(&sum);
     }
 }
 
@@ -92,7 +92,9 @@ impl<const STARTED: bool> Kernel for WeightedSum<'_, STARTED> {
     fn run(mut self) {
         let n = self.result.len();
         if n < WIDE {
-            (0..n).for_each(|from| self.lanes::<1>(from));
+            for from in 0..n {
+                self.lanes::<1>(from);
+            }
             return;
         }
         for from in (0..n).step_by(WIDE) {

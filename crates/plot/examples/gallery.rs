@@ -1,5 +1,5 @@
-//! The house style on one page, each kind of panel with the code that draws it, from made-up data:
-//! `cargo run --release -p plot --example gallery` writes `crates/plot/gallery.html`, or the file that is named.
+//! The house style on one page: each kind of panel, drawn from made-up data, with the code that draws it. `cargo run
+//! --release -p plot --example gallery` writes `crates/plot/gallery.html`, or the file named on the command line.
 
 use plot::style::{COLUMN_WIDTH, FULL_WIDTH};
 use plot::{

@@ -1,4 +1,4 @@
-//! One axis: its range, its scale, and ticks at round numbers. For plotters it is a coordinate.
+//! An axis: its range, scale, and ticks at round numbers. It is a coordinate for plotters.
 
 use crate::error::PlotError;
 use crate::geometry::larger;
@@ -27,7 +27,7 @@ pub struct Axis {
     numbered: bool,
 }
 
-/// A mark on an axis; a minor one has no number.
+/// A tick on an axis; a minor tick has no number.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Tick {
     pub value: f64,

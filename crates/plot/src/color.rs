@@ -7,7 +7,7 @@ use crate::style::Color;
 /// Computed in CIELAB (D65): lightness falls by equal steps from L* = 97 in the middle to 58 at the lower end and 35 at
 /// the upper one, chroma grows as s^0.9 with the distance s from the middle to 46 below and 60 above, hue turns from
 /// 262 to 283 degrees (blue) below and from 58 to 35 degrees (red) above. Blue against red survives the common kinds of
-/// colour blindness. The upper arm gets darker, so that a grey print tells the signs as well.
+/// colour blindness. The upper arm becomes darker, so that a grey print also distinguishes the signs.
 pub(crate) const DIVERGING: [Color; 17] = colors([
     0x668ada, 0x7598df, 0x85a5e4, 0x95b3e9, 0xa7c1ed, 0xb9cef0, 0xccdcf3, 0xe0e9f6, 0xf6f6f6, 0xf1dcd2, 0xe8c3b2,
     0xdeaa94, 0xd39178, 0xc7775e, 0xba5e47, 0xac4331, 0x9d231e,

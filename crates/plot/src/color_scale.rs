@@ -1,4 +1,4 @@
-//! Colour scales: from a number to a colour, and the bar that explains it.
+//! Colour scales: the mapping from numbers to colours, and the colour bar.
 
 use crate::axis::{self, Axis};
 use crate::color::{self, DIVERGING, SEQUENTIAL};

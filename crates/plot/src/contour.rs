@@ -1,4 +1,4 @@
-//! Contours of a matrix by marching squares, joined into long lines.
+//! Contour lines of a matrix by marching squares, joined into long polylines.
 
 use crate::geometry::Point;
 use std::collections::BTreeMap;

@@ -1,5 +1,4 @@
-//! What panels put on plotters' areas beside its own elements: lines with dashes that end at the box, point markers,
-//! images.
+//! Elements of panels that plotters lacks: dashed lines that end at the box, point markers, images.
 
 use crate::axis::{Axis, NOWHERE};
 use crate::error::PlotError;

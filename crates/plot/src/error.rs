@@ -1,4 +1,4 @@
-//! What can be wrong with a picture's data.
+//! Errors in a picture's data.
 
 use std::fmt;
 

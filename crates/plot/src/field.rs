@@ -1,4 +1,4 @@
-//! The speed between trajectories: at each time, linear in space from one to the next on the ring.
+//! The speed field between trajectories: at each time, linear in space from one pedestrian to the next.
 
 use crate::space_time::Trajectory;
 

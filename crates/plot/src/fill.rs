@@ -1,9 +1,9 @@
 //! Fills of classes: flat colours for regions that must be told apart without a scale, and hatchings for what has no
 //! outcome of its own.
 //!
-//! The six colours lie at least 12 apart in L*, so that a grey print tells them, and at least 16 apart in CIELAB under
-//! normal vision and simulated protanopia, deuteranopia and tritanopia; tests hold them to it. The hatchings share a white
-//! ground and differ by their lines alone.
+//! The six colours lie at least 12 apart in L*, so that a grey print distinguishes them, and at least 16 apart in
+//! CIELAB under normal vision and simulated protanopia, deuteranopia and tritanopia; tests hold them to it. The
+//! hatchings share a white ground and differ by their lines alone.
 
 use crate::elements::{Area, Shape};
 use crate::error::PlotError;

@@ -1,4 +1,4 @@
-//! The two vendored faces: the measures that typesetting needs, and the outlines of glyphs.
+//! The two vendored typefaces: metrics for typesetting, and glyph outlines.
 
 use crate::error::PlotError;
 use std::sync::OnceLock;

@@ -1,4 +1,4 @@
-//! The frame of a panel: a chart of plotters with box, ticks, numbers and axis labels.
+//! The frame of a panel: a plotters chart with box, ticks, numbers and axis labels.
 
 use crate::axis::{Axis, Tick};
 use crate::elements::{Area, Chart};

@@ -1,4 +1,4 @@
-//! Plane geometry of polylines: clipping to a box and leaving out points that do not show.
+//! Plane geometry of polylines: clipping to a box, and removal of invisible points.
 
 use crate::page::units;
 use plotters_backend::BackendCoord;

@@ -1,4 +1,4 @@
-//! Where the boxes of a picture's panels go.
+//! Places the boxes of a picture's panels.
 
 use crate::error::PlotError;
 use crate::frame::Margins;

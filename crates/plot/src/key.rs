@@ -1,4 +1,4 @@
-//! A legend in words: swatches and samples of lines with their names.
+//! A legend panel: swatches and line samples with their names.
 
 use crate::color_scale::ColorScale;
 use crate::elements::Area;
@@ -96,7 +96,7 @@ impl Key {
         Err(PlotError(format!("layout: a key {width:.1} mm wide; at least {needed:.1} mm needed")))
     }
 
-    /// Widths of the columns with so many rows each.
+    /// Widths of the columns for the given number of rows.
     fn widths(&self, rows: usize) -> Result<Vec<f64>, PlotError> {
         let width = |(_, name): &(Sample, String)| Ok(SWATCH.0 + GAP + Label::new(name, NOTE)?.width);
         let column = |entries: &[(Sample, String)]| {

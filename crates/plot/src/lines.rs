@@ -1,4 +1,4 @@
-//! Panels of curves: series, reference lines, notes, a legend and an inset.
+//! Line panels: series, reference lines, notes, a legend and an inset.
 
 use crate::axis::Axis;
 use crate::color_scale::ColorScale;

@@ -1,4 +1,4 @@
-//! Panels of a matrix in colours with its zero contour, region names and curves over it.
+//! Map panels: a matrix in colours, with its zero contour, region names and curves on top.
 
 use crate::axis::Axis;
 use crate::color_scale::ColorScale;
@@ -79,7 +79,7 @@ impl Map {
         Frame { x: &self.x, y: &self.y, sizes: PANEL }
     }
 
-    /// The place, counted in cells, and the colour of a region's name so many millimetres wide.
+    /// The place, counted in cells, and the colour of a region's name with the given width in millimetres.
     fn place(&self, rect: &Rect, width: f64, positive: bool, scale: &ColorScale) -> Option<(Point, Color)> {
         // from millimetres to cells
         let (across, up) = (self.columns as f64 / rect.width, self.rows as f64 / rect.height);

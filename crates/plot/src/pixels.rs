@@ -1,4 +1,4 @@
-//! The surface of pixels.
+//! The pixel surface.
 
 use crate::error::PlotError;
 use crate::page::{Pen, Surface, units};

@@ -1,4 +1,4 @@
-//! Panels of a plane cut into cells, each of one class: flat colours, with lines and the names of regions over them.
+//! Plane panels: cells in the flat colour of their class, with lines and region names on top.
 
 use crate::axis::{Axis, NOWHERE};
 use crate::color_scale::ColorScale;
@@ -22,9 +22,9 @@ use plotters_backend::text_anchor::{HPos, VPos};
 
 /// Least space around a region's name, and step in which more is looked for, in millimetres.
 const NAME_MARGIN: f64 = 0.5;
-/// At least so many places along each axis are tried for a name.
+/// Least number of places along each axis tried for a name.
 const PLACES: usize = 120;
-/// At least so many pixels along each axis: some viewers of SVG blur the borders of pixels.
+/// Least number of pixels along each axis: some SVG viewers blur the borders of pixels.
 const PIXELS: usize = 480;
 /// Width of a line with its white rim, relative to that without.
 const RIM: f64 = 2.4;
@@ -126,8 +126,8 @@ impl Plane {
         Raster::from_fn(self.columns * across, self.rows * down, palette, class)
     }
 
-    /// Where the name of a class so many millimetres wide goes, in millimetres right of and above the lower left corner:
-    /// away from the lines over the plane, as long as there is such a place.
+    /// The place of a class name with the given width in millimetres, in millimetres to the right of and above the
+    /// lower left corner: away from the lines over the plane, as long as there is such a place.
     fn place(&self, rect: &Rect, class: usize, width: f64) -> Option<Point> {
         // few cells are divided, so that there are enough places to choose from
         let finer = [self.columns, self.rows].map(|count| PLACES.div_ceil(count));

@@ -1,4 +1,4 @@
-//! Small images of pixels, and PNG files.
+//! Small pixel images, and PNG files.
 
 use crate::error::PlotError;
 use crate::style::Color;

@@ -1,4 +1,4 @@
-//! Where the name of a region of a map goes: the widest spot of the cells of one sign.
+//! Places the name of a map region: at the widest spot among the cells of one sign.
 
 use crate::geometry::Point;
 

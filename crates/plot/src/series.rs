@@ -1,4 +1,4 @@
-//! One curve or set of points of a line panel, and its look.
+//! A curve or point set of a line panel, and its style.
 
 use crate::elements::{Area, Chart, EVERYWHERE, Mark, Shape, sides};
 use crate::error::PlotError;

@@ -1,4 +1,4 @@
-//! For tests: colours as people see them, in CIELAB under D65, with normal and colour-blind eyes.
+//! For tests: colours as people see them, in CIELAB under D65, with normal and deficient colour vision.
 
 use crate::style::Color;
 

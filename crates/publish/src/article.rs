@@ -1,4 +1,4 @@
-//! The article as PDF, with its pictures, set from numbers of the tables.
+//! Sets the article as PDF, with its pictures, from the numbers of the tables.
 
 use crate::quantities::Quantities;
 use crate::typeset::{self, Typesetter};

@@ -1,4 +1,4 @@
-//! The command line. The runner starts it, since it knows whether the figures are fresh.
+//! The command line. The runner starts this program, because the runner knows whether the figures are up to date.
 
 use crate::{article, bundle, page};
 use checkout::disk;

@@ -1,6 +1,6 @@
-//! What is made from the figures for readers: the article ([`article`], set by Typst from numbers that [`quantities`]
-//! names), the page ([`page`]) and the archive ([`bundle`]). A program that the runner starts ([`cli`]), once it has seen
-//! that the figures are the committed ones.
+//! Documents made from the figures: the article ([`article`], set by Typst with the numbers of [`quantities`]), the
+//! page ([`page`]) and the archive ([`bundle`]). The runner starts this program ([`cli`]) once it has found the figures
+//! to be the committed ones.
 
 pub mod article;
 pub mod bundle;

@@ -1,4 +1,4 @@
-//! The program `publish`: article, page, archive.
+//! The program `publish`: article, page and archive.
 
 fn main() {
     std::process::exit(publish::cli::run(std::env::args_os()));

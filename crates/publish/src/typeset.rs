@@ -1,4 +1,4 @@
-//! The typesetter: a `typst` on PATH of the pinned version, or the pinned wheel in a folder below target.
+//! The typesetter: a `typst` of the pinned version on PATH, or the pinned wheel installed below `target`.
 
 use checkout::disk;
 use checkout::failure::Failure;
@@ -55,7 +55,7 @@ pub fn find(paths: &Paths) -> Result<Typesetter, Failure> {
     })
 }
 
-/// The typesetter that is there without installing anything.
+/// The typesetter that is available without an installation.
 pub fn at_hand(paths: &Paths) -> Option<Typesetter> {
     on_path().map(|_| Typesetter::Program).or_else(|| wheel(paths, &["--installed"]).ok())
 }

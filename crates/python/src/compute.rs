@@ -5,7 +5,7 @@ use crate::watch::{Watch, detached};
 use cpu_time::ThreadTime;
 use files::reader::{Reader, SceneError, Section, Value};
 use files::scene_file::{self, Kind};
-use jam::errors::{errors_of, run_propagated};
+use jam::errors::run_propagated;
 use jam::precise::Precise;
 use jam::run::{Judging, run_from};
 use jam::stability::Waves;
@@ -17,8 +17,7 @@ use scene::summary::{self, Ended};
 use scene::{tables, uniform::stability};
 
 /// Runs a scene: `std` (t, std), `trajectories` (t, n, x, v) or None, `x` and `v` of the final state, all flat, and the
-/// rest. `wanted`: whether a second run estimates the errors, and whether it
-/// is judged what became of the run.
+/// rest. `wanted`: whether to estimate the errors, and whether to determine the outcome.
 #[pyfunction]
 pub fn simulate<'py>(
     py: Python<'py>,
@@ -37,17 +36,21 @@ pub fn simulate<'py>(
         watch.turn_to(scene.t_end, 0.0, share);
         watch.judging = if outcome { Judging::Along } else { Judging::No };
         let clock = ThreadTime::now();
-        let (made, propagated) =
-            if check { run_propagated(&scene, &mut watch) } else { (run_from(&scene, None, &mut watch), None) };
+        let (made, propagated) = if check {
+            let (made, propagated) = run_propagated(&scene, &mut watch);
+            (made, Some(propagated))
+        } else {
+            (run_from(&scene, None, &mut watch), None)
+        };
         let (outcome, broken) = match made {
             Ok(outcome) => (outcome, None),
             Err(broken) => (*broken.outcome.clone(), Some(broken)),
         };
-        let ended = Ended { outcome, broken, seconds: clock.elapsed().as_secs_f64(), resumed_steps: 0, propagated };
+        let mut ended = Ended { outcome, broken, seconds: clock.elapsed().as_secs_f64(), resumed_steps: 0, propagated };
+        let mut again = watch.judging;
         watch.judging = Judging::No;
         watch.turn_to(ended.outcome.statistics.time, share, 1.0 - share);
-        let propagated = ended.propagated.as_ref();
-        let errors = check.then(|| errors_of(&scene, &ended.outcome, propagated, &mut watch));
+        let errors = check.then(|| ended.checked(&scene, &mut watch, &mut again));
         watch.tell(1.0);
         (ended, stability(&scene), errors)
     })?;

@@ -1,4 +1,4 @@
-//! What a caller gives: a scene as a file, as text or as a dictionary, and values that replace some of its own.
+//! The caller's input: a scene as a file, text or dictionary, and values that override some of its own.
 
 use files::reader::{Entry, SceneError, Section, Value};
 use files::scene_file::{self, Kind, Panel, SceneFile};
@@ -110,7 +110,7 @@ fn value(entry: &Bound<'_, PyAny>) -> Result<Value, SceneError> {
     match entry.extract::<f64>() {
         // a whole number of Python may have more digits than a double
         Ok(number) if entry.is_instance_of::<PyInt>() && !entry.eq(number).unwrap_or(false) => {
-            let problem = format!("{entry} is a whole number that no double holds; the nearest is {number:?}");
+            let problem = format!("{entry} is a whole number that a double cannot represent; the nearest is {number:?}");
             Err(SceneError::new(TABLES, 0, problem))
         }
         Ok(number) => Ok(Value::Number(number)),

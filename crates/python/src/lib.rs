@@ -1,5 +1,6 @@
-//! The module `jamming._native`: what the package `jamming` computes with. It takes scenes as their author wrote them, in
-//! TOML or as a dictionary, and gives back arrays and what `summary.json` says. What users see is written in Python.
+//! The module `jamming._native`, which computes for the package `jamming`. It takes scenes as their author wrote them,
+//! in TOML or as a dictionary, and returns arrays and the contents of `summary.json`. The user interface is written in
+//! Python.
 
 mod compute;
 mod given;

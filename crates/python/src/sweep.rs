@@ -8,13 +8,13 @@ use jam::outcome::Class;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use scene::sweep::{Cell, DecidedBy, NUMBERS, Pool, Sweep, tiles};
+use sweep::{Cell, DecidedBy, NUMBERS, Pool, Sweep, tiles};
 use std::num::NonZero;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::time::Duration;
 
-/// Says what became of the runs of a plane: centres of the cells along `x` and `y`; and cell by cell, `y` running faster,
-/// the index of the outcome in `classes`, of what decided in `deciders`, `backward_flow`, and the `numbers` (NaN: none).
+/// Outcomes of the runs in a plane: centres of the cells along `x` and `y`; and cell by cell, `y` running faster, the
+/// index of the outcome in `classes`, of what decided in `deciders`, `backward_flow`, and the `numbers` (NaN: none).
 #[pyfunction]
 pub fn sweep<'py>(
     py: Python<'py>,
@@ -25,7 +25,7 @@ pub fn sweep<'py>(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let chosen = choose(&given, panel, Kind::Sweep, values)?;
-    let sweep = scene::sweep::read(&chosen.file, &chosen.panel.tables).map_err(|error| scene_error(py, &error))?;
+    let sweep = sweep::read(&chosen.file, &chosen.panel.tables).map_err(|error| scene_error(py, &error))?;
     let found = detached(py, || compute(&sweep, jobs, &Watch::new(progress.as_ref(), 1)))?;
     let cells = found.map_err(|problem| scene_error(py, &SceneError::new(&chosen.file, 0, problem)))?;
     let made = PyDict::new(py);

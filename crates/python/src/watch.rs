@@ -1,4 +1,5 @@
-//! Looking on while something is computed without the interpreter's lock: Ctrl-C ends it, a callback hears how far it is.
+//! Monitoring of a computation that runs without the interpreter's lock: Ctrl-C ends it, and a callback receives its
+//! progress.
 
 use jam::run::{Judging, PartialRun, RunObserver};
 use pyo3::prelude::*;

@@ -1,4 +1,5 @@
-//! The end of the unstable algebraic run: pedestrians throw each other back, each twice as fast as the one before.
+//! The end of the unstable algebraic run, in which pedestrians throw each other back, each twice as fast as the one
+//! before.
 
 use crate::events::{Event, EventKind, next};
 use crate::run::{Run, Stuck};

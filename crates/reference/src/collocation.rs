@@ -1,8 +1,8 @@
 //! Gauss's collocation methods, in any kind of number, with any number of nodes.
 //!
-//! Within a step the rates are the polynomial that agrees with the equations at the nodes, found by iteration; so nothing
-//! is tabulated, and the solution is known everywhere in the step (Hairer, Norsett & Wanner, *Solving ODEs I*, II.7). How
-//! far the polynomial is from the equations at both ends, where it knows nothing of them, tells its error.
+//! Within a step the rates are the polynomial that agrees with the equations at the nodes, found by iteration; so
+//! nothing is tabulated, and the solution is known everywhere in the step (Hairer, Norsett & Wanner, *Solving ODEs I*,
+//! II.7). The residual of the polynomial at both ends, which are not nodes, estimates its error.
 
 use crate::number::Real;
 

@@ -100,13 +100,13 @@ impl<T: Real> Flow<T> {
         rates[2 * n + 1] = base;
     }
 
-    /// The spacing of who walks so many places ahead of pedestrian `n`.
+    /// The spacing of the pedestrian `j` places ahead of pedestrian `n`.
     fn spacing_parts<'a>(&self, state: &'a [T], n: usize) -> impl Fn(i32) -> Parted<T> + 'a {
         let (base, count) = (self.base(), self.pedestrians as i64);
         move |j| Parted { base, rest: state[(n as i64 + i64::from(j)).rem_euclid(count) as usize] }
     }
 
-    /// The speed of who walks so many places ahead of pedestrian `n`.
+    /// The speed of the pedestrian `j` places ahead of pedestrian `n`.
     fn speed_parts<'a>(&self, state: &'a [T], n: usize) -> impl Fn(i32) -> Parted<T> + 'a {
         let (base, count) = (state[2 * self.pedestrians + 2], self.pedestrians);
         move |j| Parted { base, rest: state[count + (n as i64 + i64::from(j)).rem_euclid(count as i64) as usize] }
@@ -117,7 +117,7 @@ impl<T: Real> Flow<T> {
         self.formula.room(self.spacing_parts(state, n), self.speed_parts(state, n)).whole()
     }
 
-    /// The room of everybody in the uniform flow.
+    /// The gap in the uniform flow.
     pub fn uniform_room(&self, state: &[T]) -> f64 {
         let speed = state[2 * self.pedestrians + 2];
         self.formula.room(|_| self.headway, |_| speed).value()

@@ -53,8 +53,8 @@ pub enum Formula {
 }
 
 impl Formula {
-    /// `dv/dt` of a pedestrian, from the spacings and speeds of the one so many places ahead. Ramps are left to
-    /// `ramp(x, eps)`, so that whoever integrates sees the kinks.
+    /// `dv/dt` of a pedestrian, from the spacing and speed of the pedestrian a given number of places ahead. Ramps are
+    /// left to `ramp(x, eps)`, so that whoever integrates sees the kinks.
     pub fn acceleration<T: Number>(
         &self,
         spacing: impl Fn(i32) -> T,

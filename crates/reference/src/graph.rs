@@ -1,4 +1,4 @@
-//! A law that a scene gives as formulas, carried out a second time.
+//! A second evaluation of laws that a scene gives as formulas.
 //!
 //! What is shared with the first: the reader of formulas and the graph that it gives, with numbers for the parameters and
 //! folded (`crates/formula`). Of how an operation is carried out nothing is: each is written anew here, for the numbers of
@@ -32,7 +32,7 @@ impl Graph {
         graph
     }
 
-    /// `dv/dt` of a pedestrian, from the spacings and speeds of the one so many places ahead.
+    /// `dv/dt` of a pedestrian, from the spacing and speed of the pedestrian a given number of places ahead.
     pub fn acceleration<T: Number>(
         &self,
         spacing: impl Fn(i32) -> T,

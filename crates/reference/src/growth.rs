@@ -1,4 +1,4 @@
-//! How a small perturbation of the start grows.
+//! Growth of a small perturbation of the initial state.
 
 use crate::run::{Precision, Run, Stuck};
 use crate::scenes::{LENGTH, Scene};

@@ -1,4 +1,5 @@
-//! Solutions of the paper's scenes in numbers of 106 bits, to judge the double precision of the other crates by.
+//! Reference solutions of the paper's scenes in double-double arithmetic (106 bits), against which the other crates are
+//! judged.
 //!
 //! Nothing is shared with `jam` and `ode` but the arithmetic of `math`, and of a law that a scene gives as formulas the
 //! parsed graph ([`graph`]): the laws are written a second time, straight

@@ -1,4 +1,4 @@
-//! Makes the reference solutions: `reference --all` remakes data/reference/solutions.
+//! The program `reference`; `reference --all` remakes data/reference/solutions.
 
 use clap::Parser;
 use files::write::atomic;

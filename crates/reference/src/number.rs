@@ -1,5 +1,5 @@
-//! The numbers that a formula can be evaluated in: doubles, numbers of 106 bits, a number together with a difference
-//! from it ([`Difference`]), and a sum that stays in two parts ([`Parted`]).
+//! The kinds of numbers in which a formula can be evaluated: doubles, double-double numbers, a number with a difference
+//! from it ([`Difference`]), and an unevaluated sum of two parts ([`Parted`]).
 //!
 //! A law is written once ([`crate::formula`]). In [`Difference`]s it gives what it gives in a uniform flow and by how much
 //! a perturbed pedestrian differs from that, with all digits of the difference, be it 1e-200.

@@ -1,4 +1,4 @@
-//! A run: from the start of a scene to one time after the other.
+//! A run from the start of a scene through a list of times.
 
 use crate::extrapolation::Extrapolation;
 use crate::ring::Ring;
@@ -35,7 +35,7 @@ pub struct Run {
     h: f64,
 }
 
-/// The run would not go on: steps became too short for the time to advance.
+/// The run cannot continue: steps became too short for the time to advance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stuck {
     /// Where.

@@ -34,7 +34,7 @@ pub struct Scene {
     /// The times of the published states, whole and ascending. The standard deviation is published at every whole time
     /// up to the last of them.
     pub times: &'static [u32],
-    /// Whether the run goes on behind the last of these times, to its events.
+    /// Whether the run continues after the last of these times, to its events.
     pub has_events: bool,
 }
 

@@ -1,4 +1,4 @@
-//! A scene solved: samples, the first event of each kind, and how it ends.
+//! The solution of a scene: samples, the first event of each kind, and how the run ends.
 
 use crate::flow::{Flow, Form};
 use crate::formula::Formula;
@@ -83,7 +83,7 @@ pub struct Crossing {
     pub rate: f64,
 }
 
-/// The first event of a kind for everybody to whom it happens, first in time first.
+/// The first event of a kind for all pedestrians to whom it happens, in order of time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct First {
     /// Of what.
@@ -99,7 +99,7 @@ pub enum End {
     Reached,
     /// Speeds grow beyond all bounds.
     BlownUp,
-    /// There is no solution beyond: steps tend to 0, or the room of somebody under a singular force.
+    /// The solution ends here: steps tend to 0, or a gap does under a singular force.
     Singular,
     /// The work allowed was not enough.
     Unfinished,
@@ -130,8 +130,8 @@ const NEAR: f64 = 1e-3;
 /// Where the room is smaller, products underflow.
 const LEAST_ROOM: f64 = 1e-280;
 
-/// Solves in numbers of type `T`, beginning in this form. Where somebody comes near a singular force, clearances become the
-/// state. Speeds above `fastest` times the desired one, or 1, are a blow-up.
+/// Solves in numbers of type `T`, beginning in this form. When a pedestrian comes close to a singularity of the force,
+/// clearances become the state. Speeds above `fastest` times the desired one, or 1, are a blow-up.
 pub fn solve<T: Real>(question: &Question, form: Form, care: Care, fastest: f64) -> Solution {
     let flow: Flow<T> = Flow::new(question.formula.clone(), question.pedestrians, question.length, form);
     let start = flow.start(question.shift);

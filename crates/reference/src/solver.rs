@@ -1,4 +1,4 @@
-//! Steps of [`crate::collocation`] for a [`Flow`], as long as their error allows and never over a kink unseen.
+//! Integrates a [`Flow`] by [`crate::collocation`], with steps adapted to the error that never cross a kink unnoticed.
 
 use crate::collocation::{Collocation, combine, rates_at, weights_at};
 use crate::flow::Flow;
@@ -18,7 +18,7 @@ pub struct Care {
     pub most_work: u64,
 }
 
-/// Why a solution does not go on.
+/// The reason why a solution ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stuck {
     /// The steps tend to 0: the solution ends here.
@@ -239,7 +239,7 @@ impl<T: Real> Solver<T> {
         false
     }
 
-    /// Rates to begin with: the polynomial of the last step, its low orders, goes on.
+    /// Initial rates: the low orders of the last step's polynomial, extrapolated.
     fn guess(&mut self, h: f64) {
         let ratio = h / self.length;
         for i in 0..self.care.nodes {

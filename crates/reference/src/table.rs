@@ -1,4 +1,4 @@
-//! What a run is asked for, as text: states, standard deviations, and how far two runs agree.
+//! Results as text: states, standard deviations, and the agreement of two runs.
 
 use crate::ring::Ring;
 use math::double_double::{DoubleDouble, decimal};

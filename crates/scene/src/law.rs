@@ -1,4 +1,4 @@
-//! `[law]`: kind and parameters. A term whose parameter is not named is not computed.
+//! `[law]`: kind and parameters. A term without a named parameter is not computed.
 
 use files::reader::{About, Entry, NOT_NEGATIVE, POSITIVE, Reader, SceneError, Section, Value};
 use formula::{Definition, Given, Place};
@@ -39,8 +39,9 @@ const KINDS: [(&str, Kind); 4] = [
     ("formula", Kind::Formula),
 ];
 
-/// The law of `[law]` with any values, if it is one of the paper: what its parameters are is known before it is read.
-pub(crate) fn built_in(section: &Section) -> Option<Model> {
+/// The law of `[law]` with arbitrary values, if it is one of the paper, so that its parameters are known before it is
+/// read.
+pub fn built_in(section: &Section) -> Option<Model> {
     let Value::Text(kind) = &section.entries.get("kind")?.value else { return None };
     match KINDS.iter().find(|(name, _)| name == kind)?.1 {
         Kind::Algebraic => Some(Model::Algebraic(Algebraic::default())),
@@ -72,8 +73,8 @@ fn parameters<L: Law>(reader: &mut Reader<'_>, fixed: &[(&str, Option<f64>)]) ->
 /// A model of tab:model; the parameters that it leaves open must be given, the others must not.
 fn preset(law: &mut Reader<'_>) -> Result<Algebraic, SceneError> {
     let preset = law.one_of("preset", &PRESETS.map(|preset| (preset.name, preset)))?;
-    let (delta, q) = (Some(preset.relative), Some(preset.power));
-    parameters(law, &[("mu", preset.strength), ("delta", delta), ("q", q), ("a_v", preset.widening)])
+    let (delta, q) = (Some(preset.delta), Some(preset.q));
+    parameters(law, &[("mu", preset.mu), ("delta", delta), ("q", q), ("a_v", preset.a_v)])
 }
 
 /// A law as formulas: every key but `kind` is a parameter or an expression.

@@ -1,5 +1,6 @@
-//! From a scene file to tables: validated scenes ([`law`], [`run`], [`map`], [`curve`], [`sweep`]) and their numbers, in memory;
-//! what is told of them in the end ([`summary`]). A scene in time is a [`jam::run::Run`]. No file is opened here, so that the tables can be computed wherever Rust runs.
+//! From a scene file to tables: validated scenes ([`law`], [`run`], [`map`], [`curve`]), their numbers in
+//! memory, and their summaries ([`summary`]). A time-dependent scene is a [`jam::run::Run`]. This crate opens no files,
+//! so tables can be computed wherever Rust runs.
 
 pub mod curve;
 pub mod law;
@@ -7,7 +8,6 @@ pub mod map;
 pub mod overrides;
 pub mod run;
 pub mod summary;
-pub mod sweep;
 pub mod tables;
 pub mod uniform;
 

@@ -217,7 +217,7 @@ fn unfit(law: &Section, axis: &Axis) -> Option<(&'static str, String)> {
 /// Axes that are no parameters of a law.
 const OF_THE_FLOW: [&str; 3] = ["d_gap", "headway", "k"];
 
-/// A parameter of the law that is an axis need not be named: any value stands for it until the cells set it.
+/// A parameter of the law that is an axis need not be named: it has an arbitrary value until the cells set it.
 fn place_holder(law: &mut Section, axis: &Axis, section: &Section) {
     use files::reader::{Entry, Value};
     if !OF_THE_FLOW.contains(&axis.parameter.as_str()) {
@@ -271,7 +271,7 @@ impl Map {
         self.compute_seen(&mut |_| ())
     }
 
-    /// The same; `onlooker` is told before each cell which part of them is done.
+    /// The same; before each cell, `onlooker` is called with the fraction of cells done.
     ///
     /// # Errors
     /// As [`Map::compute`].

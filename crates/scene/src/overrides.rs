@@ -1,4 +1,4 @@
-//! Values that replace those of a scene: from the command line those of `[run]`, from a program any.
+//! Values that override those of a scene: from the command line those of `[run]`, from a program any.
 
 use files::reader::{Entry, Section, Value};
 
@@ -41,7 +41,7 @@ impl Overrides {
         }
     }
 
-    /// The tables of a scene with these values in `[run]`. Their line is 0: they stand in no file.
+    /// The tables of a scene with these values in `[run]`. Their line is 0, since they come from no file.
     pub fn apply(&self, tables: &Section) -> Section {
         let text = |value: &Option<String>| value.clone().map(Value::Text);
         let number = |value: Option<f64>| value.map(Value::Number);

@@ -1,4 +1,4 @@
-//! A scene in time, validated: `[law]`, `[ring]`, `[start]`, `[run]`.
+//! A validated time-dependent scene: `[law]`, `[ring]`, `[start]`, `[run]`.
 
 use crate::law;
 use files::reader::{FINITE, POSITIVE, Reader, SceneError, Section};
@@ -11,8 +11,7 @@ use ode::{Control, Method};
 
 /// As many rows as the table of a run may have, so that a slip in `sample` does not fill the memory (32 bytes a row).
 const MOST_ROWS: f64 = 2e7;
-/// As many steps of fixed length as a run may take, unless it says otherwise: two orders more than the longest of the
-/// paper.
+/// Default limit on the number of fixed steps of a run: two orders of magnitude more than the longest run of the paper.
 const MOST_FIXED_STEPS: u64 = 100_000_000_000;
 
 /// Reads a scene from the tables of a panel.
@@ -87,7 +86,7 @@ fn read_for(file: &str, tables: &Section, purpose: Purpose) -> Result<Scene, Sce
     }
     let most_steps = most_steps(&mut run, control, t_end, purpose)?;
     if matches!(control, Control::Adaptive { .. }) && t_end < SHORTEST_RUN {
-        let problem = format!("too short for steps of adaptive length; must be at least {SHORTEST_RUN:e}");
+        let problem = format!("too short for adaptive steps; must be at least {SHORTEST_RUN:e}");
         return Err(run.complaint("t_end", &problem));
     }
     let at_overlap = at_overlap(&mut run, &model)?;
@@ -110,7 +109,7 @@ fn read_for(file: &str, tables: &Section, purpose: Purpose) -> Result<Scene, Sce
 }
 
 /// Names of the forms of the state.
-pub(crate) const FORMS: [(&str, StateVariables); 3] = [
+pub const FORMS: [(&str, StateVariables); 3] = [
     ("deviations", StateVariables::Deviations),
     ("gaps", StateVariables::Spacings),
     ("positions", StateVariables::Positions),
@@ -119,7 +118,11 @@ pub(crate) const FORMS: [(&str, StateVariables); 3] = [
 /// A run by adaptive steps is at least as long: far longer than the shortest of them.
 const SHORTEST_RUN: f64 = 1e-250;
 
-pub(crate) fn at_overlap(run: &mut Reader<'_>, model: &Model) -> Result<AtOverlap, SceneError> {
+/// What happens at an overlap: `stop`, or `continue`, which a force that is infinite at contact does not allow.
+///
+/// # Errors
+/// Another word, or a law that cannot continue.
+pub fn at_overlap(run: &mut Reader<'_>, model: &Model) -> Result<AtOverlap, SceneError> {
     if !run.has("at_overlap") {
         return Ok(AtOverlap::Stop);
     }
@@ -135,7 +138,10 @@ pub(crate) fn at_overlap(run: &mut Reader<'_>, model: &Model) -> Result<AtOverla
 }
 
 /// The steady speed that is meant, where a formula has several.
-pub(crate) fn uniform_speed(file: &str, section: &Section) -> Result<Option<f64>, SceneError> {
+///
+/// # Errors
+/// Not a finite number, or an unknown key.
+pub fn uniform_speed(file: &str, section: &Section) -> Result<Option<f64>, SceneError> {
     let mut reader = Reader::new(file, "uniform", section);
     let speed = reader.optional_number("speed", FINITE)?;
     reader.finish()?;
@@ -184,7 +190,10 @@ fn most_steps(run: &mut Reader<'_>, control: Control, t_end: f64, purpose: Purpo
 }
 
 /// The method that a scene names. One with steps of fixed length must name it.
-pub(crate) fn method(run: &mut Reader<'_>) -> Result<Option<Method>, SceneError> {
+///
+/// # Errors
+/// An unknown method, or `dt` without one.
+pub fn method(run: &mut Reader<'_>) -> Result<Option<Method>, SceneError> {
     if run.has("method") || run.has("dt") {
         return run.one_of("method", &Method::ALL.map(|method| (method.name(), method))).map(Some);
     }
@@ -192,7 +201,10 @@ pub(crate) fn method(run: &mut Reader<'_>) -> Result<Option<Method>, SceneError>
 }
 
 /// `tolerance` for methods that choose their steps, `usual` if nothing is named; `dt` for any.
-pub(crate) fn control(run: &mut Reader<'_>, method: Method, usual: f64) -> Result<Control, SceneError> {
+///
+/// # Errors
+/// Out of range, both, or one that the method does not have.
+pub fn control(run: &mut Reader<'_>, method: Method, usual: f64) -> Result<Control, SceneError> {
     let tolerance = run.optional_number("tolerance", 1e-15..=1e-2)?;
     let step = run.optional_number("dt", POSITIVE)?;
     match (tolerance, step) {

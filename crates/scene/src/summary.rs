@@ -1,12 +1,11 @@
-//! What is told of a run or a map in the end, as JSON.
+//! The JSON summary of a run or a map.
 
 use crate::map::{Computed, Map};
 use crate::run::Scene;
 use crate::uniform::Stability;
-use jam::errors::Errors;
-use jam::errors::Propagated;
+use jam::errors::{self, Errors, Propagated};
 use jam::outcome::{Decision, Verdict};
-use jam::run::{Broken, Outcome};
+use jam::run::{Broken, Outcome, RunObserver};
 use ode::Control;
 use serde_json::{Value, json};
 
@@ -21,11 +20,27 @@ pub struct Ended {
     pub seconds: f64,
     /// Steps that were taken from the checkpoint.
     pub resumed_steps: u64,
-    /// The errors that its steps told, if they were asked, from the start.
+    /// The errors estimated by its steps, if they were requested from the start.
     pub propagated: Option<Propagated>,
 }
 
-/// Of a run: what `summary.json` says.
+impl Ended {
+    /// The errors of its numbers. Samples that the check does not confirm are left out, and the run then counts as one that
+    /// broke there. `onlooker` sees a second run, if there is one, and `again` the run up to where it is confirmed.
+    pub fn checked(&mut self, scene: &Scene, onlooker: &mut dyn RunObserver, again: &mut dyn RunObserver) -> Errors {
+        let errors = errors::errors_of(scene, &self.outcome, self.propagated.as_ref(), onlooker);
+        match errors::refused(scene, &self.outcome, &errors, again) {
+            Some((broken, errors)) => {
+                self.outcome = *broken.outcome.clone();
+                self.broken = Some(broken);
+                errors
+            }
+            None => errors,
+        }
+    }
+}
+
+/// The contents of `summary.json` for a run.
 pub fn of_run(scene: &Scene, ended: &Ended, flow: Option<Stability>, errors: Option<&Errors>) -> Value {
     let Ended { outcome, broken, seconds, resumed_steps, .. } = ended;
     let control = match scene.control {
@@ -74,7 +89,7 @@ pub fn of_run(scene: &Scene, ended: &Ended, flow: Option<Stability>, errors: Opt
     })
 }
 
-/// What became of a run, and what that rests on.
+/// The outcome of a run, and its basis.
 pub fn of_verdict(verdict: &Verdict) -> Value {
     let missing = match &verdict.decision {
         Decision::Missing(missing) => Some(missing),
@@ -96,7 +111,7 @@ pub fn of_verdict(verdict: &Verdict) -> Value {
     })
 }
 
-/// What ended the tables: an event, the end of the run, or why it could not go on.
+/// What ended the tables: an event, the end of the run, or the reason why it could not continue.
 fn stop(outcome: &Outcome, broken: Option<&Broken>) -> &'static str {
     match (outcome.stop(), broken) {
         (Some(event), _) => event.kind.name(),
@@ -115,7 +130,7 @@ fn jams(outcome: &Outcome) -> Value {
     })
 }
 
-/// Of the uniform flow; null where there is none that could be stable.
+/// The uniform flow; null if there is none, or none with a linear response.
 pub fn of_flow(flow: Option<Stability>) -> Value {
     flow.map_or(Value::Null, |flow| {
         json!({

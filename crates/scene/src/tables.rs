@@ -1,4 +1,4 @@
-//! The samples of a run as the tables that are written.
+//! Tables of the samples of a run.
 
 use files::table::Table;
 use jam::run::Samples;

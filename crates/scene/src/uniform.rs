@@ -1,4 +1,4 @@
-//! What becomes of small perturbations of a scene's uniform flow: stable or not, and which waves grow.
+//! Linear stability of a scene's uniform flow: stable or not, and which waves grow.
 
 use crate::run::Scene;
 use jam::stability::Waves;

@@ -1,4 +1,4 @@
-//! Numbers drawn at random, always the same.
+//! Reproducible random numbers.
 
 /// Knuth's linear congruential generator of 64 bits, from a fixed beginning.
 #[derive(Clone, Debug)]

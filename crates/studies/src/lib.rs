@@ -1,10 +1,11 @@
-//! What the supplements are computed by: the tables of the report of accuracy, which are error against work
-//! ([`precision`], drawn by [`precision_panel`]), rounding and growth ([`studies`]) and hard cases ([`hard`]); what the jams
-//! depend on ([`parameters`]), where stability ends ([`thresholds`]), published curves beside runs by fixed steps
-//! ([`overlay`]), the laws as optimal-velocity models ([`optimal_velocity`]), waves without runs ([`travelling`]),
-//! irregular ones ([`irregular`]). No figure of the paper is built with it.
+//! Computations for the supplements. Accuracy tables: error against work ([`precision`], drawn by [`precision_panel`]),
+//! rounding and growth ([`studies`]), hard cases ([`hard`]). Evidence for claims: what the jams depend on
+//! ([`parameters`]), where stability ends ([`thresholds`]), published curves beside fixed-step runs ([`overlay`]), the
+//! laws as optimal-velocity models ([`optimal_velocity`]), travelling waves computed without runs ([`travelling`]),
+//! irregular waves ([`irregular`]), the contact sheet of published laws ([`gallery`]). No figure of the paper depends on this crate.
 
 pub mod draw;
+pub mod gallery;
 pub mod hard;
 pub mod irregular;
 pub mod optimal_velocity;

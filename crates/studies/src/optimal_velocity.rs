@@ -1,5 +1,6 @@
-//! The laws as optimal-velocity models: without relative speed and widening each reads `x'' = V(s) - x'`. What a change of
-//! the desired speed does then, and from which desired speed on the logarithmic law is unstable in spite of a widening.
+//! The laws as optimal-velocity models: without relative speed and widening each reads `x'' = V(s) - x'`. The tables
+//! show the effect of the desired speed, and from which desired speed on the logarithmic law is unstable in spite of a
+//! widening.
 
 use crate::hard::rows::{Rows, row};
 use crate::thresholds::critical::exponential;
@@ -25,17 +26,17 @@ fn laws() -> [(&'static str, Model); 5] {
 
 fn algebraic(strength: f64, power: f64, desired_speed: f64) -> Model {
     let (relative, widening, epsilon) = (0.0, 0.0, 0.1);
-    Model::Algebraic(Algebraic { strength, relative, power, widening, epsilon, desired_speed })
+    Model::Algebraic(Algebraic { mu: strength, delta: relative, q: power, a_v: widening, epsilon, v0: desired_speed })
 }
 
 fn exponential_at(strength: f64, desired_speed: f64) -> Model {
     let mut law = exponential(strength, 1.5, 0.0);
-    law.desired_speed = desired_speed;
+    law.v0 = desired_speed;
     Model::Exponential(law)
 }
 
 fn logarithmic(desired_speed: f64, widening: f64) -> Model {
-    Model::Logarithmic(Logarithmic { desired_speed, widening, epsilon: 0.01 })
+    Model::Logarithmic(Logarithmic { v0: desired_speed, a_v: widening, epsilon: 0.01 })
 }
 
 /// The optimal velocity `V(s)` of each law and its slope, over headways from contact of the bodies (of the centres for the
@@ -63,9 +64,9 @@ const CONTROLS: [(Method, Control); 2] = [
     (Method::Extrapolation, Control::Adaptive { tolerance: 1e-13 }),
 ];
 
-/// The unstable runs of figures 4 and 7 with other desired speeds and other strengths, and one with a force whose potential
-/// is finite at contact: when somebody first walks backwards, and what ends the run. `velocity_at_contact` is `V` at
-/// `d = 0`, where the law has one. Beyond contact the exponential law goes on.
+/// The unstable runs of figures 4 and 7 with other desired speeds and other strengths, and one with a force whose
+/// potential is finite at contact: the time of the first negative speed, and the event that ends the run.
+/// `velocity_at_contact` is `V` at `d = 0`, where the law has one. Runs of the exponential law continue after contact.
 ///
 /// # Errors
 /// A run failed, or two methods disagree about what ended it.
@@ -114,7 +115,7 @@ struct Followed {
     stop: (&'static str, f64),
 }
 
-/// Keeps the first negative speed and the first stop; goes on until both are there or no more can come.
+/// Keeps the first negative speed and the first stop; continues until both are known or neither can follow.
 struct Following<'a> {
     watch: Watch<'a>,
     negative: Option<f64>,

@@ -1,5 +1,4 @@
-//! The published curves of figures 12 (left) and 13 beside runs by fixed steps and with other parameters: how far each run
-//! is from them.
+//! Distances of the published curves of figures 12 (left) and 13 from runs with fixed steps and with other parameters.
 
 use crate::hard::rows::{Cell, Rows, row};
 use crate::parameters::jammed::{Run, Start, snapshots};

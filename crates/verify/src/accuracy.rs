@@ -36,7 +36,7 @@ pub struct Options {
     pub json: bool,
 }
 
-/// Compares, tells, and accepts if that was asked for.
+/// Compares, reports, and accepts the tables if requested.
 ///
 /// # Errors
 /// Differs: a table is not as committed.
@@ -113,7 +113,7 @@ fn tables(paths: &Paths) -> Result<Vec<String>, Failure> {
     Ok(names.into_iter().filter(|name| name.ends_with(".csv")).collect())
 }
 
-/// Puts the tables in their place, and the sums of all that are there beside them.
+/// Moves the tables into place, and writes the sums of all tables there.
 fn bless(paths: &Paths, made: &Path, is_full: bool) -> Result<(), Failure> {
     let folder = paths.root.join(ACCURACY);
     for name in disk::names(made)?.into_iter().filter(|name| is_full || !LONGEST.contains(&name.as_str())) {

@@ -1,5 +1,5 @@
-//! Attestations of bits: `data/attestations.jsonl`, a line of JSON for each machine and result. No name of a host or of a
-//! user, no path, no time.
+//! Attestations of bits (`data/attestations.jsonl`): one line of JSON for each machine and result. A line contains no
+//! host name, user name, path or time.
 
 use checkout::disk;
 use checkout::failure::Failure;
@@ -10,7 +10,7 @@ use checkout::sums::Sums;
 use serde::{Deserialize, Serialize};
 use std::env::consts;
 
-/// One machine and what it got.
+/// A machine and its result.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Attestation {
@@ -85,7 +85,7 @@ pub fn compared(paths: &Paths) -> Result<Vec<(Attestation, bool)>, Failure> {
     Ok(read(paths)?.into_iter().map(same).collect())
 }
 
-/// Appends a line unless the same one is there; whether it did.
+/// Appends a line unless it already exists; returns whether it did.
 ///
 /// # Errors
 /// The file is malformed, or cannot be read or written.

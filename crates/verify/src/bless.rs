@@ -1,5 +1,5 @@
-//! Accepts outputs: shows them against the last commit, then writes their sums, samples, hashes of states and the ledger
-//! are written.
+//! Accepts outputs: shows how they differ from the last commit, then writes their sums, samples, state hashes and the
+//! ledger.
 
 use crate::reference::Reference;
 use crate::{golden, judgement, states, words};
@@ -19,7 +19,7 @@ struct Change {
     numbers_moved: bool,
 }
 
-/// Shows what changes; then accepts it, if `numbers` or no number and no verdict moved.
+/// Shows the changes, then accepts them if `numbers` is given or no number and no verdict has changed.
 ///
 /// # Errors
 /// Differs: numbers or verdicts moved, and `numbers` was not given; nothing is written. Otherwise what kept a file from

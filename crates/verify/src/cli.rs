@@ -1,4 +1,4 @@
-//! The command line. The runner starts it; it may also be started by hand.
+//! The command line. The runner starts this program; it can also be started by hand.
 
 use crate::findings::Findings;
 use crate::reference::Reference;
@@ -139,7 +139,7 @@ fn judge(paths: &Paths, arguments: &JudgeArgs) -> Result<(), Failure> {
     }
     if arguments.attest {
         let line = attest::Attestation::here(request.jobs, &findings.sums, findings.verdict().word());
-        let done = if attest::append(paths, &line)? { "one line more" } else { "this line is there already" };
+        let done = if attest::append(paths, &line)? { "one line added" } else { "the line is already there" };
         eprintln!("{ATTESTATIONS}: {done}");
     }
     if let Some(file) = &arguments.report {
@@ -147,7 +147,7 @@ fn judge(paths: &Paths, arguments: &JudgeArgs) -> Result<(), Failure> {
     }
     if findings.are_all_but_the_ledger() && !findings.are_same() {
         claims::write(paths, &findings.claims.ledger)?;
-        eprintln!("{LEDGER} is written as it was found: commit it");
+        eprintln!("{LEDGER} now holds the verdicts found: commit it");
     }
     conclude(&findings, arguments, &request)
 }
@@ -187,5 +187,5 @@ fn conclude(findings: &Findings, arguments: &JudgeArgs, request: &Request) -> Re
         eprintln!("{words}\nwithin the tolerances of {TOLERANCES}");
         return Ok(());
     }
-    Err(Failure::Differs(format!("{words}; what was made now lies in {}", request.base.display())))
+    Err(Failure::Differs(format!("{words}; the outputs are in {}", request.base.display())))
 }

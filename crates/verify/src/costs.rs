@@ -1,4 +1,4 @@
-//! The committed costs of figures and claims as a document.
+//! Writes the committed costs of figures and claims as a document.
 
 use checkout::costs::{Cost, Costs, read};
 use checkout::disk;
@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 /// The document, by name.
 const DOCUMENT: &str = "data/COSTS.md";
 
-/// What stands before the tables.
+/// The text before the tables.
 const PREFACE: &str = "# What each figure and each claim costs
 
 Written by `cargo xtask list --costs` from `data/costs.csv`, which `cargo xtask verify --all --costs` measures: seconds of one
@@ -74,7 +74,8 @@ pub fn markdown(paths: &Paths, all: &[Figure]) -> Result<String, Failure> {
     ))
 }
 
-/// A row for each claim: what it reads, and what that costs to make. A claim on committed tables alone costs nothing.
+/// A row for each claim: the tables it reads, and the cost of making them. A claim on committed tables alone costs
+/// nothing.
 fn claims(paths: &Paths, costs: &[(&Figure, Cost)]) -> Result<String, Failure> {
     let mut rows = String::new();
     for claim in Sources::read(paths)?.claims {

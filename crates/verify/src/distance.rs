@@ -1,5 +1,6 @@
 //! The distance of the paper's scheme from the accurate runs and from the published curves, from tables alone.
 
+use crate::published::{CURVES, Curve};
 use checkout::disk;
 use checkout::failure::Failure;
 use checkout::figure::{self, Figure};
@@ -32,11 +33,7 @@ pub const COLUMNS: [&str; 15] = [
     "accurate_from_published",
 ];
 
-/// The tables with published points: figure, table, column, and the name of the points, whose first column is a key.
-const PUBLISHED: [(&str, &str, &str, &str); 2] =
-    [("fig12", "t300", "v", "published_speed_t300"), ("fig13", "std", "std", "published_std_log")];
-
-/// Writes the table of distances wherever the tables of both schemes are there, and tells it.
+/// Writes and prints the table of distances, for figures whose tables by both schemes exist.
 ///
 /// # Errors
 /// A table cannot be read, or the distances not be written.
@@ -110,27 +107,13 @@ fn compare([verbatim, accurate]: &[Table; 2], (a, b): (usize, usize)) -> [Cell; 
 }
 
 /// The number of published points that both schemes have a value at, and how far they are at most; nothing without points.
-fn published(paths: &Paths, wanted: [&str; 3], tables: &[Table; 2]) -> Result<[Cell; 3], Failure> {
-    const NONE: [Cell; 3] = [Cell::Empty, Cell::Empty, Cell::Empty];
-    let named = PUBLISHED.iter().find(|(figure, table, column, _)| [*figure, *table, *column] == wanted);
-    let Some((_, _, column, name)) = named else { return Ok(NONE) };
-    let path = paths.root.join("data/reference").join(format!("{name}.csv"));
-    if !path.exists() {
-        return Ok(NONE);
-    }
-    let points = read(&path)?;
-    let fail = Failure::at(&path);
-    let key = &points.columns[0];
-    let (keys, values) = (points.column(key).map_err(&fail)?, points.column(column).map_err(&fail)?);
-    let farthest = |table: &Table| -> Result<(usize, f64), Failure> {
-        let (mine, found) = (table.column(key).map_err(&fail)?, table.column(column).map_err(&fail)?);
-        // keys were read off an axis: whole up to their reading error
-        let at = |key: f64| mine.iter().position(|own| *own == key.round()).map(|index| found[index]);
-        let pairs = keys.iter().zip(&values).filter_map(|(&key, value)| Some((at(key)? - value).abs()));
-        Ok(pairs.fold((0, 0.0), |(count, largest), next| (count + 1, if next > largest { next } else { largest })))
+fn published(paths: &Paths, [figure, table, column]: [&str; 3], tables: &[Table; 2]) -> Result<[Cell; 3], Failure> {
+    let is_meant = |curve: &&Curve| curve.table == format!("{figure}/{table}") && curve.columns[1] == column;
+    let Some(curve) = CURVES.iter().find(is_meant).filter(|curve| curve.is_there(paths)) else {
+        return Ok([Cell::Empty, Cell::Empty, Cell::Empty]);
     };
-    let ((points, from_verbatim), (_, from_accurate)) = (farthest(&tables[0])?, farthest(&tables[1])?);
-    Ok([points.into(), from_verbatim.into(), from_accurate.into()])
+    let (verbatim, accurate) = (curve.beside(paths, &tables[0])?, curve.beside(paths, &tables[1])?);
+    Ok([verbatim.x.len().into(), verbatim.largest().into(), accurate.largest().into()])
 }
 
 /// The distances for a reader.

@@ -66,7 +66,7 @@ impl Findings {
         format!("{}{}", print::table(&self.rows()), lines.collect::<String>())
     }
 
-    /// A row for each figure below a header: what each level says, and the verdict.
+    /// A header and a row for each figure: the result of each level, and the verdict.
     pub fn rows(&self) -> Vec<Vec<String>> {
         let mut rows = vec![print::row(&["figure", "label", "bytes", "numbers", "pixels", "verdict"])];
         for figure in &self.figures {

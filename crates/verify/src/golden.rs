@@ -1,4 +1,4 @@
-//! Committed samples of tables: small enough for a repository, enough to say where a number moved.
+//! Committed samples of tables: small enough for a repository, and dense enough to show where a number moved.
 
 use checkout::disk;
 use checkout::failure::Failure;
@@ -7,7 +7,7 @@ use checkout::outputs;
 use checkout::paths::Paths;
 use std::collections::BTreeMap;
 
-/// At most so many rows are kept.
+/// Largest number of rows kept.
 pub const ROWS: usize = 2000;
 
 /// Every k-th row of a table, from the first, with the smallest k that leaves at most [`ROWS`]; header kept, lines
@@ -22,7 +22,7 @@ pub fn sample(csv: &str) -> String {
     text
 }
 
-/// The smallest k for a table of so many rows.
+/// The smallest k for a table with the given number of rows.
 pub fn step(rows: usize) -> usize {
     rows.div_ceil(ROWS).max(1)
 }

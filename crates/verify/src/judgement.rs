@@ -23,7 +23,7 @@ pub struct Judgement {
     pub label: String,
     /// Bytes: a state for each output.
     pub files: BTreeMap<String, State>,
-    /// Numbers: how far each table is from the committed one, by file name; or why that cannot be said.
+    /// Numbers: the distance of each table from the committed one, by file name, or the reason why it is unknown.
     pub tables: BTreeMap<String, Result<Compared, String>>,
     /// Numbers: events of the figure's runs that are not as committed.
     pub events: Vec<Moved>,

@@ -1,8 +1,8 @@
-//! Comparing what was made with what is committed, on four levels: bytes, numbers, pixels, claims. A program that the
-//! runner starts ([`cli`]).
+//! Compares what was made with what is committed, on four levels: bytes, numbers, pixels, claims. The runner starts
+//! this program ([`cli`]).
 //!
 //! [`mod@reference`] finds what is committed; [`tables`] with [`numbers`], [`states`], [`moved`] and [`pictures`] compare it
-//! with what was made; [`verdict`] says what that means together, [`words`], [`json`] and [`page`] tell it. The ledger is
+//! with what was made; [`verdict`] says what that means together, [`words`], [`json`] and [`page`] (by [`html`]) tell it. The ledger is
 //! judged by the crate `claims`. [`bless`] shows the same judgement before it writes.
 
 pub mod accuracy;
@@ -13,6 +13,7 @@ pub mod costs;
 pub mod distance;
 pub mod findings;
 pub mod golden;
+pub mod html;
 pub mod json;
 pub mod judgement;
 pub mod moved;
@@ -21,6 +22,7 @@ pub mod page;
 pub mod pictures;
 pub mod pixels;
 pub mod precision;
+pub mod published;
 pub mod reference;
 pub mod rows;
 pub mod states;

@@ -1,4 +1,4 @@
-//! The program `verify`: judges what the runner made, accepts it, and answers for the ledger.
+//! The program `verify`: judges what the runner made, accepts it, and shows entries of the ledger.
 
 fn main() {
     std::process::exit(verify::cli::run(std::env::args_os()));

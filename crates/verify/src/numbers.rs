@@ -1,4 +1,4 @@
-//! The distance between two tables.
+//! Distances between two tables.
 
 use files::pairs::{KEYS, Pair, pairs};
 use files::table::{Cell, Sheet};

@@ -37,7 +37,7 @@ pub struct Shown {
 }
 
 impl Picture {
-    /// Whether only the file is another one, not what it shows.
+    /// Whether only the file differs and not the picture.
     pub fn is_other_file(&self) -> bool {
         matches!(self, Picture::Pixels(pixels, _) if pixels.changed == 0)
     }

@@ -1,4 +1,4 @@
-//! Pixels of two pictures, and a picture of their difference.
+//! Compares the pixels of two pictures, and draws their difference.
 
 use serde::Serialize;
 use std::io::Cursor;
@@ -104,7 +104,7 @@ pub fn compare(expected: &Image, actual: &Image) -> Result<Pixels, String> {
     Ok(found)
 }
 
-/// The expected picture in pale grey; on it, what changed in red, the darker the more.
+/// The expected picture in pale grey, with changed pixels in red, darker for larger changes.
 pub fn difference(expected: &Image, actual: &Image) -> Image {
     let pixel = |(one, other): (&[u8], &[u8])| match distance(one, other) {
         0 => {

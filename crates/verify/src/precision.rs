@@ -1,4 +1,4 @@
-//! Results of the tables of error against work: the cheapest method for an error, and the least error of each method.
+//! Results from the tables of error against work: the cheapest method for an error, and the least error of each method.
 
 use checkout::disk;
 use checkout::failure::Failure;
@@ -29,7 +29,7 @@ pub const SCENES: [&str; 6] = [
 pub struct Row {
     /// The method.
     pub method: String,
-    /// Its tolerance, or the length of its steps; as it stands in the table.
+    /// Its tolerance or step, as written in the table.
     pub control: String,
     /// Evaluations of the right-hand side.
     pub right_hand_sides: Option<f64>,
@@ -146,7 +146,7 @@ impl Scene {
         })
     }
 
-    /// What the table says, for JSON.
+    /// The results as JSON.
     pub fn to_json(&self) -> Value {
         let best = |targets: [f64; 3], methods: &[&str]| -> Vec<Value> {
             let entry = |target: f64| {

@@ -1,4 +1,4 @@
-//! The committed reference: sums, events, samples, tolerances; and whole tables and pictures where they are at hand.
+//! The committed reference: sums, events, samples, tolerances, and whole tables and pictures where they are available.
 
 use crate::moved::{self, Moved};
 use crate::tolerances::Tolerances;

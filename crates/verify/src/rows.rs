@@ -1,4 +1,4 @@
-//! Tables of rows compared with committed ones, byte for byte.
+//! Compares tables of rows with committed ones, byte for byte.
 
 /// How the rows of a table that was made must lie to those of the committed one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

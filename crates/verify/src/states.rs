@@ -22,7 +22,7 @@ const HEADER: &str = "t,state,pedestrians";
 const DIGITS: usize = 16;
 /// Digits for each pedestrian.
 const SHORT: usize = 4;
-/// Times of the first checkpoints: a difference spreads to everybody within a few time units.
+/// Times of the first checkpoints: a difference spreads to all pedestrians within a few time units.
 const EARLY: [u32; 5] = [1, 2, 5, 10, 20];
 /// Time units between the later ones.
 const EVERY: u32 = 50;
@@ -47,7 +47,8 @@ pub struct Parted {
     pub same_until: Option<String>,
     /// The first checkpoint that differs.
     pub at: Option<String>,
-    /// Who differs there, from 0; empty when the difference lies before it, or the run ends elsewhere.
+    /// The pedestrians that differ there, counted from 0; empty if the difference occurs before it, or the run ends
+    /// elsewhere.
     pub pedestrians: Vec<usize>,
     /// All pedestrians of the run.
     pub of: usize,

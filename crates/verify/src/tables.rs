@@ -1,4 +1,4 @@
-//! The level of numbers: tables against the committed ones, or against the committed samples of them.
+//! The level of numbers: tables against the committed ones, or against committed samples of them.
 
 use crate::golden;
 use crate::numbers::{self, Distance, Tolerance};
@@ -78,7 +78,7 @@ pub fn judge(
     Ok(judged)
 }
 
-/// Compares a fresh table with the whole committed one, if it is there (and other), else with the sample.
+/// Compares a fresh table with the whole committed one, if that is available and differs, otherwise with the sample.
 fn compare(
     sample: &str,
     whole: Option<&[u8]>,

@@ -85,7 +85,7 @@ pub enum Rule {
 }
 
 impl Tolerances {
-    /// Reads the file; no tolerances when there is none.
+    /// Reads the file; without a file there are no tolerances.
     ///
     /// # Errors
     /// Usage: it is malformed, with the place.

@@ -1,4 +1,4 @@
-//! The verdict that the four levels give together.
+//! The overall verdict from the four levels.
 
 use crate::judgement::Judgement;
 use crate::tables::{Against, Compared};
@@ -20,7 +20,7 @@ pub enum Verdict {
     /// The bytes of a table are others, none of the committed samples is, and the whole committed table is not at hand:
     /// the rows between the samples cannot be judged.
     Unlocated,
-    /// What is committed contradicts itself: a table has its committed sum, but is not what its committed sample says.
+    /// The committed files contradict each other: a table has its committed sum but differs from its committed sample.
     Contradiction,
     /// A table or a picture is missing, new, cut short, or cannot be read; all numbers that can be compared are within.
     Broken,
@@ -108,10 +108,10 @@ impl Verdict {
             Verdict::Same => "the same bytes",
             Verdict::OtherFile => "same data, same pixels, other file",
             Verdict::OtherRendering => "same data, other rendering",
-            Verdict::OtherText => "same numbers, written otherwise",
+            Verdict::OtherText => "same numbers, written differently",
             Verdict::OtherBits => "same numbers within tolerance, other bits",
-            Verdict::Unlocated => "other bits, not at the committed samples: how far cannot be said",
-            Verdict::Contradiction => "what is committed contradicts itself",
+            Verdict::Unlocated => "other bits, not at the committed samples: distance unknown",
+            Verdict::Contradiction => "the committed files contradict each other",
             Verdict::Broken => "missing, new, cut short or unreadable",
             Verdict::OtherPhysics => "other physics: beyond tolerance",
         }

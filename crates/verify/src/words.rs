@@ -1,4 +1,4 @@
-//! Differences in words.
+//! Describes differences in words.
 
 use crate::judgement::Judgement;
 use crate::moved::Moved;

@@ -1,4 +1,4 @@
-//! The page on laws of one's own: its commands as they stand, and its messages.
+//! The page on user-defined laws: its commands as printed, and its messages.
 
 use crate::{binary, root};
 use std::path::Path;

@@ -1,11 +1,10 @@
-//! The binaries as a user meets them: sums, redrawing, exit codes, what is left behind.
+//! The programs as a user meets them: sums, redrawing, exit codes, files left behind.
 
 mod failures;
 mod formulas;
 mod pictures;
 mod resume;
 mod sums;
-mod sweep;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

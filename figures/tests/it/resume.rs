@@ -1,4 +1,4 @@
-//! A run that is killed, and goes on: the same bytes as one that nobody disturbed.
+//! A run that is killed and resumed has the bytes of an uninterrupted one.
 
 use crate::root;
 use files::write::sha256_file;
@@ -37,11 +37,7 @@ fn file(folder: &Path) -> PathBuf {
     folder.join("run.checkpoint")
 }
 
-/// Starts a run and kills it (SIGKILL) once it has written a checkpoint and so much time has passed since.
-fn kill(folder: &Path, after: Duration) {
-    kill_as(folder, after, simulate(folder, END));
-}
-
+/// Starts a run and kills it (SIGKILL) a given time after it has written a checkpoint.
 fn kill_as(folder: &Path, after: Duration, mut command: Command) {
     let before = std::fs::read(file(folder)).ok();
     let mut child = command.stderr(Stdio::null()).stdout(Stdio::null()).spawn().expect("it starts");
@@ -54,10 +50,6 @@ fn kill_as(folder: &Path, after: Duration, mut command: Command) {
     std::thread::sleep(after);
     child.kill().expect("it can be killed");
     child.wait().expect("it ends");
-}
-
-fn finish(folder: &Path) -> (serde_json::Value, Output) {
-    finish_as(folder, simulate(folder, END))
 }
 
 fn finish_as(folder: &Path, mut command: Command) -> (serde_json::Value, Output) {
@@ -79,13 +71,13 @@ fn a_run_killed_at_any_moment_goes_on_to_the_same_bytes() {
     for folder in [&whole, &killed] {
         std::fs::create_dir(folder).expect("a folder");
     }
-    let (summary, _) = finish(&whole);
+    let (summary, _) = finish_as(&whole, simulate(&whole, END));
     assert_eq!((summary["steps"].as_f64(), summary["resumed_steps"].as_u64()), (Some(STEPS), Some(0)));
     for after in [0, 137, 271] {
-        kill(&killed, Duration::from_millis(after));
+        kill_as(&killed, Duration::from_millis(after), simulate(&killed, END));
     }
     assert!(!killed.join("out").join("std.csv").exists(), "it ended before it was killed");
-    let (resumed, output) = finish(&killed);
+    let (resumed, output) = finish_as(&killed, simulate(&killed, END));
     let steps = resumed["resumed_steps"].as_f64().expect("a number");
     println!("resumed at step {steps:e} of {STEPS:e}");
     assert!(steps > 0.0 && steps < STEPS);
@@ -133,20 +125,22 @@ fn a_run_of_adaptive_steps_killed_goes_on_to_the_same_bytes_and_tells_how_far_it
 fn a_damaged_or_foreign_checkpoint_is_not_believed() {
     let scratch = tempfile::tempdir().expect("a scratch folder");
     let folder = scratch.path();
-    let (_, _) = finish(folder);
+    // five runs: shorter ones
+    let (end, other_end) = ("5", "4");
+    let (_, _) = finish_as(folder, simulate(folder, end));
     let expected = sums(folder);
-    kill(folder, Duration::ZERO);
+    kill_as(folder, Duration::ZERO, simulate(folder, end));
     let sound = std::fs::read(file(folder)).expect("a checkpoint");
     let mut flipped = sound.clone();
     let middle = sound.len() / 2;
     flipped[middle] ^= 1;
     let short = sound[..middle].to_vec();
-    for (bytes, end) in [(&flipped, END), (&short, END), (&Vec::new(), END), (&sound, "19")] {
+    for (bytes, until) in [(&flipped, end), (&short, end), (&Vec::new(), end), (&sound, other_end)] {
         std::fs::write(file(folder), bytes).expect("a file");
-        let output = simulate(folder, end).output().expect("it starts");
+        let output = simulate(folder, until).output().expect("it starts");
         let summary: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
         assert_eq!(summary["resumed_steps"], 0);
         assert!(bytes.is_empty() || String::from_utf8_lossy(&output.stderr).contains("the run starts over"));
-        assert_eq!(sums(folder) == expected, end == END);
+        assert_eq!(sums(folder) == expected, until == end);
     }
 }

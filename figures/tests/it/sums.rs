@@ -1,4 +1,4 @@
-//! Every figure from nothing and once more from its tables alone: the bytes that are committed.
+//! Every figure from nothing, and once more from its tables alone, has the committed bytes.
 
 use crate::{root, succeed};
 use files::scene_file::{self, Kind};

@@ -1,4 +1,4 @@
-//! `accuracy`: makes the tables of accuracy again, then has them compared with the committed ones.
+//! `accuracy`: recomputes the accuracy tables and has them compared with the committed ones.
 
 use super::judge;
 use crate::child;

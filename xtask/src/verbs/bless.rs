@@ -1,4 +1,4 @@
-//! `bless`: has new sums and samples accepted, after it has seen that they come from committed sources.
+//! `bless`: has new sums and samples accepted once it has checked that they come from committed sources.
 
 use super::judge;
 use crate::cli::BlessArgs;
@@ -33,7 +33,7 @@ pub fn run(paths: &Paths, arguments: &BlessArgs) -> Result<(), Failure> {
     judge::run(verify.args(arguments.numbers.then_some("--numbers")))
 }
 
-/// Sums stand for sources that anyone can get back: tracked files that are no outputs must be as committed.
+/// Sums must belong to sources that can be retrieved: tracked files other than outputs must be as committed.
 fn refuse_modified(paths: &Paths) -> Result<(), Failure> {
     let Some(mut names) = gate::modified(paths)? else {
         eprintln!("no git repository: nothing says whether the sources are as committed");

@@ -4,37 +4,39 @@ use super::{figures, publish, verify};
 use crate::cli::{BundleArgs, CiArgs, FiguresArgs, Selection};
 use crate::gate;
 use checkout::failure::Failure;
+use checkout::figure;
 use checkout::paths::Paths;
 use checkout::print;
 use checkout::process;
 use std::io::{BufRead, BufReader};
 use std::panic::resume_unwind;
 use std::process::{Command, Stdio};
+use std::time::Instant;
 
-/// A script below the root that needs more than Rust. It ends with 0 when all is well, with 5 when it cannot be tried
-/// here (the last line on stderr says why), else with another code.
+/// A script that needs more than Rust. It ends with 0 if it passes, with 5 if it cannot be tried here (the last line on
+/// stderr says why), and with another code if it fails.
 #[derive(Clone, Copy)]
 struct Script {
-    /// What it looks at.
+    /// What it checks.
     what: &'static str,
     /// The script and its arguments.
     command: &'static [&'static str],
 }
 
-/// Run by `test`, where their tools are there; `ci` installs these. Those of a stage run at the same time: most of them keep
-/// one processor busy. The page has a stage of its own, since it is timed.
+/// Run by `test` where the tools exist; `ci` installs them. The scripts of a stage run at the same time, since most of them
+/// keep one processor busy. The page has a stage of its own because it is timed.
 const STAGES: [&[Script]; 3] = [
     &[Script { what: "values by NumPy", command: &["checks/spot.sh"] }],
     &[
         Script { what: "trajectories as PedPy reads them", command: &["checks/pedpy/run.sh"] },
         Script { what: "the package for Python", command: &["checks/python-door.sh"] },
-        Script { what: "the article and its PDF", command: &["checks/article.sh"] },
     ],
     &[Script { what: "the page in a browser", command: &["checks/browser/run.sh"] }],
 ];
 
-/// Run by `ci --full` alone.
-const SLOW: [Script; 8] = [
+/// Run by `ci --full` alone. The article needs the tables of all supplements.
+const SLOW: [Script; 9] = [
+    Script { what: "the article and its PDF", command: &["checks/article.sh"] },
     Script { what: "random scenes by SciPy", command: &["checks/hunt.sh"] },
     Script { what: "a plane of outcomes", command: &["checks/outcomes.sh"] },
     Script { what: "other machines", command: &["checks/other-machines.sh"] },
@@ -45,8 +47,11 @@ const SLOW: [Script; 8] = [
     Script { what: "20000 inputs for each reader", command: &["checks/fuzz.sh", "20000"] },
 ];
 
+/// Supplements that take seconds to minutes each. `ci --full` alone makes them, and judges the claims that read them.
+const SLOW_SUPPLEMENTS: [&str; 6] = ["s10", "s13", "s14", "s20", "s24", "s26"];
+
 /// Why a script was not tried: what it looks at, and the reason.
-type Untried = (&'static str, String);
+type Untried = (String, String);
 
 /// `test`.
 ///
@@ -54,7 +59,7 @@ type Untried = (&'static str, String);
 /// Differs: a test fails.
 pub fn test(paths: &Paths) -> Result<(), Failure> {
     let mut untried = tests(paths, false)?;
-    untried.extend(SLOW.iter().map(|script| (script.what, "only in cargo xtask ci --full".to_owned())));
+    untried.extend(SLOW.iter().map(|script| (script.what.to_owned(), "only in cargo xtask ci --full".to_owned())));
     tell(&untried)
 }
 
@@ -66,11 +71,11 @@ pub fn ci(paths: &Paths, arguments: &CiArgs) -> Result<(), Failure> {
     cargo(paths, &["fmt", "--all", "--check"])?;
     // in release mode, so that what macros and build scripts need is compiled once
     cargo(paths, &["clippy", "--release", "--locked", "--workspace", "--all-targets", "--", "-D", "warnings"])?;
-    // the tables first, those of the supplements among them: the scripts and the article read them
-    every_figure(paths, true)?;
+    // before the scripts, which read the tables
+    let quick = if arguments.full { Vec::new() } else { quick_figures(paths)? };
+    make(paths, &quick, true)?;
     let mut untried = tests(paths, true)?;
-    eprintln!("ci: verify");
-    verify::made(paths)?;
+    timed("verify", || verify::made(paths, &quick))?;
     if arguments.full {
         cargo(paths, &["test", "--release", "--locked", "--workspace", "--", "--ignored"])?;
         for script in &SLOW {
@@ -78,14 +83,22 @@ pub fn ci(paths: &Paths, arguments: &CiArgs) -> Result<(), Failure> {
         }
         untried.extend(archive(paths)?);
     } else {
-        untried.extend(SLOW.iter().map(|script| (script.what, "only with --full".to_owned())));
+        let supplements = "supplements, and the claims that read them: only with --full".to_owned();
+        untried.push((SLOW_SUPPLEMENTS.join(", "), supplements));
+        untried.extend(SLOW.iter().map(|script| (script.what.to_owned(), "only with --full".to_owned())));
     }
     tell(&untried)?;
     let is_ci = std::env::var_os("CI").is_some();
-    match untried.iter().find(|(what, _)| is_ci && STAGES.concat().iter().any(|script| script.what == *what)) {
+    match untried.iter().find(|(what, _)| is_ci && STAGES.concat().iter().any(|script| script.what == what)) {
         Some((what, why)) => Err(Failure::Differs(format!("not tried: {what}: {why}"))),
         None => Ok(()),
     }
+}
+
+/// All figures and supplements but the slow ones.
+fn quick_figures(paths: &Paths) -> Result<Vec<String>, Failure> {
+    let ids = figure::discover(paths)?.into_iter().map(|figure| figure.id);
+    Ok(ids.filter(|id| !SLOW_SUPPLEMENTS.contains(&id.as_str())).collect())
 }
 
 fn tests(paths: &Paths, install: bool) -> Result<Vec<Untried>, Failure> {
@@ -119,7 +132,10 @@ fn at_once(paths: &Paths, scripts: &[Script], install: bool) -> Result<Vec<Untri
 /// Runs a script; why it could not be tried, if so.
 fn attempt(paths: &Paths, script: &Script, install: bool) -> Result<Option<Untried>, Failure> {
     let name = script.command.join(" ");
-    eprintln!("{name}");
+    timed(&name, || run(paths, script, &name, install))
+}
+
+fn run(paths: &Paths, script: &Script, name: &str, install: bool) -> Result<Option<Untried>, Failure> {
     let mut command = Command::new("bash");
     command.args(script.command).current_dir(&paths.root).env("CARGO_TARGET_DIR", &paths.target);
     if install {
@@ -130,9 +146,9 @@ fn attempt(paths: &Paths, script: &Script, install: bool) -> Result<Option<Untri
     }
     let mut child = match command.stderr(Stdio::piped()).spawn() {
         Ok(child) => child,
-        Err(error) => return Ok(Some((script.what, format!("bash: {error}")))),
+        Err(error) => return Ok(Some((script.what.to_owned(), format!("bash: {error}")))),
     };
-    let mut last = name.clone();
+    let mut last = name.to_owned();
     if let Some(words) = child.stderr.take() {
         for line in BufReader::new(words).lines().map_while(Result::ok) {
             eprintln!("{line}");
@@ -142,7 +158,7 @@ fn attempt(paths: &Paths, script: &Script, install: bool) -> Result<Option<Untri
     let status = child.wait().map_err(|error| Failure::Failed(format!("{name}: {error}")))?;
     match status.code() {
         Some(0) => Ok(None),
-        Some(5) => Ok(Some((script.what, last))),
+        Some(5) => Ok(Some((script.what.to_owned(), last))),
         _ => Err(Failure::Differs(format!("{name} failed ({status})"))),
     }
 }
@@ -150,25 +166,37 @@ fn attempt(paths: &Paths, script: &Script, install: bool) -> Result<Option<Untri
 /// The archive, unpacked and tried; only of a commit.
 fn archive(paths: &Paths) -> Result<Option<Untried>, Failure> {
     if gate::modified(paths)?.is_none_or(|names| !names.is_empty()) {
-        return Ok(Some(("bundle --check", "it needs a commit, and no tracked file that differs from it".to_owned())));
+        let why = "needs a commit, and no tracked file that differs from it";
+        return Ok(Some(("bundle --check".to_owned(), why.to_owned())));
     }
-    every_figure(paths, false)?;
+    make(paths, &[], false)?;
     eprintln!("ci: bundle --check");
     publish::bundle(paths, &BundleArgs { out: None, check: true }).map(|()| None)
 }
 
-fn every_figure(paths: &Paths, force: bool) -> Result<(), Failure> {
-    eprintln!("ci: figures --all{}", if force { " --force" } else { "" });
-    let selection = Selection { all: true, ..Selection::default() };
-    figures::run(paths, &FiguresArgs { selection, force, ..FiguresArgs::default() })
+/// Makes these figures and supplements; all if none is named.
+fn make(paths: &Paths, ids: &[String], force: bool) -> Result<(), Failure> {
+    let selection = Selection { ids: ids.to_vec(), all: ids.is_empty() };
+    let what = if ids.is_empty() { "figures --all".to_owned() } else { format!("figures {}", ids.join(" ")) };
+    timed(&what, || figures::run(paths, &FiguresArgs { selection, force, ..FiguresArgs::default() }))
 }
 
 fn cargo(paths: &Paths, arguments: &[&str]) -> Result<(), Failure> {
-    eprintln!("cargo {}", arguments.join(" "));
-    step(process::cargo().args(arguments).current_dir(&paths.root).env("CARGO_TARGET_DIR", &paths.target))
+    let mut command = process::cargo();
+    command.args(arguments).current_dir(&paths.root).env("CARGO_TARGET_DIR", &paths.target);
+    timed(&format!("cargo {}", arguments.join(" ")), || step(&mut command))
 }
 
-/// Runs one step; its words go to our stdout and stderr.
+/// Names a step before it starts, and its seconds when it has ended.
+fn timed<T>(name: &str, step: impl FnOnce() -> Result<T, Failure>) -> Result<T, Failure> {
+    eprintln!("{name}");
+    let start = Instant::now();
+    let ended = step()?;
+    eprintln!("{name}: {:.0} s", start.elapsed().as_secs_f64());
+    Ok(ended)
+}
+
+/// Runs one step, which shares our stdout and stderr.
 ///
 /// # Errors
 /// Differs: it fails. Unsupported: the program is missing.

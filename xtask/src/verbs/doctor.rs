@@ -42,7 +42,7 @@ pub fn run(paths: &Paths, arguments: &JsonArgs) -> Result<(), Failure> {
     }
 }
 
-/// Programs that tell their version and that some verbs alone need: name, program, arguments, how to get it.
+/// Programs that print their version and that only some verbs need: name, program, arguments, how to get it.
 const PROGRAMS: [(&str, &str, &[&str], &str); 7] = [
     ("git", "git", &["--version"], "needed by bless; install git"),
     ("clippy", "cargo", &["clippy", "--version"], "needed by ci; rustup component add clippy"),

@@ -95,7 +95,7 @@ fn wishes(paths: &Paths, surveys: &[FigureState<'_>], records: &Records, argumen
     surveys.iter().map(wish).collect()
 }
 
-/// Carries out the plan. Each figure is recorded as soon as it is made, so that a run that is broken off loses nothing.
+/// Carries out the plan. Each figure is recorded as soon as it is made, so an interrupted run loses nothing.
 fn make(
     paths: &Paths,
     surveys: &[FigureState<'_>],
@@ -205,8 +205,8 @@ pub struct Forecast {
     pub unknown: usize,
 }
 
-/// The time that the nodes need on so many threads by the seconds of their last runs: that of the longest chain, but not
-/// below an even share for each thread.
+/// The estimated time of the nodes on the given number of threads, from the seconds of their last runs: that of the
+/// longest chain, but at least an even share for each thread.
 pub fn forecast(nodes: &[Node], threads: usize, last: &dyn Fn(&Node) -> Option<f64>) -> Forecast {
     let seconds: Vec<f64> = nodes.iter().map(|node| last(node).unwrap_or(0.0)).collect();
     // a node needs only earlier ones
@@ -224,9 +224,9 @@ pub fn forecast(nodes: &[Node], threads: usize, last: &dyn Fn(&Node) -> Option<f
 
 impl Display for Forecast {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
-        write!(f, "about {} as the last time", duration(self.seconds))?;
+        write!(f, "about {} judging by the last run", duration(self.seconds))?;
         if self.unknown > 0 {
-            write!(f, "; {} nodes not counted, they were not timed yet", self.unknown)
+            write!(f, "; {} nodes not counted because they have not been timed yet", self.unknown)
         } else {
             Ok(())
         }

@@ -1,7 +1,7 @@
-//! Verbs whose arguments another program reads: it is built, then started with them.
+//! Verbs whose arguments another program reads: builds the program and starts it with them.
 
 use crate::cli::ForwardArgs;
-use crate::compile::{self, FIGURES};
+use crate::compile::{self, FIGURES, PLANES};
 use crate::lock::Lock;
 use crate::sources::Sources;
 use checkout::failure::Failure;
@@ -9,8 +9,8 @@ use checkout::paths::Paths;
 use checkout::process;
 use std::process::Command;
 
-/// `simulate` and `map`; paths among the arguments are relative to the current folder. The lock is held while building
-/// only: a user's run keeps nobody waiting.
+/// `simulate` and `map`; paths among the arguments are relative to the current folder. The lock is held only while
+/// building, so that a user's run does not block others.
 ///
 /// # Errors
 /// The program cannot be built; or its own exit code.
@@ -29,8 +29,8 @@ pub fn scene(paths: &Paths, name: &str, arguments: &ForwardArgs) -> Result<(), F
 pub fn sweep(paths: &Paths, arguments: &ForwardArgs) -> Result<(), Failure> {
     let program = {
         let _lock = Lock::take(paths)?;
-        compile::tools(paths, FIGURES)?;
-        Sources::read(paths)?.numeric()
+        compile::tools(paths, PLANES)?;
+        Sources::read(paths)?.sweep()
     };
     let mut command = Command::new(paths.binary("sweep"));
     process::run_shown(command.args(&arguments.arguments).arg(format!("--program={program}")))

@@ -1,4 +1,4 @@
-//! The program that judges: built when a verb needs it, told what was made.
+//! Builds the judging program when a verb needs it, and passes it what was made.
 
 use crate::compile;
 use crate::record::{self, FigureState};

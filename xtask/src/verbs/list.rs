@@ -45,7 +45,7 @@ pub fn run(paths: &Paths, arguments: &ListArgs) -> Result<(), Failure> {
     print::out(&text)
 }
 
-/// The tables that are there, and the pictures.
+/// The existing tables, and the pictures.
 fn names(paths: &Paths, figure: &Figure) -> Result<Vec<String>, Failure> {
     let mut names = outputs::tables(paths, figure)?;
     names.extend(outputs::pictures(paths, figure));

@@ -1,5 +1,5 @@
-//! `paper`, `report` and `bundle`: once the figures are seen to be the committed ones, another program writes what is made
-//! from them.
+//! `paper`, `report` and `bundle`: once the figures are found to be the committed ones, another program writes the
+//! document.
 
 use crate::cli::{BundleArgs, PaperArgs, ReportArgs};
 use crate::compile;

@@ -1,4 +1,4 @@
-//! `verify --receipt`: what a reader's browser says it computed, against the committed sums.
+//! `verify --receipt`: compares what a reader's browser computed with the committed sums.
 
 use checkout::disk;
 use checkout::failure::Failure;
@@ -11,14 +11,13 @@ use std::path::Path;
 
 /// The form of receipts that this program reads.
 const SCHEMA_VERSION: u64 = 1;
-/// What a receipt says when all its tables have the committed sums.
+/// The verdict of a receipt whose tables all have the committed sums.
 const SAME: &str = "same bits";
 
 /// Judges a receipt.
 ///
-/// # Errors
-/// Usage: it is no receipt, or has a table that no figure has. Differs: a sum is not the committed one, or the receipt says of itself
-/// what its sums do not.
+/// # Errors Usage: it is not a receipt, or lists an unknown table. Differs: a sum is not the committed one, or the
+/// verdict of the receipt contradicts its sums.
 pub fn check(paths: &Paths, file: &Path) -> Result<(), Failure> {
     let text = disk::read_text(file)?.ok_or_else(|| Failure::Usage(format!("{}: no such file", file.display())))?;
     let name = file.display().to_string();

@@ -23,7 +23,7 @@ struct Line<'a> {
     /// Seconds of the figure's own program, if it ran now.
     seconds: Option<f64>,
     tables: usize,
-    /// `failed` or `skipped`: it could not be made, so what is there is not what was asked for.
+    /// `failed` or `skipped`: it could not be made, so the files are not the requested ones.
     lost: Option<&'static str>,
     states: BTreeMap<String, State>,
     error: Option<f64>,
@@ -137,7 +137,7 @@ impl<'a> Report<'a> {
     pub fn verdict(&self, paths: &Paths, whole: bool) -> Result<(), Failure> {
         let mut said: Vec<String> = self.lines.iter().flat_map(|line| line.flags.clone()).collect();
         if !said.is_empty() {
-            said.push(format!("errors above {FLAGGED_ABOVE:e} of the drawn range, or unknown: {}", said.len()));
+            said.push(format!("errors above {FLAGGED_ABOVE:e} of the data range, or unknown: {}", said.len()));
         }
         let absent = |line: &&Line<'_>| self.committed.list(line.figure.is_supplement()).is_none();
         if let Some(line) = self.lines.iter().find(absent) {

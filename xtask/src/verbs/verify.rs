@@ -1,4 +1,4 @@
-//! `verify`: recomputes into a scratch folder and has it judged against what is committed, on four levels.
+//! `verify`: recomputes into a scratch folder and has the result compared with what is committed, on four levels.
 
 use super::figures::read_times;
 use super::judge;
@@ -64,17 +64,20 @@ pub fn run(paths: &Paths, arguments: &VerifyArgs) -> Result<(), Failure> {
     disk::remove(&scratch.base)
 }
 
-/// Judges what `figures --all` has made, where it stands: `ci` has just computed all of it.
+/// Judges these figures and supplements, or all of them if none is named, where `ci` has just made them. The claims that
+/// read others are left out.
 ///
 /// # Errors
 /// Stale: something is older than what it is made from. Otherwise as [`run`].
-pub fn made(paths: &Paths) -> Result<(), Failure> {
+pub fn made(paths: &Paths, ids: &[String]) -> Result<(), Failure> {
     let all = figure::discover(paths)?;
     let _lock = Lock::take(paths)?;
     let sources = Sources::read(paths)?;
-    let surveys = record::survey(paths, &figure::select(&all, &[], true)?, &sources, &Records::read(paths)?)?;
+    let selected = figure::select(&all, ids, ids.is_empty())?;
+    let surveys = record::survey(paths, &selected, &sources, &Records::read(paths)?)?;
     gate::fresh(&surveys)?;
-    let request = Request { whole: true, all: true, jobs: 1, ..judge::about(paths, &all, &sources, &surveys) };
+    let is_whole = selected.len() == all.len();
+    let request = Request { whole: is_whole, all: is_whole, jobs: 1, ..judge::about(paths, &all, &sources, &surveys) };
     judge::run(&mut judge::about_request(paths, &request)?)
 }
 

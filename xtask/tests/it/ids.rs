@@ -1,4 +1,4 @@
-//! How figures are named.
+//! Names of figures.
 
 use crate::shop::Shop;
 use checkout::figure::{self, Figure, edits};

@@ -1,4 +1,4 @@
-//! Checks that are checked: each thing that can go wrong is reported at exactly its level.
+//! Tests of the checks: each fault is reported at exactly its level.
 
 use crate::shop::{Shop, blessed};
 use serde_json::Value;

@@ -1,4 +1,4 @@
-//! The page is made from good figures only. What it shows is tested in a browser (`checks/browser`).
+//! The page is made from verified figures only. A browser tests its display (`checks/browser`).
 
 use crate::shop::{self, Shop};
 

@@ -1,4 +1,4 @@
-//! When the article is refused.
+//! Conditions under which the article is refused.
 
 use crate::shop::blessed;
 use std::fs;

@@ -1,4 +1,4 @@
-//! Runs that are killed go on; how far a run is and how long a plan takes.
+//! Killed runs are resumed; progress and estimated times.
 
 use crate::shop::Shop;
 use checkout::print::duration;
@@ -94,10 +94,10 @@ fn a_forecast_is_the_longest_chain_or_an_even_share() {
 fn a_dry_run_says_how_long_it_takes() {
     let shop = Shop::new("progress-dry");
     let dry = || shop.xtask(&["figures", "11", "--dry-run"]).expect(0).out;
-    assert!(dry().contains("about 0 s as the last time; 3 nodes not counted"), "{}", dry());
+    assert!(dry().contains("about 0 s judging by the last run; 3 nodes not counted"), "{}", dry());
     std::fs::create_dir_all(shop.root.join("target/xtask")).expect("a folder");
     shop.write("target/xtask/times.json", "{\"fig11 run main\": 200.0, \"fig11 check main\": 20.0}");
-    assert!(dry().contains("about 3 min as the last time; 1 nodes not counted"), "{}", dry());
+    assert!(dry().contains("about 3 min judging by the last run; 1 nodes not counted"), "{}", dry());
     let json = shop.xtask(&["figures", "11", "--dry-run", "--json"]).expect(0).json();
     assert_eq!((json["seconds"].as_f64(), json["nodes_without_time"].as_u64()), (Some(200.0), Some(1)));
 }

@@ -9,7 +9,7 @@ fn named(pairs: &[(&str, &str)]) -> BTreeMap<String, String> {
 
 #[test]
 fn a_figure_never_made_is_stale() {
-    assert_eq!(reasons(None, &named(&[]), &named(&[])), ["not made here before"]);
+    assert_eq!(reasons(None, &named(&[]), &named(&[])), ["has not been made here yet"]);
 }
 
 #[test]

@@ -32,7 +32,7 @@ impl Shop {
         shop.figure("fig06-exponential-sway", "fig:avsfm", "[map]\nvalue = \"other\"\n");
         shop.figure("fig11-trajectories", "fig:jams", run);
         shop.figure("fig12-speeds", "fig:jams_vel", run);
-        shop.figure("s01-variant", "", "[ring]\npedestrians = 4\n[run]\nt_end = 10\n");
+        shop.figure("s01-variant", "", "reads = \"accuracy/named\"\n[ring]\npedestrians = 4\n[run]\nt_end = 10\n");
         fs::hard_link(fake(), shop.root.join("cargo")).expect("a link to the stand-in");
         shop
     }

@@ -1,4 +1,4 @@
-//! Staleness: what a change of each kind of file leads to, and whether what is hashed is what is read.
+//! Staleness: the effect of a change in each kind of file, and whether what is hashed is what is read.
 
 use crate::shop::{Shop, blessed};
 use checkout::figure;
@@ -65,14 +65,14 @@ fn every_kind_of_change_leads_to_exactly_the_needed_work() {
         ("figures/src/lib.rs", None, &[&RUNS, &FIGURES]),
         ("Cargo.lock", Some(&lock), &[&RUNS, &FIGURES]),
         ("rust-toolchain.toml", None, &[&RUNS, &FIGURES]),
-        ("data/reference/new.csv", Some("t\n"), &[&FIGURES]),
-        ("data/accuracy/new.csv", Some("t\n"), &[&["s01-variant"]]),
+        ("data/accuracy/named.csv", Some("t\n"), &[&["s01-variant"]]),
         // outputs
         ("data/fig05/left.csv", Some("a,phi\n0,1\n"), &[&["fig05-exponential-map"]]),
         ("data/fig05/left.csv", None, &[&["fig05-exponential-map"]]),
         ("figures/fig12-speeds/fig12.svg", Some("<svg/>"), &[&["fig12-speeds"]]),
         ("figures/fig12-speeds/fig12.png", None, &[&["fig12-speeds"]]),
         // what reaches no figure
+        ("data/accuracy/unnamed.csv", Some("t\n"), &[]),
         ("README.md", Some("words"), &[]),
         ("crates/math/tests/a.rs", Some("//! A test."), &[]),
         ("data/golden/fig05/left.csv", None, &[]),
@@ -166,7 +166,7 @@ fn what_the_compiler_read_is_what_is_hashed() {
         let unread: Vec<&String> = unread.collect();
         assert!(unread.is_empty(), "{}: hashed and not read: {unread:?}", figure.slug);
     }
-    for tool in compile::FIGURES.tools.iter().chain(compile::STUDIES.tools) {
+    for tool in compile::FIGURES.tools.iter().chain(compile::PLANES.tools).chain(compile::STUDIES.tools) {
         let missing: Vec<String> =
             compiled_from(&paths, tool).into_iter().filter(|name| !sources.files.contains_key(name)).collect();
         assert!(missing.is_empty(), "{tool}: read and not hashed: {missing:?}");

@@ -1,5 +1,5 @@
-//! What the project takes from elsewhere: dependencies with a purpose, build scripts that are known, no fonts of the
-//! machine, and no `unsafe` of its own but where ARCHITECTURE.md says. Licences and sources: `deny.toml`.
+//! External dependencies: each has a purpose, build scripts are known, no font of the machine is used, and `unsafe`
+//! occurs only where ARCHITECTURE.md says. Licences and sources: `deny.toml`.
 
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};

@@ -1,4 +1,4 @@
-//! Runs against their checks, and the table of events.
+//! Runs against their second runs, and the table of events.
 
 use checkout::events::{self, Event};
 use files::table::Table;

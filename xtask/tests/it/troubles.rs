@@ -1,4 +1,4 @@
-//! What `figures`, `verify` and `clean` say and leave when something goes wrong.
+//! What `figures`, `verify` and `clean` report and leave behind when something goes wrong.
 
 use crate::shop::{blessed, temporary};
 
@@ -113,7 +113,7 @@ fn verify_tells_stray_and_missing_lines() {
 #[test]
 fn an_error_above_the_bound_is_told_with_table_and_column() {
     let shop = blessed("troubles-bound");
-    for (error, words) in [("2e-8", "2.0e-8 of the drawn range"), ("null", "unknown"), ("1e-8", "")] {
+    for (error, words) in [("2e-8", "2.0e-8 of the data range"), ("null", "unknown"), ("1e-8", "")] {
         shop.write("report.json", &format!("{{\"tables\": {{\"left\": {{\"error\": {{\"phi\": {error}}}}}}}}}"));
         let ended = shop.xtask(&["figures", "5", "--force"]).expect(i32::from(!words.is_empty()));
         assert!(ended.out.contains("fig05"), "{}", ended.out);

@@ -1,4 +1,4 @@
-//! Readers of what is committed, and events that are refused.
+//! Tests of the readers of committed files, and of events that must be refused.
 
 mod corpus;
 mod tables;

@@ -1,4 +1,4 @@
-//! The committed ledger and its tables; tables in memory.
+//! The committed ledger on its tables, and tables in memory.
 
 use checkout::paths::{Paths, Scheme};
 use claims::again;
@@ -24,6 +24,14 @@ fn tables_of_figures_are_told_from_committed_ones() {
 fn checkout() -> Paths {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     Paths { base: root.clone(), target: root.join("target"), root, scheme: Scheme::Adaptive }
+}
+
+#[test]
+fn the_committed_ledger_is_written_as_it_is_read() {
+    let paths = checkout();
+    let text = fs::read_to_string(paths.ledger()).expect("data/ledger.json");
+    let ledger = Ledger::read(&paths).expect("a ledger");
+    assert!(ledger.to_text().expect("JSON") == text && ledger.claims.len() > 20);
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Kept inputs of the fuzzers of this crate's readers.
+//! Replays the stored fuzzer inputs of this crate's readers.
 
 #[path = "../../../../fuzz/targets/claims.rs"]
 mod ledger_files;

@@ -1,4 +1,4 @@
-//! A folder with tables of a test's own, on which entries are judged.
+//! A folder with a test's own tables, on which entries are judged.
 
 use checkout::failure::Failure;
 use checkout::paths::{Paths, Scheme};

@@ -18,14 +18,14 @@ fn verdicts_follow_from_tests() {
         // a condition is not needed for what holds as it is written
         (&["> 0"], &["> 3"], Verdict::Holds),
     ] {
-        let found = desk.ledger(&claim("holds", tests, under)).expect("a ledger").claims[0].verdict_found;
+        let found = desk.ledger(&claim("holds", tests, under)).expect("a ledger").claims[0].found();
         assert_eq!(found, verdict, "{tests:?} {under:?}");
     }
     // errors reach over: nothing is decided
     let open = |name: &str, tests: &[&str], under: &[&str]| {
         let desk = Desk::new(name, &[("one", "x\n1\n")]);
         desk.error("one", "x", "taylor", 0.5);
-        desk.ledger(&claim("holds", tests, under)).expect("a ledger").claims[0].verdict_found
+        desk.ledger(&claim("holds", tests, under)).expect("a ledger").claims[0].found()
     };
     assert_eq!(open("open-1", &["> 0.8"], &[]), Verdict::Open);
     assert_eq!(open("open-2", &["> 0", "> 0.8"], &[]), Verdict::Open);
@@ -91,6 +91,7 @@ fn malformed_files_are_named_with_their_line() {
         ("verdict = \"holds\"", "verdict = \"cannot be decided\"", "why: is missing"),
         ("finding", "why = \"so\"\nfinding", "why: is only for"),
         ("is = \"> 0\"", "", "test: no test has an `is`"),
+        ("finding", "verdict_found = \"holds\"\nfinding", "one, verdict_found: is found by the tests"),
     ] {
         let text = good.replacen(from, to, 1);
         let found = failure(&text);

@@ -1,4 +1,4 @@
-//! Values with errors: comparisons that stay open, arithmetic that carries errors along.
+//! Values with errors: comparisons that stay undecided, and arithmetic that propagates errors.
 
 use claims::requirement::Requirement;
 use claims::uncertain::{Outcome, Relation, Uncertain};

@@ -1,4 +1,4 @@
-//! Kept inputs of the fuzzer of tables.
+//! Replays the stored inputs of the fuzzer of tables.
 
 #[path = "../../../../fuzz/targets/replay.rs"]
 mod replay;

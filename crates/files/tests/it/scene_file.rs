@@ -1,4 +1,4 @@
-//! Scene files: panels, and what tells two scenes apart.
+//! Scene files: their panels, and what distinguishes two scenes.
 
 use files::scene_file::{Kind, SceneFile, parse};
 
@@ -91,4 +91,16 @@ fn scenes_in_other_encodings_are_named() {
     assert_eq!(files::scene_file::read(&file).expect("a scene").title, "x");
     let error = files::scene_file::read(folder.path()).unwrap_err();
     assert!(error.problem.contains("is a folder"), "{error}");
+}
+
+#[test]
+fn tables_that_a_figure_reads_are_names_below_data() {
+    let read = |names: &str| {
+        files::scene_file::parse("own.toml", &format!("title = \"\"\nreads = \"{names}\"\n")).map(|scene| scene.reads)
+    };
+    assert_eq!(read("outcomes/plain  timing/scale").expect("names"), ["outcomes/plain", "timing/scale"]);
+    for (names, bad) in [("a/b ../c", "../c"), ("/etc/hosts", "/etc/hosts"), ("a/./b", "a/./b")] {
+        let told = read(names).expect_err("a bad name").to_string();
+        assert!(told.contains("own.toml:2") && told.contains(bad), "{told}");
+    }
 }

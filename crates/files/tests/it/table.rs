@@ -1,4 +1,4 @@
-//! Tables survive being written and read, bit by bit.
+//! A table that is written and read back has the same bits.
 
 use files::table::{Cell, Sheet, Table, TableError};
 

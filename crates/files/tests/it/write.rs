@@ -1,4 +1,4 @@
-//! Writing leaves the whole new file or the old one, and nothing else.
+//! Writing leaves either the old file or the whole new one, and nothing else.
 
 use files::write::{Draft, atomic, atomic_all, draft_name, is_draft_name, sha256, sha256_file};
 use std::collections::BTreeSet;

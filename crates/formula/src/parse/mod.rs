@@ -32,7 +32,7 @@ const POWER: u8 = 40;
 const OPERAND: &str = "a number, a name, a function, ( or -";
 const OPERATOR: &str = "an operator + - * / ^ or the end";
 
-/// Parses the text of one expression whose first character stands at `start`.
+/// Parses the text of one expression whose first character is at `start`.
 pub(crate) fn parse(text: &str, start: Place, vocabulary: Vocabulary) -> Result<Tree, Problem> {
     let lexemes = tokens(text, start)?;
     let mut parser = Parser { lexemes, at: 0, depth: 0, in_sum: false, vocabulary, tree: Tree::default() };
@@ -78,7 +78,7 @@ impl<'a> Parser<'a> {
     fn expression(&mut self, weakest: u8) -> Result<(), Problem> {
         if self.depth == DEEPEST {
             let found = format!("brackets, signs or exponents more than {DEEPEST} deep");
-            return Err(Problem::new(self.next().place, found, "flatter expressions; named ones help"));
+            return Err(Problem::new(self.next().place, found, "less nesting; named expressions help"));
         }
         self.depth += 1;
         self.operand()?;
@@ -134,7 +134,7 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    /// What a name that has just been taken stands for.
+    /// The meaning of a name that has just been read.
     fn word(&mut self, name: &str, place: Place) -> Result<(), Problem> {
         let is_law = self.vocabulary == Vocabulary::Law;
         let is_operand =

@@ -1,4 +1,4 @@
-//! The parts of the grammar that only laws have: quantities of neighbours, and sums over them.
+//! The part of the grammar that only laws have: quantities of neighbours, and sums over them.
 
 use super::Parser;
 use crate::limits::FARTHEST;

@@ -1,4 +1,4 @@
-//! What expressions and laws must not contain: where the message points, and what it offers.
+//! Invalid expressions and laws: where the message points, and what it suggests.
 
 use crate::common::{graph, lines};
 use formula::limits::{DEEPEST, FARTHEST, LONGEST_TEXT, MOST_OPERATIONS};

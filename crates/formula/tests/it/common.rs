@@ -1,4 +1,4 @@
-//! Laws of a few lines, and random numbers that are the same in every run.
+//! Short laws for tests, and reproducible random numbers.
 
 use formula::{Bound, Definition, Error, Given, Graph, Place, Variable, law};
 

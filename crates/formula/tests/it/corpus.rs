@@ -1,4 +1,4 @@
-//! The kept inputs of the fuzzer.
+//! Replays the stored inputs of the fuzzer.
 
 #[path = "../../../../fuzz/targets/formula.rs"]
 mod formulas;

@@ -1,5 +1,5 @@
-//! A value with its derivative in one direction, of any number: with derivatives in double-double, and with derivatives
-//! whose error is carried along.
+//! A value with its derivative in one direction, over any kind of number: in double-double, and with a running error
+//! bound.
 
 use math::double_double::DoubleDouble;
 use math::number::Number;

@@ -1,4 +1,4 @@
-//! Texts at random, good and bad: no panic, no hang, bounded memory, and every message points into the text.
+//! Random texts, valid and invalid: no panic, no hang, bounded memory, and every message points into the text.
 
 use crate::common::{Random, lines, state};
 use crate::trees::{PARAMETERS, tree};

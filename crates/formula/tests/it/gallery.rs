@@ -1,5 +1,5 @@
-//! The scenes of `scenes/gallery`: every law parses, and at its uniform flow it has the partial derivatives that give its
-//! criterion; thresholds of stability, from the dispersion relation over all waves, are the published ones.
+//! The scenes of `scenes/gallery`. Every law parses, its partial derivatives at the uniform flow are those of its
+//! published criterion, and the thresholds found from the dispersion relation over all waves are the published ones.
 
 use files::reader::{Section, Value as Entry};
 use files::scene_file::{self, SceneFile};

@@ -1,4 +1,4 @@
-//! What expressions mean.
+//! The meaning of valid expressions.
 
 use formula::{Expression, Place};
 use math::double_double::DoubleDouble;

@@ -1,4 +1,4 @@
-//! Tests of formulas: what they mean, what they refuse, how exact they are.
+//! Tests of formulas: their meaning, what is refused, and how accurate they are.
 
 mod bad;
 mod common;

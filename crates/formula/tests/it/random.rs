@@ -1,5 +1,5 @@
-//! Ten thousand random formulas: the bits of a recursion over their trees, errors against double-double within a bound
-//! that is carried along, derivatives against differences in double-double.
+//! Ten thousand random formulas. Their values have the bits of a recursive evaluation of the tree; errors against
+//! double-double stay within a running bound; derivatives are compared with differences in double-double.
 
 use crate::common::{Random, graph, state};
 use crate::dual::Dual;

@@ -1,5 +1,5 @@
-//! A double with a bound of its error, carried along: each operation passes on the errors of its operands through the
-//! steepest slope between them and adds its own rounding.
+//! A double with a running error bound: each operation passes on the errors of its operands through the steepest slope
+//! between them and adds its own rounding.
 
 use crate::dual::Nearest;
 use math::lane;

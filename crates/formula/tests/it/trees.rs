@@ -1,4 +1,4 @@
-//! Random formulas: trees that are written down with as few brackets as possible, and evaluated without the parser.
+//! Random formulas as trees, printed with as few brackets as possible and evaluated without the parser.
 
 use crate::common::{Random, state};
 use formula::Variable;

@@ -1,5 +1,5 @@
-//! Scenes whose laws are formulas: those of the gallery with other parameters, and laws of an optimal velocity put together
-//! at random, with kinks now and then.
+//! Draws scenes whose laws are formulas: gallery laws with other parameters, and optimal-velocity laws composed at
+//! random, some of them with kinks.
 
 use super::{Kind, decades, panels, push, run, short};
 use crate::random::Random;

@@ -1,4 +1,4 @@
-//! The judge sees a fault: a run is judged as if its scene had said something slightly else.
+//! The judge detects faults: it is given a run and a scene that differs slightly from the one that was run.
 
 use hunt::draw;
 use hunt::judge::{self, Verdict};

@@ -1,4 +1,4 @@
-//! The hunt: random scenes, those that once went wrong, and that the judge sees what is wrong.
+//! Tests of the hunt: random scenes, scenes that once failed, and the judge's ability to detect faults.
 
 mod judge;
 mod scenes;

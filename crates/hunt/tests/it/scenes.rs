@@ -1,4 +1,4 @@
-//! Scenes that once went wrong: `scenes/*.toml`, each with a comment that says how.
+//! Scenes that once failed: `scenes/*.toml`, each with a comment that says how.
 
 use hunt::judge::{self, Verdict};
 use std::path::Path;

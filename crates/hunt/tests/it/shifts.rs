@@ -16,12 +16,12 @@ fn laws() -> [(Model, Formula); 4] {
     let (relative, both) = ((0.4, 0.0), (0.4, 0.1));
     let algebraic = |(delta, a_v): (f64, f64)| {
         let (mu, q, epsilon, v0) = (0.5, 2.0, 0.1, 1.5);
-        let law = Algebraic { strength: mu, relative: delta, power: q, widening: a_v, epsilon, desired_speed: v0 };
+        let law = Algebraic { mu, delta, q, a_v, epsilon, v0 };
         (Model::Algebraic(law), Formula::Algebraic { mu, delta, q, a_v, epsilon, v0 })
     };
     let (a, b, c, a_v, epsilon, v0) = (1.5, 1.2, 0.4, 0.1, 0.1, 1.5);
-    let exponential = Exponential { strength: a, range: b, contact: c, widening: a_v, epsilon, desired_speed: v0 };
-    let logarithmic = Logarithmic { desired_speed: 1.0, widening: 0.1, epsilon: 0.05 };
+    let exponential = Exponential { a, b, c, a_v, epsilon, v0 };
+    let logarithmic = Logarithmic { v0: 1.0, a_v: 0.1, epsilon: 0.05 };
     [
         algebraic(relative),
         algebraic(both),

@@ -1,4 +1,4 @@
-//! Files for other programs: their bytes, their tables, and what is refused.
+//! Tests of exported files: their bytes, their tables, and the input that is refused.
 
 mod program;
 mod sqlite;

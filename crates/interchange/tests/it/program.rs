@@ -1,4 +1,4 @@
-//! The program: exit codes, what it leaves.
+//! The program `export`: exit codes, and the files it leaves.
 
 use crate::{TABLE, scene};
 use std::fs;

@@ -1,4 +1,4 @@
-//! The database: the tables that JuPedSim and PedPy ask for, and the same bytes each time.
+//! The database: it has the tables that JuPedSim and PedPy query, and its bytes are reproducible.
 
 use crate::{TABLE, header};
 use files::write::{Draft, publish};

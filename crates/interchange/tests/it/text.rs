@@ -1,4 +1,4 @@
-//! Text, and the table it is made from.
+//! The text file, and the table from which it is made.
 
 use crate::{TABLE, header};
 use checkout::failure::Failure;

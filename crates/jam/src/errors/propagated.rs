@@ -1,17 +1,20 @@
-//! The errors of a run by Taylor's method, whose steps tell their own, carried along with it ([`ode::Shadow`]).
+//! Error estimates for Taylor's method: each step estimates its own error, and the linearised equations propagate these
+//! errors along the run ([`ode::Shadow`]).
 //!
-//! Some runs by this method are run a second time like those by others ([`super::errors`]): those by steps of fixed length,
-//! whose errors are roundings that they do not tell; those of laws with kinks, which a step may cross unseen; those whose
-//! errors move much faster than they, if the law does not tell its linearised equations; and those that went on from a
-//! checkpoint, which does not keep the errors before it.
+//! Some runs by this method need a second run like those by other methods ([`super::errors`]): those with fixed steps,
+//! whose rounding errors are not estimated; those of laws with kinks, which a step may cross unnoticed; those whose
+//! errors change much faster than the solution, if the law does not provide its linearised equations; and those resumed
+//! from a checkpoint, which does not store the errors before it.
 
+use super::confirmed::last_before;
+use super::recent::{Instant, Recent};
 use super::{Errors, ROUNDINGS, has_kinks, largest, largest_std, loses_shift, of_headway, unseen};
 use crate::events::{Event, EventKind};
 use crate::run::{Outcome, Run, RunObserver, Sight};
 use crate::states::StateVariables;
-use ode::{Shadow, Step};
+use ode::{Control, Shadow, Step};
 
-/// Looks on while a run is made from its start, and knows the errors at its end if the steps tell theirs.
+/// Observes a run from its start, and returns the errors at its end if the steps estimate theirs.
 #[derive(Clone, Debug)]
 pub struct Propagated {
     pedestrians: usize,
@@ -26,22 +29,26 @@ pub struct Propagated {
     /// Whether spacings lose the shift.
     loses_shift: bool,
     shadow: Option<Shadow>,
-    /// What becomes of a shift that spacings lose to the last digit. All motion is then one, as are the errors of steps, in
-    /// which so small a difference would be lost again.
+    /// The growth of a shift that is lost in the rounding of the spacings. All pedestrians then move alike, as are the
+    /// errors of steps, in which so small a difference would be lost again.
     lost: Option<Shadow>,
-    /// Whether a step did not tell its error.
+    /// Whether a step gave no error estimate.
     is_blind: bool,
     /// The largest error of the standard deviation so far.
     std: f64,
     /// How large the errors of speeds were when that was looked at last, and how many steps ago.
     looked_at: f64,
     since: u32,
-    /// The moment that tells most of the time of a blow-up.
+    /// The moment that determines the time of a blow-up best.
     last_known: Option<LastKnown>,
     /// The time at which the run ends.
     t_end: f64,
     /// Of the times of events within steps.
     events: Vec<f64>,
+    /// The time at which a shift that spacings lose would have become a visible part of them.
+    shows: Option<f64>,
+    /// The last steps that did not tell their errors.
+    recent: Recent,
 }
 
 /// A moment before a blow-up at which the error was a small part of the state.
@@ -58,11 +65,14 @@ struct LastKnown {
 /// Who is so much faster than pedestrians want to be has been thrown back.
 const THROWN: f64 = 4.0;
 
+/// A shift that has grown to this part of the clearance is no small difference any more.
+const VISIBLE: f64 = 0.1;
+
 /// Larger parts of the state do not follow linearised equations.
 const SMALL: f64 = 1e-3;
 
-/// The error of the standard deviation is looked at in every so many steps, while the errors of speeds have not grown by more
-/// than this factor since.
+/// Interval, in steps, at which the error of the standard deviation is examined, while the errors of speeds have not
+/// grown by more than this factor since.
 const EVERY: u32 = 4;
 const GROWN: f64 = 1.1;
 
@@ -76,6 +86,7 @@ impl RunObserver for Propagated {
     fn seen(&mut self, step: &mut Step<'_>, sight: &mut Sight<'_, '_>) {
         if self.is_blind || !self.follow(step) {
             self.is_blind = true;
+            self.recent.push(step);
             return;
         }
         self.remember(step);
@@ -83,32 +94,14 @@ impl RunObserver for Propagated {
         if samples.is_none() && sight.new.is_empty() {
             return;
         }
-        let (n, dimension) = (self.pedestrians, step.after().len());
-        let (mut error, mut state) = (vec![0.0; dimension], vec![0.0; dimension]);
-        // between samples of one step errors grow or fade; the ends of the span tell both
-        let samples = samples.map_or(Vec::new(), |[first, last]| vec![first, last]);
-        for (index, time) in samples.iter().enumerate() {
-            if index > 0 && samples[0] == *time {
-                continue;
-            }
-            let place = step.fraction(*time);
-            // where the perturbation is lost all errors but its own are alike
-            self.lost
-                .as_ref()
-                .or(self.shadow.as_ref())
-                .into_iter()
-                .for_each(|shadow| shadow.at(step, place, &mut error));
-            let errors = &error[n..2 * n];
-            // no standard deviation is off by more than all of its numbers
-            if (1.0 + UNSURE) * largest(errors) <= self.std {
-                continue;
-            }
-            step.at_fraction(place, &mut state);
-            if self.lost.is_some() {
-                state[n..2 * n].fill(0.0);
-            }
-            self.std = math::larger(self.std, std_error(&state[n..2 * n], errors));
+        if let Some([_, last]) = samples {
+            self.look(step, last, sight.new.is_empty());
         }
+        if sight.new.is_empty() {
+            return;
+        }
+        let dimension = step.after().len();
+        let (mut state, mut rates) = (vec![0.0; dimension], vec![0.0; dimension]);
         for event in sight.new {
             let place = step.fraction(event.time);
             let known = self.last_known.filter(|_| event.kind == EventKind::BlowUp);
@@ -116,9 +109,8 @@ impl RunObserver for Propagated {
                 self.events.push(known.late + known.part * (event.time - known.time));
                 continue;
             }
-            error = self.error_at(Some((step, place)));
+            let error = self.error_at(Some((step, place)));
             step.at_fraction(place, &mut state);
-            let mut rates = vec![0.0; dimension];
             step.rates_of(&state, &mut rates);
             let mut change =
                 |direction: &[f64]| sight.watch.change(event.kind, event.pedestrian, &state, direction).abs();
@@ -131,6 +123,32 @@ impl RunObserver for Propagated {
 }
 
 impl Propagated {
+    /// Looks at the error of the standard deviation in a step with samples: at its end, where the state and the error are
+    /// known, or at the last sample of one that an event ends.
+    fn look(&mut self, step: &mut Step<'_>, last: f64, is_whole: bool) {
+        let n = self.pedestrians;
+        let (mut state, mut error);
+        // where the perturbation is lost all errors but its own are alike
+        let Some(shadow) = self.lost.as_ref().or(self.shadow.as_ref()) else { return };
+        let known = shadow.after().filter(|_| is_whole && self.lost.is_none());
+        let (speeds, errors) = match known {
+            Some(errors) => (&step.after()[n..2 * n], &errors[n..2 * n]),
+            None => {
+                let place = if is_whole { 1.0 } else { step.fraction(last) };
+                (state, error) = (vec![0.0; shadow.dimension()], vec![0.0; shadow.dimension()]);
+                shadow.at(step, place, &mut error);
+                if self.lost.is_none() {
+                    step.at_fraction(place, &mut state);
+                }
+                (&state[n..2 * n], &error[n..2 * n])
+            }
+        };
+        // no standard deviation is off by more than all of its numbers
+        if (1.0 + UNSURE) * ode::largest(errors) > self.std {
+            self.std = math::larger(self.std, std_error(speeds, errors));
+        }
+    }
+
     /// Before the first step. A step over a kink does not see what it leaves out.
     pub fn new(run: &Run) -> Propagated {
         let clearance = run.ring.headway() - run.model.contact();
@@ -151,10 +169,12 @@ impl Propagated {
             last_known: None,
             t_end: run.t_end,
             events: Vec::new(),
+            shows: None,
+            recent: Recent::default(),
         }
     }
 
-    /// Goes along with a step; false if it does not tell its error, or nobody can tell what becomes of it.
+    /// Follows a step; false if the step gives no error estimate, or its error cannot be propagated.
     fn follow(&mut self, step: &mut Step<'_>) -> bool {
         let (n, dimension) = (self.pedestrians, step.after().len());
         if self.shadow.is_none() {
@@ -170,6 +190,11 @@ impl Propagated {
         }
         if let Some(lost) = &mut self.lost {
             lost.carry(step);
+            let limit = VISIBLE * self.clearance;
+            let is_seen = lost.after().is_some_and(|lost| largest(&lost[..n]) > limit);
+            if is_seen && self.shows.is_none() {
+                self.shows = Some(time_of(lost, step, n, limit));
+            }
         }
         // deviations are rounded as parts of themselves, equal motion alike; else drive, speed and force each are
         let is_in_gaps = dimension == 2 * n + 1;
@@ -182,7 +207,7 @@ impl Propagated {
     fn is_worth_looking(&mut self, step: &Step<'_>, sight: &Sight<'_, '_>) -> bool {
         let shadow = self.lost.as_ref().or(self.shadow.as_ref());
         let Some(errors) = shadow.and_then(Shadow::after) else { return true };
-        let now = largest(&errors[self.pedestrians..2 * self.pedestrians]);
+        let now = ode::largest(&errors[self.pedestrians..2 * self.pedestrians]);
         self.since += 1;
         let is_worth =
             now > GROWN * self.looked_at || self.since >= EVERY || step.end >= self.t_end || !sight.new.is_empty();
@@ -192,8 +217,9 @@ impl Propagated {
         is_worth
     }
 
-    /// Keeps what the error tells of the time of a blow-up to come, once somebody has been thrown back: from the moment that
-    /// tells it best. Later the error is as large as the state, but then there is hardly any time left for it to matter.
+    /// Stores the error of the time of an approaching blow-up, once a pedestrian has been thrown back, from the moment
+    /// that determines it best. Later the error is as large as the state, but then there is hardly any time left for it
+    /// to matter.
     fn remember(&mut self, step: &Step<'_>) {
         let (n, state) = (self.pedestrians, step.after());
         let Some(shadow) = self.shadow.as_ref().filter(|_| self.is_singular && state.len() == 2 * n + 1) else {
@@ -230,7 +256,7 @@ impl Propagated {
         all
     }
 
-    /// What rounding has dropped at the start: nothing of deviations; of spacings what their difference tells exactly.
+    /// The rounding error of the start: none for deviations; for spacings their exact difference.
     fn of_start(&self, state: &[f64]) -> Vec<f64> {
         let (n, mut error) = (self.pedestrians, vec![0.0; state.len()]);
         if state.len() == 2 * n + 1 {
@@ -240,7 +266,13 @@ impl Propagated {
         error
     }
 
-    /// The errors of the run that it has seen; `None` where steps did not tell theirs, or not that of an event.
+    /// The run at the ends of its last steps, if these did not tell their errors.
+    pub(super) fn instants(&self, run: &Run) -> Vec<Instant> {
+        let is_adaptive = matches!(run.control, Control::Adaptive { .. });
+        if is_adaptive { self.recent.instants(run) } else { Vec::new() }
+    }
+
+    /// The errors of the run that it has seen; `None` where the steps gave no estimate, or none for an event.
     pub fn errors(&self, run: &Run, outcome: &Outcome) -> Option<Errors> {
         // next to a blow-up the error leaves the doubles before the speeds do: a second run tells the time
         let is_told = self.events.iter().all(|error| error.is_finite());
@@ -281,6 +313,7 @@ impl Propagated {
             speeds: end(&speeds, &outcome.speeds).map(|error| error + ROUNDINGS * run.model.desired_speed().abs()),
             events: self.of_events(&outcome.events),
             cost: 0.0,
+            confirmed_until: self.shows.map(|time| last_before(outcome, time)),
         })
     }
 
@@ -295,7 +328,21 @@ impl Propagated {
     }
 }
 
-/// Whether everybody has the same spacing and the same speed, to the last bit, in a state of spacings.
+/// The time in a step at which a difference in spacings grows beyond this.
+fn time_of(shadow: &Shadow, step: &mut Step<'_>, n: usize, limit: f64) -> f64 {
+    let (mut before, mut past, mut error) = (0.0, 1.0, vec![0.0; shadow.dimension()]);
+    while past - before > FINE {
+        let middle = 0.5 * (before + past);
+        shadow.at(step, middle, &mut error);
+        if largest(&error[..n]) > limit { past = middle } else { before = middle }
+    }
+    step.start + before * step.length()
+}
+
+/// The part of a step to which that is sought.
+const FINE: f64 = 1e-3;
+
+/// Whether all pedestrians have the same spacing and the same speed, to the last bit, in a state of spacings.
 fn is_uniform(state: &[f64], n: usize) -> bool {
     let (spacings, speeds) = (&state[..n], &state[n..2 * n]);
     state.len() == 2 * n + 1 && spacings.iter().all(|s| *s == spacings[0]) && speeds.iter().all(|v| *v == speeds[0])
@@ -349,7 +396,7 @@ mod tests {
 
     /// The standard deviation of these.
     fn std(values: &[f64]) -> f64 {
-        crate::observe::spread(values)
+        crate::observe::speed_std(values)
     }
 
     #[test]

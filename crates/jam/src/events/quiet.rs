@@ -1,4 +1,4 @@
-//! Steps near a uniform flow, in which nothing can happen: seen from the sizes of the deviations alone.
+//! Recognises steps near a uniform flow in which no event can occur, from the size of the deviations alone.
 
 use super::Watch;
 use crate::states::FlowAlong;
@@ -17,8 +17,7 @@ pub(super) struct Near {
 }
 
 impl Watch<'_> {
-    /// Whether the bounds that events are looked for by hold for everybody, since they do for the largest deviations
-    /// from a uniform flow.
+    /// Whether no pedestrian can have an event, judged by the largest deviations from a uniform flow.
     pub(super) fn nothing_can_happen(&mut self, step: &Step<'_>) -> bool {
         let before = match self.near {
             Some(near) if near.time == step.start => Some(near),

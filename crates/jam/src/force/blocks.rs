@@ -1,4 +1,4 @@
-//! A formula over a row of pedestrians, several at a time.
+//! Evaluates a formula over the pedestrians of a ring, several at a time.
 //!
 //! The operations of one pedestrian wait for each other, those of several registers do not: blocks are wide where there
 //! are pedestrians enough, and a last register that would stand alone is taken along by the block before.

@@ -1,4 +1,4 @@
-//! The force of a law that is a Rust function: compiled for blocks of pedestrians.
+//! The force of a law that is a Rust function, compiled for blocks of pedestrians.
 
 use super::blocks::{Block, Pace, along};
 use super::heun::{self, Cut};

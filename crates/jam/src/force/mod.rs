@@ -1,4 +1,4 @@
-//! The force on all pedestrians of a ring at once: what the forms of a state ask of a law.
+//! The force on all pedestrians of a ring, as the forms of the state request it from a law.
 
 pub(crate) mod blocks;
 mod compiled;
@@ -80,7 +80,7 @@ pub struct Rows<'a> {
     pub speeds: &'a [f64],
 }
 
-/// A uniform flow: everybody with the same net gap and speed.
+/// A uniform flow: all pedestrians have the same net gap and speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flow {
     /// The net gap, headway less contact.

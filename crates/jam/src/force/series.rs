@@ -35,70 +35,98 @@ pub struct Motion<'a> {
 /// Pedestrians per iteration.
 const W: usize = 24;
 
-/// Memory that is kept from step to step. Rows are whole blocks: behind the last pedestrian the first follows, as the
-/// neighbour ahead, and numbers without meaning that nothing reads but others of their kind.
+/// Memory that is kept from step to step. Behind the last pedestrian the first follows, as the neighbour ahead; in a ring
+/// of less than a block, then numbers without meaning that nothing reads but others of their kind.
 #[derive(Clone, Debug, Default)]
 pub struct Memory {
     /// What the operations keep, one block of pedestrians after another.
     histories: Vec<Block<Lanes<W>>>,
-    /// Coefficients of one order, and of the next.
+    /// Coefficients of one order.
+    now: Row,
+    /// Of the next.
+    next: Row,
+}
+
+#[derive(Clone, Debug, Default)]
+struct Row {
     spacings: Vec<f64>,
     speeds: Vec<f64>,
-    next_speeds: Vec<f64>,
+}
+
+impl Row {
+    fn reserve(&mut self, n: usize) {
+        let length = n.max(W);
+        self.spacings.resize(length, 0.0);
+        // one more, for the neighbour ahead of the last lane
+        self.speeds.resize(length + 1, 0.0);
+    }
 }
 
 impl Memory {
-    /// Makes room for so many blocks, with histories of this size.
-    fn reserve(&mut self, blocks: usize, size: usize) {
-        if self.histories.len() < blocks * size {
-            self.histories.resize(blocks * size, Block::default());
+    /// Allocates memory for `n` pedestrians, with histories of this size for each block.
+    fn reserve(&mut self, n: usize, size: usize) {
+        let needed = n.div_ceil(W) * size;
+        if self.histories.len() < needed {
+            self.histories.resize(needed, Block::default());
         }
-        self.spacings.resize(blocks * W, 0.0);
-        // one more, for the neighbour ahead of the last lane
-        self.speeds.resize(blocks * W + 1, 0.0);
-        self.next_speeds.resize(blocks * W + 1, 0.0);
+        self.now.reserve(n);
+        self.next.reserve(n);
     }
 
     /// Takes a row of the coefficients, to which something is added; behind the last pedestrian, once more the last.
     #[inline(always)]
     fn take(&mut self, spacings: &[f64], speeds: &[f64], flow: Flow) {
         let n = spacings.len();
-        for (own, spacing) in self.spacings.iter_mut().zip(spacings) {
+        let Row { spacings: own_spacings, speeds: own_speeds } = &mut self.now;
+        for (own, spacing) in own_spacings.iter_mut().zip(spacings) {
             *own = spacing + flow.net_gap;
         }
-        for (own, speed) in self.speeds.iter_mut().zip(speeds) {
+        for (own, speed) in own_speeds.iter_mut().zip(speeds) {
             *own = speed + flow.speed;
         }
-        let last = self.spacings[n - 1];
-        self.spacings[n..].fill(last);
-        self.speeds[n..].fill(speeds[0] + flow.speed);
+        let last = own_spacings[n - 1];
+        own_spacings[n..].fill(last);
+        own_speeds[n..].fill(speeds[0] + flow.speed);
     }
 
     /// Spacings, speeds and speeds ahead of a block.
     #[inline(always)]
     fn variables(&self, from: usize) -> [Lanes<W>; 3] {
-        [&self.spacings[from..], &self.speeds[from..], &self.speeds[from + 1..]].map(Lanes::of)
+        let Row { spacings, speeds } = &self.now;
+        [&spacings[from..], &speeds[from..], &speeds[from + 1..]].map(Lanes::of)
     }
 
-    /// Goes on to the next order, whose speeds are there; writes its spacings to `row`, too.
+    /// Takes the next order of a block.
     #[inline(always)]
-    fn advance(&mut self, share: f64, row: &mut [f64]) {
-        let n = row.len();
-        let pairs = self.speeds.iter().zip(&self.speeds[1..]);
-        for ((spacing, written), (own, ahead)) in self.spacings.iter_mut().zip(row).zip(pairs) {
-            *spacing = (ahead - own) * share;
-            *written = *spacing;
-        }
-        let pairs = self.speeds.iter().zip(&self.speeds[1..]);
-        for (spacing, (own, ahead)) in self.spacings.iter_mut().zip(pairs).skip(n) {
-            *spacing = (ahead - own) * share;
-        }
-        std::mem::swap(&mut self.speeds, &mut self.next_speeds);
-        self.speeds[n] = self.speeds[0];
+    fn put(&mut self, from: usize, spacings: Lanes<W>, speeds: Lanes<W>) {
+        self.next.spacings[from..from + W].copy_from_slice(&spacings.0);
+        self.next.speeds[from..from + W].copy_from_slice(&speeds.0);
+    }
+
+    /// Goes on to the next order of a ring of so many, which is there.
+    #[inline(always)]
+    fn advance(&mut self, n: usize) {
+        std::mem::swap(&mut self.now, &mut self.next);
+        self.now.speeds[n] = self.now.speeds[0];
     }
 }
 
-/// The coefficients under a law, of which so many operations keep something.
+/// The first pedestrian of a block. The last block begins earlier instead of being cut short: values computed twice are equal.
+#[inline(always)]
+fn begin(block: usize, n: usize) -> usize {
+    let (from, last) = (block * W, n.saturating_sub(W));
+    if from < last { from } else { last }
+}
+
+/// Writes a block to a row, if it is as long as that.
+#[inline(always)]
+fn write(row: &mut [f64], from: usize, block: Lanes<W>) {
+    if let Some(part) = row[from..].first_chunk_mut::<W>() {
+        *part = block.0;
+    }
+}
+
+/// The coefficients under a law, with the number of operations that store values.
 pub(super) fn compiled<L: Law>(law: L, operations: usize, motion: Motion<'_>, memory: &mut Memory) {
     if law.plain().is_some() {
         dispatch(Coefficients::<L, true> { law, operations, motion, memory });
@@ -135,26 +163,33 @@ impl<L: Law, const PLAIN: bool> Coefficients<'_, '_, L, PLAIN> {
         let Motion { flow, pedestrians: n, order, unit, dimension, coefficients, .. } = self.motion;
         let (memory, blocks, size) = (self.memory, n.div_ceil(W), self.operations * ROWS * order);
         let (states, rates) = coefficients.split_at_mut(dimension);
-        memory.reserve(blocks, size);
+        memory.reserve(n, size);
         memory.take(&states[..n], &states[n..2 * n], flow);
         for block in 0..blocks {
             let place = Place::new(&memory.histories[block * size..(block + 1) * size], order, 0);
-            let [s, v, w] = memory.variables(block * W);
+            let [s, v, w] = memory.variables(begin(block, n));
             law.acceleration::<Jet<Lanes<W>, true>>(place.variable(s), place.variable(v), place.variable(w));
         }
         memory.take(&rates[..n], &rates[n..2 * n], NOTHING);
-        for k in 1..order {
+        for (k, row) in (1..order).zip(coefficients.chunks_exact_mut(dimension).skip(2)) {
             let share = unit / (k + 1) as f64;
-            let (spacings, speeds) = coefficients[(k + 1) * dimension..].split_at_mut(n);
+            let (spacings, speeds) = row[..2 * n].split_at_mut(n);
             for block in 0..blocks {
+                let from = begin(block, n);
                 let place = Place::new(&memory.histories[block * size..(block + 1) * size], order, k);
-                let [s, v, w] = memory.variables(block * W);
+                let [s, v, w] = memory.variables(from);
+                let next_spacings = (w - v) * share;
                 let (s, v, w) = (place.variable::<false>(s), place.variable(v), place.variable(w));
-                let next = law.acceleration(s, v, w).coefficient() * share;
-                memory.next_speeds[block * W..(block + 1) * W].copy_from_slice(&next.0);
+                let next_speeds = law.acceleration(s, v, w).coefficient() * share;
+                write(spacings, from, next_spacings);
+                write(speeds, from, next_speeds);
+                memory.put(from, next_spacings, next_speeds);
             }
-            speeds[..n].copy_from_slice(&memory.next_speeds[..n]);
-            memory.advance(share, spacings);
+            memory.advance(n);
+            if n < W {
+                spacings.copy_from_slice(&memory.now.spacings[..n]);
+                speeds.copy_from_slice(&memory.now.speeds[..n]);
+            }
         }
     }
 }

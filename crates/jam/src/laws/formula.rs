@@ -1,4 +1,4 @@
-//! A law that is written in a scene file, as formulas.
+//! A law given as formulas in a scene file.
 
 use crate::force::{Force, Interpreted, Prepared, Source};
 use crate::stability::Response;
@@ -38,9 +38,9 @@ impl Formula {
         Formula::with_values(Arc::new(graph), values)
     }
 
-    /// The law of these lines, each a name and what stands behind it, as in `[law]` of a scene file: `acceleration` and
-    /// `body`, the spacing at which two touch; `gap` and `scale` where wanted; parameters (numbers) and named expressions
-    /// (texts). The language is that of [`formula`].
+    /// The law defined by these lines, each a name and its value, as in `[law]` of a scene file: `acceleration` and
+    /// `body`, the spacing at which two touch; `gap` and `scale` where wanted; parameters (numbers) and named
+    /// expressions (texts). The language is that of [`formula`].
     ///
     /// ```
     /// let law = jam::laws::Formula::written(&[
@@ -161,8 +161,8 @@ impl Formula {
         }
     }
 
-    /// How the acceleration answers to spacings and speeds in the uniform flow. `None` where the flow lies on a kink, or
-    /// the formula has no derivative.
+    /// The response of the acceleration to spacings and speeds in the uniform flow. `None` where the flow lies on a
+    /// kink, or the formula has no derivative.
     pub fn response(&self, headway: f64, speed: f64) -> Option<Response> {
         let program = self.acceleration.program();
         if self.has_kinks && program.is_on_kink(|source| self.variable(source, headway, speed)) {

@@ -1,5 +1,6 @@
-//! The laws of motion, `dv_n/dt = f(s_n, v_n, v_{n+1})`: one file each, with its parameters and the formula as the paper
-//! prints it. Everything else follows from the formula, by what numbers it is carried out with ([`math::number`]).
+//! The laws of motion, `dv_n/dt = f(s_n, v_n, v_{n+1})`. Each has a file with its parameters and the formula as the
+//! paper prints it. Everything else follows from evaluating that formula with different kinds of numbers
+//! ([`math::number`]).
 //!
 //! A parameter that is zero names no term: the formula leaves it out.
 
@@ -31,7 +32,7 @@ pub enum Range {
     NotNegative,
 }
 
-/// A parameter of a law: its name in scenes and on axes, and what it may be.
+/// A parameter of a law: its name in scenes and on axes, and its range.
 #[derive(Debug)]
 pub struct Parameter<L> {
     /// The name.
@@ -59,24 +60,24 @@ const RAMP_WIDTH: f64 = 0.1;
 /// /// `dv_n/dt = v_0 (1 - exp(-(s_n - 2) / l)) - v_n`.
 /// #[derive(Clone, Copy, Debug, Default)]
 /// struct Relaxing {
-///     desired_speed: f64,
+///     v0: f64,
 ///     length: f64,
 /// }
 ///
 /// impl Law for Relaxing {
 ///     const PARAMETERS: &'static [Parameter<Relaxing>] = &[
-///         Parameter { name: "v0", range: Range::Positive, default: None, place: |law| &mut law.desired_speed },
+///         Parameter { name: "v0", range: Range::Positive, default: None, place: |law| &mut law.v0 },
 ///         Parameter { name: "l", range: Range::Positive, default: None, place: |law| &mut law.length },
 ///     ];
 ///     const CONTACT: f64 = 2.0;
 ///
 ///     #[inline(always)]
 ///     fn acceleration<X: Number>(&self, net_gap: X, speed: X, _ahead: X) -> X {
-///         -(net_gap * (-1.0 / self.length)).exp_m1() * self.desired_speed - speed
+///         -(net_gap * (-1.0 / self.length)).exp_m1() * self.v0 - speed
 ///     }
 /// }
 ///
-/// let law = Model::own(Relaxing { desired_speed: 1.0, length: 3.0 })?;
+/// let law = Model::own(Relaxing { v0: 1.0, length: 3.0 })?;
 /// // stable where the slope V'(s) of the steady speed is below 1/2: V' = exp(-(s - 2)/l) v0/l
 /// let speed = steady_speed(&law, 4.0)?;
 /// assert!((speed - (1.0 - math::exp(-2.0 / 3.0))).abs() < 1e-15);
@@ -101,8 +102,9 @@ pub trait Law: Copy + Default + Send + Sync + std::fmt::Debug + 'static {
     /// To be marked `#[inline(always)]`, or it runs without vector registers.
     fn acceleration<X: Number>(&self, net_gap: X, speed: X, ahead: X) -> X;
 
-    /// What must stay positive for the run to go on: `d_n` of eq:effDistn, for the logarithmic law the spacing. It has
-    /// to be linear in all three with constant slopes, and 0 at contact and rest. By default the net gap.
+    /// The quantity that must stay positive for the run to continue: `d_n` of eq:effDistn, for the logarithmic law the
+    /// spacing. It has to be linear in all three with constant slopes, and 0 at contact and rest. By default the net
+    /// gap.
     #[inline(always)]
     fn effective_gap<X: Number>(&self, net_gap: X, _speed: X, _ahead: X) -> X {
         net_gap
@@ -149,7 +151,7 @@ pub trait Law: Copy + Default + Send + Sync + std::fmt::Debug + 'static {
     }
 }
 
-/// What goes on with a law (see [`Law::choose`]).
+/// A function of a concrete law (see [`Law::choose`]).
 pub trait Chosen<L> {
     /// What comes of it.
     type Output;
@@ -179,7 +181,7 @@ pub enum Model {
     Own(Own),
 }
 
-/// Does something with whatever law it is.
+/// Calls a function with the concrete law.
 macro_rules! each {
     ($model:expr, $law:ident => $action:expr, $formula:ident => $other:expr, $own:ident => $own_action:expr) => {
         match $model {
@@ -219,8 +221,8 @@ fn is_singular<L: Law>(_law: &L) -> bool {
 }
 
 impl Model {
-    /// A law that is a Rust type of your own (see [`Law`]). What takes a `Model` then takes it: runs, events, outcome,
-    /// stability, maps and jams.
+    /// A law that is a Rust type of your own (see [`Law`]). Everything that takes a `Model` accepts it: runs, events,
+    /// outcome, stability, maps and jams.
     ///
     /// # Errors
     /// A parameter out of its range; an effective gap that is not linear with constant slopes, or not 0 where two touch at
@@ -247,7 +249,7 @@ impl Model {
 
     /// The size of speeds, if the law has one.
     pub fn speed_scale(&self) -> Option<f64> {
-        each!(self, law => Some(law.desired_speed), formula => formula.speed_scale(), own => own.speed_scale())
+        each!(self, law => Some(law.v0), formula => formula.speed_scale(), own => own.speed_scale())
     }
 
     /// The names of the parameters.
@@ -343,7 +345,7 @@ impl Model {
         each!(self, law => law.effective_gap(0.0, 1.0, 0.0) == 0.0, _formula => false, own => own.has_plain_gap())
     }
 
-    /// Whether the acceleration has kinks, at which its derivatives jump; of a law of your own nobody knows, so it may.
+    /// Whether the acceleration has kinks, at which its derivatives jump; a law of your own is assumed to have kinks.
     pub fn may_have_kinks(&self) -> bool {
         match self {
             Model::Algebraic(_) | Model::Exponential(_) | Model::Logarithmic(_) => false,

@@ -1,4 +1,4 @@
-//! A law that is a Rust type of its own, as a value beside the built-in ones.
+//! A law that is a user-defined Rust type, stored beside the built-in laws.
 
 use super::{Law, Parameter, Range};
 use crate::force::{Compiled, Force};

@@ -1,4 +1,4 @@
-//! Judging a run while it is made.
+//! Judges a run while it is integrated.
 
 use super::least::{Ends, highest, lowest};
 use super::repeats::{Repeats, Repetition};
@@ -6,11 +6,11 @@ use super::windows::{Stretch, drift, last};
 use super::{AGREEMENT, CONTRAST, Class, Decision, Memory, NEAR_FLOW, NEAR_LINE, START, Verdict};
 use crate::events::{Event, EventKind, Watch};
 use crate::laws::Model;
-use crate::observe::spread;
+use crate::observe::speed_std;
 use crate::ring::Ring;
 use ode::Step;
 
-/// Looks at every step of a run and says what became of it.
+/// Observes every step of a run and determines its outcome.
 #[derive(Debug)]
 pub struct Judge {
     ring: Ring,
@@ -32,7 +32,7 @@ pub struct Judge {
     verdict: Option<Verdict>,
 }
 
-/// What the linearised law says about the uniform flow.
+/// The stability of the uniform flow, from the linearised law.
 #[derive(Clone, Copy, Debug)]
 struct Flow {
     headway: f64,
@@ -105,11 +105,11 @@ impl Judge {
     pub fn start(&mut self, watch: &Watch<'_>, found: &[Event]) {
         let now = watch.after();
         (self.least_gap, self.least_of_all) = (lowest(&now.effective_gaps), lowest(&now.speeds));
-        self.std = spread(&now.speeds);
+        self.std = speed_std(&now.speeds);
         self.happened(watch, found);
     }
 
-    /// Looks at a step, after the watch has; `new` is what it found there.
+    /// Observes a step after the watch has; `new` are the events that the watch found.
     pub fn look(&mut self, watch: &mut Watch<'_>, step: &mut Step<'_>, new: &[Event]) {
         if self.verdict.is_some() {
             return;
@@ -150,7 +150,7 @@ impl Judge {
         self.verdict.take().unwrap_or_else(|| self.of(Class::Undecided, time, Decision::Start, 0.0))
     }
 
-    /// Decides for lasting waves if the last windows agree, or for a decay that is on its way.
+    /// Decides for lasting waves if the last windows agree, or for a decay in progress.
     fn judge_windows(&mut self, time: f64) -> Result<(), String> {
         if let Some(margin) = self.is_falling() {
             self.decide(Class::Decays, time, Decision::Falling, -margin);
@@ -186,7 +186,7 @@ impl Judge {
             (gap, speed) = (lowest(&[gap, lowest(&within.effective_gaps)]), lowest(&[speed, lowest(&within.speeds)]));
         }
         let now = watch.after();
-        (self.std, self.contrast) = (spread(&now.speeds), contrast);
+        (self.std, self.contrast) = (speed_std(&now.speeds), contrast);
         let mean = now.speeds.iter().sum::<f64>() / now.speeds.len() as f64;
         self.block.add(since, self.std, mean, drift(&now.speeds, &now.speed_rates));
         self.block.contrast = lowest(&[self.block.contrast, contrast]);
@@ -293,7 +293,7 @@ impl Judge {
         match self.flow {
             None => format!("another law: {weak}, and the uniform flow has no linearised law"),
             Some(flow) if flow.margin.abs() <= NEAR_LINE => {
-                format!("another place: {weak}, and the margin of stability, {:.1e}, is too near to 0", flow.margin)
+                format!("other parameters: {weak}, and the stability margin, {:.1e}, is too close to 0", flow.margin)
             }
             Some(flow) if flow.growth_rate > 0.0 => {
                 format!("a longer t_end: {weak}, growing at a rate of {:.1e}", flow.growth_rate)
@@ -370,7 +370,7 @@ fn changes([late, early]: &[Stretch; 2]) -> [f64; 2] {
 }
 
 impl Flow {
-    /// Whether every wave of the ring decays, and the linearised law can tell.
+    /// Whether every wave of the ring decays according to the linearised law.
     fn decays(&self) -> bool {
         self.growth_rate < 0.0 && self.margin < -NEAR_LINE
     }

@@ -1,4 +1,4 @@
-//! The least of several numbers over a step: at its end, or where one of them dips within.
+//! The minimum of several quantities over a step: at its end, or at an interior minimum of one of them.
 
 /// Numbers at both ends of a step, with their rates.
 pub(super) struct Ends<'a> {

@@ -1,10 +1,10 @@
-//! What a judge has seen, as numbers: for checkpoints.
+//! The state of a judge as numbers, for checkpoints.
 
 use super::repeats::{Reference, Repeats};
 use super::windows::Stretch;
 use super::{Class, Decision, Verdict};
 
-/// What a [`Judge`](super::Judge) has seen of a run, to go on with later.
+/// The state of a [`Judge`](super::Judge), from which it can continue later.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Memory {
     /// The judge's own.

@@ -1,4 +1,4 @@
-//! The outcome of a run: back to the uniform flow, lasting waves, contact, blow-up; or undecided, and why.
+//! The outcome of a run: return to the uniform flow, lasting waves, contact or blow-up; or undecided, with the reason.
 //!
 //! The paper leaves the question to simulations ("it has to be verified by simulations whether this instability corresponds
 //! to realistic behavior"). [`Judge`] answers it for one run, step by step; the classes are [`Class`], in order of precedence.
@@ -12,24 +12,24 @@ mod windows;
 pub use judge::Judge;
 pub use memory::Memory;
 
-/// What became of a run.
+/// The outcome of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Class {
     /// Two touch at the start.
     Closed,
     /// There is no uniform flow to perturb.
     NoUniformFlow,
-    /// The formula of the law has no value for somebody.
+    /// The formula of the law has no value for a pedestrian.
     Undefined,
     /// Speeds grow without bound while every gap is open.
     BlowUp,
     /// An effective gap (of the logarithmic law: a spacing) reaches 0.
     Contact,
-    /// Back to the uniform flow for good.
+    /// Permanent return to the uniform flow.
     Decays,
-    /// Lasting waves, in which somebody walks backwards.
+    /// Lasting waves with backward motion.
     WavesBackwards,
-    /// Lasting waves, in which nobody touches or walks backwards.
+    /// Lasting waves without contact or backward motion.
     Waves,
     /// None of these is certain by the end of the run.
     Undecided,
@@ -122,7 +122,7 @@ impl Decision {
 /// The outcome of a run, with the numbers that it rests on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
-    /// What became of it.
+    /// The outcome.
     pub class: Class,
     /// When that was certain, in units of `tau`.
     pub time: f64,
@@ -136,7 +136,8 @@ pub struct Verdict {
     pub least_speed: f64,
     /// The standard deviation of the speeds, in units of `a_0 / tau`: of waves the mean over the last window, else that at the end.
     pub std: f64,
-    /// The least speed in the windows by which waves were judged; only of waves. That of the run may lie in their growth.
+    /// The least speed in the windows by which waves were judged; only for waves. The least speed of the whole run may
+    /// occur while they grow.
     pub lasting_least_speed: Option<f64>,
     /// The speed at which waves travel along the ring, on the ground, in units of `a_0 / tau`, against the direction of walking if
     /// negative; only of waves.

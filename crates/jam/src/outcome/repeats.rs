@@ -1,4 +1,4 @@
-//! Whether a state repeats itself, shifted along the ring: then it does so for good.
+//! Tests whether a state repeats itself, shifted along the ring. If so, it will do so for ever.
 
 use crate::events::Watch;
 use ode::Step;
@@ -36,7 +36,7 @@ pub(super) struct Reference {
     pub(super) pedestrian: usize,
 }
 
-/// A repetition: after a time `period` the pattern stands `shift` pedestrians further, or that and whole rounds.
+/// A repetition: after a time `period` the pattern is shifted by `shift` pedestrians, up to whole rounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Repetition {
     pub(super) period: f64,
@@ -82,7 +82,8 @@ impl Reference {
         Reference { time, gaps: now.gaps.clone(), speeds: now.speeds.clone(), pedestrian }
     }
 
-    /// Whether the state comes back within the step: when somebody goes through the speed of the reference's pedestrian.
+    /// Whether the state recurs within the step: when a pedestrian passes through the speed of the reference
+    /// pedestrian.
     fn again(&self, watch: &mut Watch<'_>, step: &mut Step<'_>, contrast: f64, bound: f64) -> Option<Repetition> {
         let (level, count) = (self.speeds[self.pedestrian], self.speeds.len());
         for other in 0..count {

@@ -1,4 +1,4 @@
-//! Statistics of a run over blocks of time, and over windows made of them.
+//! Statistics of a run over blocks of time, and over windows composed of blocks.
 
 use super::least::lowest;
 

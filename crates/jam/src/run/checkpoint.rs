@@ -1,5 +1,5 @@
-//! A checkpoint of a run, as bytes, from which it resumes with the same bits. Pure: who writes them
-//! where, and how often, is the caller's business.
+//! A checkpoint of a run, serialised so that the run can be resumed bit-identically. The module opens no file: the
+//! caller decides where and how often to write one.
 //!
 //! The bytes are 64-bit words, low byte first, numbers by their bits: place, counts, state, pace, events, samples, jams, what the judge has seen. What
 //! follows from the run and the rest is left out: the times of the trajectories, and whether the
@@ -162,7 +162,7 @@ impl Checkpoint {
         self.earlier.steps + self.place.step
     }
 
-    /// The part of the run's time that need not be gone through again, 0 to 1.
+    /// The fraction of the run's time that need not be repeated, 0 to 1.
     pub fn fraction(&self, run: &Run) -> f64 {
         fraction(run, self.place.step, self.statistics.time)
     }

@@ -1,4 +1,4 @@
-//! Which form of the state suits a run, and whether its start has a value.
+//! Chooses the form of the state for a run, and checks that the law has a value at the start.
 
 use crate::laws::Model;
 use crate::ring::{Ring, Start};
@@ -19,12 +19,15 @@ pub fn fitting(wanted: Option<StateVariables>, model: &Model, ring: Ring, speed:
     }
 }
 
-/// The method of a run that names none: Taylor's, or `dop853` in positions, which have no series, and for laws with kinks that
-/// depend on speeds, too: a series sees a kink only at the end of a step.
+/// The method of a run that names none: Taylor's, or `dop853` in positions, which have no series, and where a series would have
+/// to end on kinks: of a formula, and of a law of your own that depends on speeds, of whose kinks nobody knows.
 pub fn usual_method(form: StateVariables, model: &Model) -> Method {
     let has_series = form != StateVariables::Positions;
-    let crosses_kinks = model.may_have_kinks() && model.force().uses_speeds();
-    if has_series && !crosses_kinks { Method::Taylor } else { Method::Dop853 }
+    let may_meet_kinks = match model {
+        Model::Formula(law) => law.has_kinks(),
+        model => model.may_have_kinks() && model.force().uses_speeds(),
+    };
+    if has_series && !may_meet_kinks { Method::Taylor } else { Method::Dop853 }
 }
 
 /// Whether a ring has a uniform flow that its state can deviate from.

@@ -1,7 +1,8 @@
-//! One run from its start to its end: samples, events, what it cost, the last state, and what became of it.
+//! A run from start to end: samples, events, cost, final state, outcome.
 //!
-//! [`Run`] says what is integrated and what is kept, [`run`] does it, [`Outcome`] is what it gives. A [`RunObserver`] looks on;
-//! [`Checkpoint`] is a run between two of its steps, as bytes, from which [`run_from`] goes on to the same bits.
+//! [`Run`] says what is integrated and what is kept, [`run`] does it, [`Outcome`] is what it gives. A [`RunObserver`]
+//! observes the run. A [`Checkpoint`] is the serialised state between two steps, from which [`run_from`] resumes with
+//! the same bits.
 
 mod checkpoint;
 mod form;
@@ -18,6 +19,9 @@ pub use observer::{Judging, RunObserver, Sight};
 pub use outcome::{Broken, Narrowest, Outcome, Statistics};
 pub use recorder::{run, run_from};
 pub use samples::{Sample, Samples};
+
+pub(crate) use recorder::untried;
+pub(crate) use walls::advice;
 
 use crate::events::EventKind;
 use crate::laws::Model;
@@ -36,7 +40,8 @@ pub struct Run {
     pub ring: Ring,
     /// The initial state.
     pub start: Start,
-    /// Another initial state, at rest, too: how far each pedestrian is moved from equal spacings. Empty: as `start` says.
+    /// Alternative initial state, also at rest: the displacement of each pedestrian from equal spacings. If empty,
+    /// `start` applies.
     pub displacements: Vec<f64>,
     /// The time at which it ends, above 0.
     pub t_end: f64,
@@ -48,7 +53,7 @@ pub struct Run {
     pub control: Control,
     /// As many steps of adaptive length as it may try, rejected ones included.
     pub most_steps: u64,
-    /// The form of the state. A run in deviations that comes near to a wall of the force goes on in spacings.
+    /// The form of the state. A run in deviations that comes close to a wall of the force continues in spacings.
     pub form: StateVariables,
     /// Whether positions and speeds of all pedestrians are kept at every sample, and jams are followed.
     pub keeps_trajectories: bool,
@@ -58,12 +63,12 @@ pub struct Run {
     pub at_overlap: AtOverlap,
 }
 
-/// What becomes of a run in which two overlap.
+/// What happens to a run in which two pedestrians overlap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AtOverlap {
     /// Its samples end there.
     Stop,
-    /// It goes on, under a law that does: one whose force acts in contact, for instance.
+    /// It continues, if the law allows it: if its force acts in contact, for instance.
     Continue,
 }
 

@@ -1,4 +1,4 @@
-//! Looking on while a run is made.
+//! Observers of a run in progress.
 
 use super::{PartialRun, Sample};
 use crate::events::{Event, Watch};
@@ -18,7 +18,7 @@ pub trait RunObserver {
     /// Sees the run every few thousand steps.
     fn between(&mut self, _underway: &PartialRun<'_>) {}
 
-    /// Whether the run is to end after the step that was seen last. By default it goes on.
+    /// Whether the run should end after the last step seen. By default it continues.
     fn is_done(&self) -> bool {
         false
     }

@@ -1,4 +1,4 @@
-//! What a run gives, and why one goes no further.
+//! The result of a run, and the reasons why one can end early.
 
 use super::{AtOverlap, Samples, stops};
 use crate::events::Event;
@@ -10,8 +10,8 @@ use crate::outcome::Verdict;
 pub struct Outcome {
     /// Up to the first stop.
     pub samples: Samples,
-    /// The first event of each kind, with everybody to whom it happens at once, in order of time; those after a stop belong
-    /// to the continued run.
+    /// The first event of each kind, with all pedestrians to whom it happens at that time, in order of time; events
+    /// after a stop belong to the continued run.
     pub events: Vec<Event>,
     /// What it cost, and how far it came.
     pub statistics: Statistics,
@@ -23,7 +23,7 @@ pub struct Outcome {
     pub drift: Drift,
     /// What an overlap does.
     pub at_overlap: AtOverlap,
-    /// What became of the run, if an observer asked for it (see [`RunObserver::judging`](super::RunObserver::judging)).
+    /// The outcome of the run, if an observer asked for it (see [`RunObserver::judging`](super::RunObserver::judging)).
     pub verdict: Option<Verdict>,
 }
 
@@ -47,7 +47,7 @@ pub struct Statistics {
     pub time: f64,
 }
 
-/// A run that could not go on.
+/// A run that could not continue.
 #[derive(Clone, Debug)]
 pub struct Broken {
     /// What it gave until then.

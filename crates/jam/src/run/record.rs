@@ -1,4 +1,4 @@
-//! What is kept of a run while it is made: samples, and where the jams are.
+//! What is stored of a run while it is integrated: samples, and the positions of the jams.
 
 use super::{Run, Sample, Samples};
 use crate::jams;
@@ -42,7 +42,7 @@ impl<'a> Record<'a> {
 
     /// Takes a sample and returns it.
     pub fn take(&mut self, time: f64, state: &[f64]) -> Sample<'_> {
-        let std = self.form.speed_deviation(state);
+        let std = self.form.speed_std(state);
         let sample = if self.run.keeps_trajectories {
             self.read(state);
             Sample { time, std, positions: &self.positions, speeds: &self.speeds, spacings: &self.spacings }

@@ -1,4 +1,4 @@
-//! Making a run: leg after leg, step by step.
+//! Integrates a run leg by leg, step by step.
 
 use super::checkpoint::{Checkpoint, PartialRun, Remembered};
 use super::record::{FOLLOWED_EVERY, Record};
@@ -15,8 +15,7 @@ use std::ops::ControlFlow;
 /// # Errors
 /// The integration failed before anything stopped it, with the time it reached.
 ///
-/// # Panics
-/// The time between samples is not above 0; displacements are there, but not one for each pedestrian.
+/// # Panics The time between samples is not above 0; displacements are given, but not one for each pedestrian.
 pub fn run(run: &Run) -> Result<Outcome, Broken> {
     run_from(run, None, &mut ())
 }
@@ -52,7 +51,16 @@ pub fn run_from(run: &Run, from: Option<Checkpoint>, observer: &mut dyn RunObser
     recorder.end(made)
 }
 
-/// What became of a leg: how far it came, and why no further, if it broke.
+/// The run before its first step.
+pub(crate) fn untried(run: &Run, observer: &mut dyn RunObserver) -> Outcome {
+    let form = run.form.build(&run.model, run.ring);
+    let mut recorder = Recorder::new(run, &*form, observer);
+    recorder.start(&run.initial(&*form));
+    let made = Made { statistics: ode::Statistics::default(), failure: None };
+    recorder.end(made).unwrap_or_else(|broken| *broken.outcome)
+}
+
+/// The result of a leg: how far it got, and the reason if it failed.
 struct Made {
     statistics: ode::Statistics,
     failure: Option<ode::Failure>,
@@ -120,7 +128,7 @@ impl<'a> Recorder<'a> {
         self.made(made)
     }
 
-    /// Goes on from a checkpoint as [`Recorder::leg`] would have.
+    /// Continues from a checkpoint as [`Recorder::leg`] would have done.
     fn resume(&mut self, form: &dyn RingSystem, near_walls: &'a dyn RingSystem, checkpoint: Checkpoint) -> Made {
         let Checkpoint { place, statistics, state, pace, found, samples, drift, .. } = checkpoint;
         // one sample for each multiple of the interval, from 0; none after a stop
@@ -164,7 +172,7 @@ impl<'a> Recorder<'a> {
         state
     }
 
-    /// What the run gave; or, where it broke, what it gave until then.
+    /// The result of the run; if it failed, the result up to that point.
     fn end(mut self, made: Made) -> Result<Outcome, Broken> {
         let mut statistics = counts(&made.statistics);
         statistics.steps += self.earlier.steps;
@@ -222,7 +230,8 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Whether nothing is left to be found: after a blow-up, or a stop from which no run goes on, or all that can follow it.
+    /// Whether no further event can be found: after a blow-up, after a stop from which no run continues, or after all
+    /// events that can follow it.
     fn is_over(&self) -> bool {
         let happened = |kind: EventKind| self.watch.found().iter().any(|event| event.kind == kind);
         let continues = !self.run.model.is_singular();

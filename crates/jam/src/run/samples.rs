@@ -42,7 +42,7 @@ impl Samples {
         self.times.len()
     }
 
-    /// Whether there is none.
+    /// Whether there are no samples.
     pub fn is_empty(&self) -> bool {
         self.times.is_empty()
     }
@@ -62,6 +62,16 @@ impl Samples {
         let row = index * self.pedestrians..(index + 1) * self.pedestrians;
         let (positions, speeds) = (&self.positions[row.clone()], &self.speeds[row]);
         Sample { time: self.times[index], std: self.std[index], positions, speeds, spacings: &[] }
+    }
+
+    /// The samples up to this time.
+    pub(crate) fn until(mut self, time: f64) -> Samples {
+        let count = self.times.iter().take_while(|&&t| t <= time).count();
+        self.times.truncate(count);
+        self.std.truncate(count);
+        self.positions.truncate(count * self.pedestrians);
+        self.speeds.truncate(count * self.pedestrians);
+        self
     }
 
     pub(crate) fn push(&mut self, Sample { time, std, positions, speeds, .. }: Sample<'_>) {

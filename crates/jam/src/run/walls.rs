@@ -1,6 +1,8 @@
-//! The ends of a run that no step shows: at a wall of the force, and where a law has no value.
+//! Ends of a run that no step shows: a wall of the force, and states at which the law has no value.
 
 use super::recorder::Recorder;
+use super::{Run, has_deviations};
+use crate::errors::loses_shift;
 use crate::events::{Event, EventKind};
 use crate::states::StateVariables;
 use ode::Control;
@@ -10,12 +12,12 @@ use ode::Control;
 /// deviations lead no further.
 const NEAR_WALLS: f64 = 1e-3;
 
-/// An effective gap below this, at a wall where no shorter step leads on, is that of a pedestrian who comes nearer to the wall
-/// than a double can tell: the force has no bound that a number has.
+/// If no shorter step is possible at a wall and the effective gap is below this, a pedestrian has come closer to the
+/// wall than a double can resolve, and the force exceeds every double.
 const NO_GAP: f64 = 1e-200;
 
 impl Recorder<'_> {
-    /// Whether a run ends since a pedestrian comes nearer to a wall than any double can tell; then that is an event.
+    /// Whether a run ends because a pedestrian comes closer to a wall than a double can resolve; this is then an event.
     pub(super) fn is_at_wall(&mut self, failure: &ode::Failure, time: f64, state: &[f64]) -> bool {
         let Some(narrowest) = self.narrowest else { return false };
         let is_singular = self.run.model.is_singular() && self.is_in_spacings();
@@ -66,7 +68,7 @@ impl Recorder<'_> {
         self.is_near_walls || self.run.form == StateVariables::Spacings
     }
 
-    /// Whether the run is one in deviations that may go on in spacings. Fixed steps stay in the form they were asked for.
+    /// Whether a run in deviations may continue in spacings. Runs with fixed steps keep their form.
     pub(super) fn can_turn(&self) -> bool {
         let is_adaptive = matches!(self.run.control, Control::Adaptive { .. });
         !self.is_near_walls && self.run.form == StateVariables::Deviations && is_adaptive
@@ -83,13 +85,22 @@ impl Recorder<'_> {
 }
 
 /// What helps a run that broke.
-pub(super) fn advice(failure: &ode::Failure, run: &super::Run) -> Option<&'static str> {
+pub(crate) fn advice(failure: &ode::Failure, run: &Run) -> Option<&'static str> {
     match failure {
         ode::Failure::TooManySteps { .. } if run.most_steps < ode::MOST_STEPS => {
             Some("raise most_steps or the tolerance")
         }
         ode::Failure::TooManySteps { .. } => Some("raise the tolerance"),
         ode::Failure::NotFinite { .. } => Some("a smaller step may help"),
+        ode::Failure::NotConfirmed { .. }
+            if loses_shift(run) && has_deviations(&run.model, run.ring, run.steady_speed) =>
+        {
+            Some("the shift is lost beside the spacings: state = \"deviations\" keeps it")
+        }
+        ode::Failure::NotConfirmed { .. } => match run.control {
+            Control::Fixed { .. } => Some("a smaller step may help"),
+            Control::Adaptive { .. } => Some("a smaller tolerance may help"),
+        },
         ode::Failure::StepTooSmall { .. } if run.form == StateVariables::Positions => {
             Some("state = \"deviations\" keeps more digits of small gaps")
         }

@@ -7,7 +7,7 @@
 use super::tangent::{fastest, series};
 use super::{FlowAlong, LEAST_SIZE, RingSystem, closing_rates, displace};
 use crate::force::{Flow, Force, Motion};
-use crate::observe::spread;
+use crate::observe::speed_std;
 use crate::ring::{Ring, Start};
 use ode::{Group, Measure, System, Tangent};
 use std::ops::Range;
@@ -108,12 +108,15 @@ impl System for Deviations {
         let (n, dimension) = (self.pedestrians, self.dimension());
         series(tangent, order, unit, coefficients);
         let (first, distance, speed) = self.extras();
-        for k in 0..order {
+        let mut rows = coefficients.chunks_exact_mut(dimension);
+        let Some(start) = rows.next() else { return };
+        let mut before = [start[n], start[speed]];
+        for (k, row) in rows.take(order).enumerate() {
             let share = unit / (k + 1) as f64;
-            let (done, next) = coefficients[k * dimension..].split_at_mut(dimension);
-            next[first] = done[n] * share;
-            next[distance] = done[speed] * share;
-            next[speed] = -done[speed] * share;
+            row[first] = before[0] * share;
+            row[distance] = before[1] * share;
+            row[speed] = -before[1] * share;
+            before = [row[n], row[speed]];
         }
     }
 
@@ -206,7 +209,7 @@ impl RingSystem for Deviations {
         Some(FlowAlong { net_gap: self.net_gap, speed: state[speed], acceleration: rates[speed] })
     }
 
-    fn speed_deviation(&self, state: &[f64]) -> f64 {
-        spread(&state[self.pedestrians..2 * self.pedestrians])
+    fn speed_std(&self, state: &[f64]) -> f64 {
+        speed_std(&state[self.pedestrians..2 * self.pedestrians])
     }
 }

@@ -1,4 +1,4 @@
-//! The ring as a system of equations, in three forms of the same state.
+//! The ring as a system of equations, in three forms of the state.
 //!
 //! | form | state | for |
 //! |---|---|---|
@@ -38,7 +38,7 @@ pub trait RingSystem: ode::System {
     /// Writes the `N` positions, unwrapped: they start in [0, L) and grow as the pedestrians walk.
     fn write_positions(&self, state: &[f64], positions: &mut [f64]);
 
-    /// Where the speeds stand in a state, or their deviations from one speed.
+    /// The range of the speeds in a state, or of their deviations from one speed.
     fn speeds(&self) -> Range<usize>;
 
     /// For states of deviations from a uniform flow, which stand first, those of gaps before those of speeds: that flow.
@@ -48,7 +48,7 @@ pub trait RingSystem: ode::System {
     }
 
     /// The standard deviation of the speeds over the pedestrians (divided by `N`).
-    fn speed_deviation(&self, state: &[f64]) -> f64;
+    fn speed_std(&self, state: &[f64]) -> f64;
 }
 
 /// A uniform flow that is integrated along.
@@ -95,8 +95,8 @@ pub fn gaps_state(model: &Model, gaps: &[f64], speeds: &[f64], first: f64) -> Ve
     gaps.iter().map(|gap| gap - contact).chain(speeds.iter().copied()).chain([first]).collect()
 }
 
-/// A state of spacings, or of deviations, with each of the `N` pedestrians moved by so much: spacings stand first, the place of
-/// the first pedestrian behind the speeds.
+/// A state of spacings, or of deviations, with each of the `N` pedestrians displaced as given: spacings come first,
+/// then the speeds, then the position of the first pedestrian.
 fn displace(mut state: Vec<f64>, displacements: &[f64]) -> Vec<f64> {
     let n = displacements.len();
     for own in 0..n {

@@ -2,7 +2,7 @@
 
 use super::RingSystem;
 use crate::force::{Cut, Flow, Force, Steps};
-use crate::observe::spread;
+use crate::observe::speed_std;
 use crate::ring::{Ring, Start};
 use math::simd::Width;
 use ode::{Batch, Group, Measure, System};
@@ -133,7 +133,7 @@ impl RingSystem for Positions {
         n..2 * n
     }
 
-    fn speed_deviation(&self, state: &[f64]) -> f64 {
-        spread(&state[self.ring.pedestrians..])
+    fn speed_std(&self, state: &[f64]) -> f64 {
+        speed_std(&state[self.ring.pedestrians..])
     }
 }

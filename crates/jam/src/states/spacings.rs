@@ -1,10 +1,10 @@
-//! Spacings and speeds: `[s_0 - s_c .. s_{N-1} - s_c, v_0 .. v_{N-1}, x_0]` with the gap `s_c` at contact (2, or 0 for the
-//! logarithmic law): a gap that closes keeps all its digits.
+//! Spacings and speeds, `[s_0 - s_c .. s_{N-1} - s_c, v_0 .. v_{N-1}, x_0]`, with the spacing `s_c` at contact (2, or 0
+//! for the logarithmic law). A gap that closes keeps all its digits.
 
 use super::tangent::{fastest, series};
 use super::{LEAST_SIZE, RingSystem, closing_rates, displace};
 use crate::force::{Flow, Force, Motion};
-use crate::observe::spread;
+use crate::observe::speed_std;
 use crate::ring::{Ring, Start};
 use ode::{Group, Measure, System, Tangent};
 use std::ops::Range;
@@ -157,7 +157,7 @@ impl RingSystem for Spacings {
         n..2 * n
     }
 
-    fn speed_deviation(&self, state: &[f64]) -> f64 {
-        spread(&state[self.pedestrians..2 * self.pedestrians])
+    fn speed_std(&self, state: &[f64]) -> f64 {
+        speed_std(&state[self.pedestrians..2 * self.pedestrians])
     }
 }

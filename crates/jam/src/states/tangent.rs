@@ -1,5 +1,5 @@
-//! How small differences of spacings and speeds move where the force depends on the own spacing alone:
-//! `du_n/dt = w_{n+1} - w_n`, `dw_n/dt = phi_n u_n - w_n` with the slopes `phi_n` of the acceleration along the solution.
+//! The linearised equations where the force depends on a pedestrian's own spacing and speed alone: `du_n/dt = w_{n+1} -
+//! w_n`, `dw_n/dt = phi_n u_n - w_n`, with the slopes `phi_n` of the acceleration along the solution.
 
 use math::simd::{Kernel, dispatch};
 use ode::Tangent;
@@ -13,45 +13,44 @@ pub(super) fn fastest(slopes: &[f64]) -> f64 {
 
 /// Writes the rows of spacings and of speeds, which stand first in each.
 pub(super) fn series(tangent: Tangent<'_>, order: usize, unit: f64, coefficients: &mut [f64]) {
-    let dimension = coefficients.len() / (order + 1);
-    for k in 0..order {
-        let (done, next) = coefficients.split_at_mut((k + 1) * dimension);
-        let (before, now) = done.split_at(k * dimension);
-        let before = &before[before.len().saturating_sub(dimension)..];
-        dispatch(Row { tangent, before, now, share: unit / (k + 1) as f64, next: &mut next[..dimension] });
-    }
+    dispatch(Series { tangent, order, unit, coefficients });
 }
 
-/// One row from the one before it, and from that before that if there is one.
-struct Row<'a> {
+/// Row by row, each from the one before it and, where the slopes grow, from that before that.
+struct Series<'a> {
     tangent: Tangent<'a>,
-    before: &'a [f64],
-    now: &'a [f64],
-    share: f64,
-    next: &'a mut [f64],
+    order: usize,
+    unit: f64,
+    coefficients: &'a mut [f64],
 }
 
-impl Kernel for Row<'_> {
+impl Kernel for Series<'_> {
     type Output = ();
 
     #[inline(always)]
     fn run(self) {
-        let Row { tangent: Tangent { start, growth }, before, now, share, next } = self;
+        let Series { tangent: Tangent { start, growth }, order, unit, coefficients } = self;
         let (n, last) = (start.len(), start.len() - 1);
-        let (spacings, speeds, ahead) = (&now[..n], &now[n..2 * n], &now[n + 1..2 * n]);
-        let (next_spacings, next_speeds) = next[..2 * n].split_at_mut(n);
-        for i in 0..last {
-            next_spacings[i] = (ahead[i] - speeds[i]) * share;
-        }
-        next_spacings[last] = (speeds[0] - speeds[last]) * share;
-        if before.is_empty() || growth.is_empty() {
-            for i in 0..n {
-                next_speeds[i] = (start[i] * spacings[i] - speeds[i]) * share;
+        let dimension = coefficients.len() / (order + 1);
+        for k in 0..order {
+            let share = unit / (k + 1) as f64;
+            let (done, next) = coefficients.split_at_mut((k + 1) * dimension);
+            let (before, now) = done.split_at(k * dimension);
+            let (spacings, speeds, ahead) = (&now[..n], &now[n..2 * n], &now[n + 1..2 * n]);
+            let (next_spacings, next_speeds) = next[..2 * n].split_at_mut(n);
+            for i in 0..last {
+                next_spacings[i] = (ahead[i] - speeds[i]) * share;
             }
-        } else {
-            let before = &before[..n];
-            for i in 0..n {
-                next_speeds[i] = (start[i] * spacings[i] + growth[i] * before[i] - speeds[i]) * share;
+            next_spacings[last] = (speeds[0] - speeds[last]) * share;
+            if k == 0 || growth.is_empty() {
+                for i in 0..n {
+                    next_speeds[i] = (start[i] * spacings[i] - speeds[i]) * share;
+                }
+            } else {
+                let earlier = &before[(k - 1) * dimension..][..n];
+                for i in 0..n {
+                    next_speeds[i] = (start[i] * spacings[i] + growth[i] * earlier[i] - speeds[i]) * share;
+                }
             }
         }
     }

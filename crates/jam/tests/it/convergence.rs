@@ -1,4 +1,4 @@
-//! Every method has its order on every law.
+//! Every method attains its order on every law.
 
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
 use jam::ring::{Ring, Start};
@@ -11,23 +11,9 @@ const RING: Ring = Ring { pedestrians: 8, length: 24.0 };
 /// Laws with all their terms, smooth over the steps taken here (eps well above the way of a step).
 fn smooth_laws() -> [Model; 3] {
     [
-        Model::Algebraic(Algebraic {
-            strength: 0.5,
-            relative: 0.5,
-            power: 2.0,
-            widening: 0.05,
-            epsilon: 0.5,
-            desired_speed: 1.0,
-        }),
-        Model::Exponential(Exponential {
-            strength: 2.0,
-            range: 1.5,
-            contact: 0.5,
-            widening: 0.1,
-            epsilon: 0.5,
-            desired_speed: 1.0,
-        }),
-        Model::Logarithmic(Logarithmic { desired_speed: 1.0, widening: 0.5, epsilon: 0.3 }),
+        Model::Algebraic(Algebraic { mu: 0.5, delta: 0.5, q: 2.0, a_v: 0.05, epsilon: 0.5, v0: 1.0 }),
+        Model::Exponential(Exponential { a: 2.0, b: 1.5, c: 0.5, a_v: 0.1, epsilon: 0.5, v0: 1.0 }),
+        Model::Logarithmic(Logarithmic { v0: 1.0, a_v: 0.5, epsilon: 0.3 }),
     ]
 }
 

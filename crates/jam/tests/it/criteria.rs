@@ -1,4 +1,4 @@
-//! The paper's criteria against the exact margin, and the lines where they vanish.
+//! The paper's criteria against the exact margin, and the lines on which they vanish.
 
 use crate::sample::{Random, algebraic, exponential};
 use jam::criteria;
@@ -27,7 +27,7 @@ fn criteria_are_the_exact_margin() {
         let difference = criteria::algebraic(&law, gap) - scaled(&linear);
         assert!(difference.abs() < rounding(&linear), "{law:?} at {gap}: {difference:e}");
         // the paper's contact force is linearised at d' = 0 only: without it
-        let law = Exponential { contact: 0.0, ..exponential(&mut random) };
+        let law = Exponential { c: 0.0, ..exponential(&mut random) };
         let linear = law.linearise(gap);
         let difference = criteria::exponential(&law, gap) - scaled(&linear);
         assert!(difference.abs() < rounding(&linear), "{law:?} at {gap}: {difference:e}");
@@ -38,7 +38,7 @@ fn criteria_are_the_exact_margin() {
 fn the_criterion_with_a_contact_force_is_exact_where_its_slope_is_a_half() {
     let mut random = Random(22);
     for _ in 0..2_000 {
-        let law = Exponential { contact: random.uniform(0.5, 10.0), ..exponential(&mut random) };
+        let law = Exponential { c: random.uniform(0.5, 10.0), ..exponential(&mut random) };
         let linear = law.linearise(0.0);
         let difference = criteria::exponential(&law, 0.0) - scaled(&linear);
         assert!(difference.abs() < rounding(&linear), "{law:?}: {difference:e}");
@@ -50,8 +50,8 @@ fn the_logarithmic_criterion_is_the_exact_margin_in_the_limit_of_a_sharp_ramp() 
     let mut random = Random(21);
     for _ in 0..20_000 {
         let law = Logarithmic {
-            desired_speed: random.uniform(0.1, 6.0),
-            widening: random.perhaps(0.05, 4.0),
+            v0: random.uniform(0.1, 6.0),
+            a_v: random.perhaps(0.05, 4.0),
             epsilon: random.magnitude(-3.0, -2.0),
         };
         let headway = random.uniform(0.3, 1.7);
@@ -82,12 +82,12 @@ fn zero_lines_of_the_algebraic_law() {
     for power in [1.0, 2.0, 3.0, 2.5] {
         for gap in [0.3, 0.9851, 1.7] {
             let law = |strength: f64, relative: f64, widening: f64| Algebraic {
-                strength,
-                relative,
-                power,
-                widening,
+                mu: strength,
+                delta: relative,
+                q: power,
+                a_v: widening,
                 epsilon: 0.1,
-                desired_speed: 3.0,
+                v0: 3.0,
             };
             let check = |law: Algebraic| {
                 assert_marginal(&law.linearise(gap), criteria::algebraic(&law, gap), &format!("{law:?} at {gap}"));
@@ -115,7 +115,7 @@ fn zero_lines_of_the_exponential_law() {
             for widening in [0.0, 0.15, 0.9] {
                 // (a / b) exp(-d / b) = 1 / (2 (1 - a_v)); a_v = 0: a = b / 2 exp(d / b)
                 let strength = range * math::exp(gap / range) / (2.0 * (1.0 - widening));
-                let law = Exponential { strength, range, contact: 0.0, widening, epsilon: 0.1, desired_speed: 3.0 };
+                let law = Exponential { a: strength, b: range, c: 0.0, a_v: widening, epsilon: 0.1, v0: 3.0 };
                 assert_marginal(&law.linearise(gap), criteria::exponential(&law, gap), &format!("{law:?} at {gap}"));
             }
         }
@@ -127,11 +127,9 @@ fn wide_pedestrians_are_always_stable() {
     // phi / (1 + 2 a_v phi) < 1 / (2 a_v) <= 1/2 from a_v = 1 on, whatever the force
     for strength in [0.1, 1.0, 10.0, 1000.0] {
         for gap in [0.01, 0.1, 1.0] {
-            let law =
-                Algebraic { strength, relative: 0.0, power: 2.0, widening: 1.0, epsilon: 0.1, desired_speed: 3.0 };
+            let law = Algebraic { mu: strength, delta: 0.0, q: 2.0, a_v: 1.0, epsilon: 0.1, v0: 3.0 };
             assert!(criteria::algebraic(&law, gap) < 0.0 && law.linearise(gap).long_wave_margin() < 0.0);
-            let law =
-                Exponential { strength, range: 0.5, contact: 0.0, widening: 1.0, epsilon: 0.1, desired_speed: 3.0 };
+            let law = Exponential { a: strength, b: 0.5, c: 0.0, a_v: 1.0, epsilon: 0.1, v0: 3.0 };
             assert!(criteria::exponential(&law, gap) < 0.0 && law.linearise(gap).long_wave_margin() < 0.0);
         }
     }
@@ -144,7 +142,7 @@ fn the_logarithmic_law_without_widening_is_stable_below_xi_one_half() {
     let c = jam::laws::C;
     let critical = (1.0 + c * (1.0 - 0.5 * headway)) / c;
     for (factor, stable) in [(0.999_999, true), (1.000_001, false)] {
-        let law = Logarithmic { desired_speed: factor * critical, widening: 0.0, epsilon: 0.01 };
+        let law = Logarithmic { v0: factor * critical, a_v: 0.0, epsilon: 0.01 };
         let speed = steady_speed(&Model::Logarithmic(law), headway).expect("there is room");
         let linear = law.linearise(headway, speed);
         assert_eq!(linear.phi < 0.5, stable);
@@ -156,7 +154,7 @@ fn the_logarithmic_law_without_widening_is_stable_below_xi_one_half() {
 #[test]
 fn a_panel_of_figure_14_is_stable_everywhere() {
     // <0.5, 1, 1, 0.1>
-    let law = Algebraic { strength: 0.5, relative: 1.0, power: 1.0, widening: 0.1, epsilon: 0.1, desired_speed: 3.0 };
+    let law = Algebraic { mu: 0.5, delta: 1.0, q: 1.0, a_v: 0.1, epsilon: 0.1, v0: 3.0 };
     for i in 0..=360 {
         let gap = 0.2 + 0.005 * f64::from(i);
         let linear = law.linearise(gap);

@@ -1,4 +1,4 @@
-//! The laws written as differences from the uniform flow are the printed laws, and stay accurate for small deviations.
+//! The laws as differences from the uniform flow agree with the printed laws and stay accurate for small deviations.
 
 use crate::sample::{Random, algebraic, deviation, laws, variants};
 use jam::laws::{Algebraic, Model};
@@ -35,7 +35,7 @@ fn rounding(model: &Model, arguments: [f64; 3]) -> f64 {
     let drive = model.desired_speed() + speed.abs();
     let force = (model.desired_speed() - speed - model.acceleration(gap, speed, ahead)).abs();
     let power = match model {
-        Model::Algebraic(law) => 2.5 * law.power * math::ln(model.effective_gap(gap, speed, ahead)).abs(),
+        Model::Algebraic(law) => 2.5 * law.q * math::ln(model.effective_gap(gap, speed, ahead)).abs(),
         _ => 0.0,
     };
     // the logarithm's own scale is the desired speed, for each unit of force
@@ -51,8 +51,8 @@ fn powers_1_2_and_3_are_products() {
         let room = gap - 2.0;
         let products = [1.0 / room, 1.0 / (room * room), 1.0 / (room * room * room)];
         for (power, inverse) in [1.0, 2.0, 3.0].into_iter().zip(products) {
-            let law = Algebraic { relative: 0.0, widening: 0.0, power, ..algebraic(&mut random) };
-            let expected = law.desired_speed - 0.25 - law.strength * law.strength * inverse;
+            let law = Algebraic { delta: 0.0, a_v: 0.0, q: power, ..algebraic(&mut random) };
+            let expected = law.v0 - 0.25 - law.mu * law.mu * inverse;
             assert_eq!(Model::Algebraic(law).acceleration(gap, 0.25, 0.5), expected, "{law:?} at {gap}");
         }
     }
@@ -100,8 +100,8 @@ fn small_deviations_keep_their_digits() {
                 let scale: f64 = terms.iter().map(|term| term.abs()).sum();
                 // relative size of the next term: the shortest length over which each law bends
                 let bend = match model {
-                    Model::Algebraic(law) => (law.power + 1.0) / room + 1.0 / law.epsilon,
-                    Model::Exponential(law) => 1.0 / law.range + 1.0 / law.epsilon,
+                    Model::Algebraic(law) => (law.q + 1.0) / room + 1.0 / law.epsilon,
+                    Model::Exponential(law) => 1.0 / law.b + 1.0 / law.epsilon,
                     Model::Logarithmic(law) => 2.0 + 1.0 / law.epsilon,
                     Model::Formula(_) | Model::Own(_) => f64::NAN,
                 };
@@ -123,9 +123,9 @@ fn whole_powers_agree_with_twofold_numbers() {
     let mut worst: f64 = 0.0;
     for _ in 0..20_000 {
         let Model::Algebraic(mut law) = laws(&mut random)[0] else { continue };
-        (law.relative, law.widening) = (0.0, 0.0);
+        (law.delta, law.a_v) = (0.0, 0.0);
         for q in 1..=3 {
-            law.power = f64::from(q);
+            law.q = f64::from(q);
             let gap = 2.0 + random.uniform(0.3, 3.0);
             let d = gap - 2.0;
             let (u, w) = (d * random.magnitude(-15.0, -0.1) * random.uniform(-1.0, 1.0), random.uniform(-1e-3, 1e-3));
@@ -133,7 +133,7 @@ fn whole_powers_agree_with_twofold_numbers() {
             let (before, after) = (power(DoubleDouble::from(d)), power(DoubleDouble::sum(d, u)));
             // 1 / after - 1 / before, over one denominator; double-double numbers keep 16 digits of it down to u = 1e-15 d
             let difference = (before - after) / (before * after);
-            let force = DoubleDouble::product(law.strength, law.strength) * difference;
+            let force = DoubleDouble::product(law.mu, law.mu) * difference;
             let exact = DoubleDouble::from(-w) - force;
             let computed = deviation(&Model::Algebraic(law), gap, 0.7, [u, w, 0.0]);
             let error = (exact - computed).abs().hi / (w.abs() + force.hi.abs());
@@ -199,7 +199,7 @@ fn a_ring_is_open_while_everybody_has_room() {
 
 #[test]
 fn a_ring_with_a_room_of_exactly_nothing_is_closed() {
-    let law = Algebraic { relative: 0.0, widening: 0.25, ..algebraic(&mut Random(29)) };
+    let law = Algebraic { delta: 0.0, a_v: 0.25, ..algebraic(&mut Random(29)) };
     let model = Model::Algebraic(law);
     let ring = Ring { pedestrians: 4, length: 16.0 };
     for victim in 0..4 {

@@ -1,4 +1,4 @@
-//! Events of constructed trajectories: when, who, and in which order.
+//! Events of constructed trajectories: their times, pedestrians and order.
 
 use jam::events::{BLOW_UP, Event, EventKind, Watch};
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
@@ -67,20 +67,13 @@ impl RingSystem for Swing {
     fn speeds(&self) -> Range<usize> {
         0..1
     }
-    fn speed_deviation(&self, _state: &[f64]) -> f64 {
+    fn speed_std(&self, _state: &[f64]) -> f64 {
         0.0
     }
 }
 
 fn relaxation(widening: f64) -> Model {
-    Model::Exponential(Exponential {
-        strength: 0.0,
-        range: 1.0,
-        contact: 0.0,
-        widening,
-        epsilon: 0.1,
-        desired_speed: 1.0,
-    })
+    Model::Exponential(Exponential { a: 0.0, b: 1.0, c: 0.0, a_v: widening, epsilon: 0.1, v0: 1.0 })
 }
 
 /// The events of a run, and whether each was reported once.
@@ -296,7 +289,7 @@ fn a_watch_goes_on_in_another_form() {
 
 #[test]
 fn for_the_logarithmic_law_an_overlap_is_an_exchange() {
-    let model = Model::Logarithmic(jam::laws::Logarithmic { desired_speed: 1.0, widening: 0.0, epsilon: 0.01 });
+    let model = Model::Logarithmic(jam::laws::Logarithmic { v0: 1.0, a_v: 0.0, epsilon: 0.01 });
     assert_eq!((model.contact(), model.effective_gap(0.5, 1.0, 1.0)), (0.0, 0.5));
     let swing = Swing::new([(0.5, 1.0), (5.0, 0.0), (5.0, 0.0)], [(1.0, 0.0); 3]);
     let found = watched(&swing, model, &[1.0, 0.0], 3, 6.0, ADAPTIVE);
@@ -327,14 +320,14 @@ fn looked_at(model: &Model, ring: Ring, shift: f64, end: f64) -> ([Vec<Event>; 2
 fn steps_near_a_uniform_flow_are_passed_over_and_no_event_with_them() {
     let ring = Ring { pedestrians: 67, length: 200.0 };
     let algebraic = |strength: f64| {
-        Model::Algebraic(Algebraic { strength, power: 2.0, desired_speed: 3.0, epsilon: 0.1, ..Algebraic::default() })
+        Model::Algebraic(Algebraic { mu: strength, q: 2.0, v0: 3.0, epsilon: 0.1, ..Algebraic::default() })
     };
     let ([all, new], quiet) = looked_at(&algebraic(0.45), ring, 1e-4, 300.0);
     assert!(all.is_empty() && new.is_empty(), "{all:?}, {new:?}");
     assert!(quiet > 50, "{quiet}");
     // unstable: quiet at first, then two touch in a jam
     let ring = Ring { pedestrians: 133, length: 200.0 };
-    let logarithmic = Model::Logarithmic(Logarithmic { desired_speed: 2.0, widening: 0.0, epsilon: 0.01 });
+    let logarithmic = Model::Logarithmic(Logarithmic { v0: 2.0, a_v: 0.0, epsilon: 0.01 });
     let ([all, new], quiet) = looked_at(&logarithmic, ring, 1e-4, 3000.0);
     assert!(all.iter().any(|event| event.kind == EventKind::Overlap), "{all:?}");
     assert_eq!(all, new);

@@ -1,4 +1,4 @@
-//! What the components of a state are.
+//! The components of each form of the state.
 
 use crate::sample::{Random, variants};
 use jam::ring::{Ring, Start};

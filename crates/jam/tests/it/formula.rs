@@ -1,4 +1,4 @@
-//! One suite for every law and every way to carry it out: the built-in laws compiled and as formulas give the same bits;
+//! One suite for every law and every way to evaluate it. Built-in laws give the same bits compiled and as formulas;
 //! differences, coefficients and derivatives are those of the formula.
 
 use crate::sample::{Random, variants};

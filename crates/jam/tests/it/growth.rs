@@ -1,4 +1,4 @@
-//! Waves in simulations grow, decay and travel as the linear theory says.
+//! Waves in simulations grow, decay and travel as the linear theory predicts.
 
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
 use jam::ring::Ring;
@@ -52,15 +52,15 @@ fn a_state_holds_half_of_a_real_wave() {
 
 fn cases() -> Vec<(Model, f64)> {
     let algebraic = |strength: f64, relative: f64, power: f64, widening: f64| {
-        let law = Algebraic { strength, relative, power, widening, epsilon: 0.1, desired_speed: 3.0 };
+        let law = Algebraic { mu: strength, delta: relative, q: power, a_v: widening, epsilon: 0.1, v0: 3.0 };
         (Model::Algebraic(law), 200.0 / 67.0 + 6.0 * widening)
     };
     let exponential = |strength: f64, contact: f64, widening: f64| {
-        let law = Exponential { strength, range: 1.5, contact, widening, epsilon: 0.1, desired_speed: 3.0 };
+        let law = Exponential { a: strength, b: 1.5, c: contact, a_v: widening, epsilon: 0.1, v0: 3.0 };
         (Model::Exponential(law), 200.0 / 57.0 + 6.0 * widening)
     };
     let logarithmic = |desired_speed: f64, widening: f64| {
-        (Model::Logarithmic(Logarithmic { desired_speed, widening, epsilon: 0.01 }), 200.0 / 133.0)
+        (Model::Logarithmic(Logarithmic { v0: desired_speed, a_v: widening, epsilon: 0.01 }), 200.0 / 133.0)
     };
     vec![
         algebraic(0.45, 0.0, 2.0, 0.0),

@@ -1,4 +1,5 @@
-//! Steps of Heun's scheme made many at once: the bits of the scheme as printed, at every width, size and cut.
+//! Batches of Heun steps have the bits of the scheme as printed, for every vector width, ring size and division into
+//! blocks.
 
 use crate::sample::{Random, paper_laws, variants};
 use jam::laws::{Exponential, Logarithmic, Model};
@@ -151,8 +152,11 @@ fn burst_with(model: &Model, size: usize, victim: usize, (gap, speed): (f64, f64
 /// No force but the drive, of this law's contact.
 fn drive() -> [Model; 2] {
     let (strength, range, contact, widening, epsilon, desired_speed) = (0.0, 1.0, 0.0, 0.0, 0.1, 1.0);
-    let exponential = Exponential { strength, range, contact, widening, epsilon, desired_speed };
-    [Model::Exponential(exponential), Model::Logarithmic(Logarithmic { desired_speed, widening, epsilon: 0.01 })]
+    let exponential = Exponential { a: strength, b: range, c: contact, a_v: widening, epsilon, v0: desired_speed };
+    [
+        Model::Exponential(exponential),
+        Model::Logarithmic(Logarithmic { v0: desired_speed, a_v: widening, epsilon: 0.01 }),
+    ]
 }
 
 #[test]
@@ -173,27 +177,13 @@ fn what_is_no_more_after_the_last_step_is_seen_as_well() {
         }
     }
     // the speed ahead takes room away as well: 5.005 - 0.1 (20 + 10) - 2, less 0.01 after one step
-    let wide = Model::Exponential(Exponential {
-        strength: 0.0,
-        range: 1.0,
-        contact: 0.0,
-        widening: 0.1,
-        epsilon: 0.1,
-        desired_speed: 1.0,
-    });
+    let wide = Model::Exponential(Exponential { a: 0.0, b: 1.0, c: 0.0, a_v: 0.1, epsilon: 0.1, v0: 1.0 });
     for victim in [0, 1, 18, 19] {
         let said = |gap| burst_with(&wide, 20, victim, (gap, 20.0), 10.0, 1);
         assert_eq!([said(5.005), said(5.02)], [Batch::NeedsInspection, Batch::Done], "{victim}");
     }
     // slower than nothing after one step: a force of some 7 on who nearly stands
-    let strong = Model::Exponential(Exponential {
-        strength: 10.0,
-        range: 1.5,
-        contact: 0.0,
-        widening: 0.0,
-        epsilon: 0.1,
-        desired_speed: 1.0,
-    });
+    let strong = Model::Exponential(Exponential { a: 10.0, b: 1.5, c: 0.0, a_v: 0.0, epsilon: 0.1, v0: 1.0 });
     for victim in [0, 1, 18, 19] {
         let said = |speed| burst_with(&strong, 20, victim, (2.5, speed), 1.0, 1);
         assert_eq!(said(0.001), Batch::NeedsInspection, "{victim}");

@@ -1,7 +1,7 @@
-//! Jams in constructed snapshots, their drift, and the standard deviation.
+//! Jams in constructed snapshots, their speed, and the standard deviation.
 
 use jam::jams::{Drift, Jam, find, threshold};
-use jam::observe::spread;
+use jam::observe::speed_std;
 
 const LENGTH: f64 = 20.0;
 
@@ -108,12 +108,12 @@ fn a_jam_that_comes_or_goes_starts_the_measurement_again() {
 #[test]
 fn spread_is_the_population_deviation() {
     // squares of distances from the mean 5: 9 + 1 + 1 + 1 + 0 + 0 + 4 + 16 = 32, over 8 = 4
-    assert_eq!(spread(&[2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0]), 2.0);
+    assert_eq!(speed_std(&[2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0]), 2.0);
     // the mean of equal numbers is theirs up to the rounding of its sum
-    assert_eq!([spread(&[0.7; 64]), spread(&[0.7; 7]), spread(&[1.1; 133])], [0.0; 3], "equal numbers");
-    assert_eq!(spread(&[0.0; 64]), 0.0);
-    assert_eq!(spread(&[-1.0, 1.0]), 1.0);
+    assert_eq!([speed_std(&[0.7; 64]), speed_std(&[0.7; 7]), speed_std(&[1.1; 133])], [0.0; 3], "equal numbers");
+    assert_eq!(speed_std(&[0.0; 64]), 0.0);
+    assert_eq!(speed_std(&[-1.0, 1.0]), 1.0);
     // no digits are lost to a common offset that the numbers can hold
-    assert_eq!(spread(&[1e6 - 0.5, 1e6 + 0.5]), 0.5);
-    assert!((spread(&[-1e-300, 1e-300]) / 1e-300 - 1.0).abs() < 1e-15, "squares below the smallest number");
+    assert_eq!(speed_std(&[1e6 - 0.5, 1e6 + 0.5]), 0.5);
+    assert!((speed_std(&[-1e-300, 1e-300]) / 1e-300 - 1.0).abs() < 1e-15, "squares below the smallest number");
 }

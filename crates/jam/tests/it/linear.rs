@@ -183,11 +183,11 @@ fn all_terms_are_reached() {
         for model in laws(&mut random) {
             seen.insert(match model {
                 Model::Algebraic(a) => {
-                    let power = if [1.0, 2.0, 3.0].contains(&a.power) { a.power as u8 } else { 0 };
-                    (0, a.relative > 0.0, a.widening > 0.0, power)
+                    let power = if [1.0, 2.0, 3.0].contains(&a.q) { a.q as u8 } else { 0 };
+                    (0, a.delta > 0.0, a.a_v > 0.0, power)
                 }
-                Model::Exponential(e) => (1, e.contact > 0.0, e.widening > 0.0, 0),
-                Model::Logarithmic(l) => (2, l.widening > 0.0, false, 0),
+                Model::Exponential(e) => (1, e.c > 0.0, e.a_v > 0.0, 0),
+                Model::Logarithmic(l) => (2, l.a_v > 0.0, false, 0),
                 Model::Formula(_) | Model::Own(_) => continue,
             });
         }

@@ -2,6 +2,7 @@
 //! paper's criteria against the exact ones, events and jams on constructed runs.
 
 mod bits;
+mod confirmed;
 mod convergence;
 mod criteria;
 mod deviation;

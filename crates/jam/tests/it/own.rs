@@ -1,4 +1,4 @@
-//! A law that is a Rust type of its own: what it gives is what the same formula gives, and what it may not be is refused.
+//! A law that is a user-defined Rust type: it gives what the same formula gives, and invalid ones are refused.
 
 use jam::events::EventKind;
 use jam::laws::{Formula, Law, Model, Parameter, Range};

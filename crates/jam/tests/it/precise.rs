@@ -1,4 +1,4 @@
-//! Margins by two means; the largest margin over all waves; steady speeds by rows.
+//! Margins by two methods; the largest margin over all waves; steady speeds by rows.
 
 use crate::sample::{Random, laws};
 use crate::written::law;

@@ -4,7 +4,7 @@ use jam::laws::presets::PRESETS;
 
 #[test]
 fn presets_are_those_of_the_table() {
-    let rows: Vec<_> = PRESETS.iter().map(|p| (p.name, p.strength, p.relative, p.power, p.widening)).collect();
+    let rows: Vec<_> = PRESETS.iter().map(|p| (p.name, p.mu, p.delta, p.q, p.a_v)).collect();
     let table = [
         ("CFM", Some(0.0), 1.0, 1.0, Some(0.0)),
         ("GCFM", None, 1.0, 1.0, None),
@@ -19,10 +19,10 @@ fn presets_are_those_of_the_table() {
 fn open_parameters_are_taken_and_fixed_ones_kept() {
     for preset in PRESETS {
         let law = preset.law(0.7, 0.3, 0.2, 1.5);
-        assert_eq!(law.strength, preset.strength.unwrap_or(0.7));
-        assert_eq!(law.widening, preset.widening.unwrap_or(0.3));
-        assert_eq!((law.relative, law.power), (preset.relative, preset.power));
-        assert_eq!((law.epsilon, law.desired_speed), (0.2, 1.5));
+        assert_eq!(law.mu, preset.mu.unwrap_or(0.7));
+        assert_eq!(law.a_v, preset.a_v.unwrap_or(0.3));
+        assert_eq!((law.delta, law.q), (preset.delta, preset.q));
+        assert_eq!((law.epsilon, law.v0), (0.2, 1.5));
     }
 }
 

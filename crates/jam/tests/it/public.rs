@@ -1,4 +1,4 @@
-//! The list of what is public, so that nobody changes it without noticing: `crates/jam/PUBLIC.txt`.
+//! The list of public items, `crates/jam/PUBLIC.txt`, so that no change to it goes unnoticed.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};

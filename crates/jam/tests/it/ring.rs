@@ -1,4 +1,4 @@
-//! The ring: no pedestrian is special, the gaps sum to its length, its three forms are one.
+//! The ring: all pedestrians are equivalent, the spacings sum to its length, and its three forms agree.
 
 use crate::sample::{HEADWAYS, Random, laws, paper_laws};
 use jam::laws::Model;
@@ -90,7 +90,7 @@ fn the_three_forms_start_alike_and_stay_together() {
                 let mut positions = vec![0.0; COUNT];
                 form.write_positions(&end.state, &mut positions);
                 let (gaps, speeds) = read(&*form, &end.state, COUNT);
-                assert!((form.speed_deviation(&end.state) - jam::observe::spread(&speeds)).abs() < 1e-13);
+                assert!((form.speed_std(&end.state) - jam::observe::speed_std(&speeds)).abs() < 1e-13);
                 [positions, gaps, speeds].concat()
             })
             .into();

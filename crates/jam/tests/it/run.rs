@@ -1,4 +1,5 @@
-//! Runs without a scene file: a law of one's own gives what its formula gives, bad input is refused, observers look on.
+//! Runs without a scene file: a user-defined law gives what its formula gives, bad input is refused, observers see the
+//! run.
 
 use crate::own::pair;
 use jam::events::EventKind;

@@ -1,4 +1,4 @@
-//! Random numbers, the same in every run, and random laws of every combination of terms.
+//! Reproducible random numbers, and random laws with every combination of terms.
 
 use jam::force::Flow;
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
@@ -35,34 +35,30 @@ impl Random {
 pub fn algebraic(random: &mut Random) -> Algebraic {
     let power = [1.0, 2.0, 3.0, random.uniform(0.5, 3.5)][(random.bits() % 4) as usize];
     Algebraic {
-        strength: random.uniform(0.1, 1.5),
-        relative: random.perhaps(0.2, 2.0),
-        power,
-        widening: random.perhaps(0.05, 0.4),
+        mu: random.uniform(0.1, 1.5),
+        delta: random.perhaps(0.2, 2.0),
+        q: power,
+        a_v: random.perhaps(0.05, 0.4),
         epsilon: random.uniform(0.05, 0.5),
-        desired_speed: random.uniform(0.5, 3.0),
+        v0: random.uniform(0.5, 3.0),
     }
 }
 
 /// Every variant of the exponential law.
 pub fn exponential(random: &mut Random) -> Exponential {
     Exponential {
-        strength: random.uniform(0.5, 8.0),
-        range: random.uniform(0.3, 4.0),
-        contact: random.perhaps(0.5, 10.0),
-        widening: random.perhaps(0.05, 0.4),
+        a: random.uniform(0.5, 8.0),
+        b: random.uniform(0.3, 4.0),
+        c: random.perhaps(0.5, 10.0),
+        a_v: random.perhaps(0.05, 0.4),
         epsilon: random.uniform(0.05, 0.5),
-        desired_speed: random.uniform(0.5, 3.0),
+        v0: random.uniform(0.5, 3.0),
     }
 }
 
 /// Both variants of the logarithmic law.
 pub fn logarithmic(random: &mut Random) -> Logarithmic {
-    Logarithmic {
-        desired_speed: random.uniform(0.5, 3.0),
-        widening: random.perhaps(0.05, 0.4),
-        epsilon: random.magnitude(-2.0, -0.5),
-    }
+    Logarithmic { v0: random.uniform(0.5, 3.0), a_v: random.perhaps(0.05, 0.4), epsilon: random.magnitude(-2.0, -0.5) }
 }
 
 /// Laws of each kind with every combination of terms, the rest at random: one of each.
@@ -71,13 +67,13 @@ pub fn variants(random: &mut Random) -> Vec<Model> {
     for widening in [0.0, random.uniform(0.05, 0.4)] {
         for relative in [0.0, random.uniform(0.2, 2.0)] {
             for power in [1.0, 2.0, 3.0, random.uniform(0.5, 3.5)] {
-                all.push(Model::Algebraic(Algebraic { relative, widening, power, ..algebraic(random) }));
+                all.push(Model::Algebraic(Algebraic { delta: relative, a_v: widening, q: power, ..algebraic(random) }));
             }
         }
         for contact in [0.0, random.uniform(0.5, 10.0)] {
-            all.push(Model::Exponential(Exponential { contact, widening, ..exponential(random) }));
+            all.push(Model::Exponential(Exponential { c: contact, a_v: widening, ..exponential(random) }));
         }
-        all.push(Model::Logarithmic(Logarithmic { widening, ..logarithmic(random) }));
+        all.push(Model::Logarithmic(Logarithmic { a_v: widening, ..logarithmic(random) }));
     }
     all
 }
@@ -94,23 +90,9 @@ pub fn laws(random: &mut Random) -> [Model; 3] {
 /// A law of each kind with the paper's parameters, all unstable at [`HEADWAYS`].
 pub fn paper_laws() -> [Model; 3] {
     [
-        Model::Algebraic(Algebraic {
-            strength: 0.55,
-            relative: 0.0,
-            power: 2.0,
-            widening: 0.0,
-            epsilon: 0.1,
-            desired_speed: 3.0,
-        }),
-        Model::Exponential(Exponential {
-            strength: 3.0,
-            range: 1.5,
-            contact: 0.0,
-            widening: 0.0,
-            epsilon: 0.1,
-            desired_speed: 3.0,
-        }),
-        Model::Logarithmic(Logarithmic { desired_speed: 1.0, widening: 0.0, epsilon: 0.01 }),
+        Model::Algebraic(Algebraic { mu: 0.55, delta: 0.0, q: 2.0, a_v: 0.0, epsilon: 0.1, v0: 3.0 }),
+        Model::Exponential(Exponential { a: 3.0, b: 1.5, c: 0.0, a_v: 0.0, epsilon: 0.1, v0: 3.0 }),
+        Model::Logarithmic(Logarithmic { v0: 1.0, a_v: 0.0, epsilon: 0.01 }),
     ]
 }
 

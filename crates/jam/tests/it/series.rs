@@ -11,18 +11,18 @@ const ORDER: usize = 18;
 fn models() -> Vec<Model> {
     let algebraic = |power: f64| {
         let (strength, relative, widening, epsilon, desired_speed) = (0.5, 0.0, 0.0, 0.1, 3.0);
-        Model::Algebraic(Algebraic { strength, relative, power, widening, epsilon, desired_speed })
+        Model::Algebraic(Algebraic {
+            mu: strength,
+            delta: relative,
+            q: power,
+            a_v: widening,
+            epsilon,
+            v0: desired_speed,
+        })
     };
     let mut models: Vec<Model> = [1.0, 2.0, 3.0, 1.5].map(algebraic).to_vec();
-    models.push(Model::Exponential(Exponential {
-        strength: 3.0,
-        range: 1.5,
-        contact: 0.0,
-        widening: 0.0,
-        epsilon: 0.1,
-        desired_speed: 3.0,
-    }));
-    models.push(Model::Logarithmic(Logarithmic { desired_speed: 1.0, widening: 0.0, epsilon: 0.05 }));
+    models.push(Model::Exponential(Exponential { a: 3.0, b: 1.5, c: 0.0, a_v: 0.0, epsilon: 0.1, v0: 3.0 }));
+    models.push(Model::Logarithmic(Logarithmic { v0: 1.0, a_v: 0.0, epsilon: 0.05 }));
     models
 }
 

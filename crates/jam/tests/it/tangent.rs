@@ -1,4 +1,4 @@
-//! The linearised equations that a ring tells, against the equations themselves.
+//! The linearised equations of a ring against differences of the equations themselves.
 
 use crate::sample::{Random, laws};
 use jam::ring::Ring;
@@ -56,8 +56,7 @@ fn a_small_difference_moves_as_the_tangent_says() {
 /// The series solves `du_n/dt = w_{n+1} - w_n`, `dw_n/dt = phi_n(t) u_n - w_n` with slopes that grow.
 #[test]
 fn the_series_of_a_difference_solves_the_linearised_equations() {
-    let model =
-        jam::laws::Model::Logarithmic(jam::laws::Logarithmic { widening: 0.0, desired_speed: 1.0, epsilon: 0.01 });
+    let model = jam::laws::Model::Logarithmic(jam::laws::Logarithmic { a_v: 0.0, v0: 1.0, epsilon: 0.01 });
     let (pedestrians, order, unit) = (5, 14, 0.5);
     let ring = Ring { pedestrians, length: 8.0 };
     let mut random = Random(7);

@@ -1,4 +1,4 @@
-//! The uniform flow: its speed, and that it stays to the last bit.
+//! The uniform flow: its speed, and that it persists to the last bit.
 
 use crate::sample::{HEADWAYS, Random, laws, paper_laws};
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
@@ -39,11 +39,11 @@ fn steady_speed_balances_drive_and_force() {
 fn known_steady_speeds() {
     let Model::Algebraic(algebraic) = paper_laws()[0] else { panic!("the first law is algebraic") };
     // v' = v_0 - mu^2 / d'^2, d' = 1 / 2, mu = 1 / 2: v' = 3 - 1
-    let model = Model::Algebraic(jam::laws::Algebraic { strength: 0.5, ..algebraic });
+    let model = Model::Algebraic(jam::laws::Algebraic { mu: 0.5, ..algebraic });
     let speed = steady_speed(&model, 2.5).expect("there is room");
     assert!((speed - 2.0).abs() < 4.0 * f64::EPSILON, "{speed:?}");
     // logarithmic, far beyond the critical distance: the desired speed, but for c eps ln(1 + exp(-50))
-    let model = Model::Logarithmic(Logarithmic { desired_speed: 1.0, widening: 0.0, epsilon: 0.01 });
+    let model = Model::Logarithmic(Logarithmic { v0: 1.0, a_v: 0.0, epsilon: 0.01 });
     let speed = steady_speed(&model, 3.0).expect("there is room");
     assert!((speed - 1.0).abs() < 4.0 * f64::EPSILON, "{speed:?}");
 }
@@ -55,18 +55,11 @@ fn no_uniform_flow_where_there_is_no_room() {
         [(&algebraic, 2.0), (&algebraic, 1.5), (&exponential, 2.0), (&exponential, 0.1), (&logarithmic, 0.0)]
     {
         let error = steady_speed(model, headway).expect_err("no room");
-        let words = "at no speed from -1e12 v_0 to v_0 does the drive balance the force with room left; a longer ring, fewer pedestrians or a weaker force has a uniform flow";
+        let words = "at no speed from -1e12 v_0 to v_0 does the drive balance the force at a positive gap; a longer ring, fewer pedestrians or a weaker force has a uniform flow";
         assert_eq!(error.to_string(), format!("no uniform flow at headway L/N = {headway:?}: {words}"));
     }
     // a contact force so stiff that only backwards motion, in an ever narrower room, would balance it
-    let stiff = Model::Exponential(Exponential {
-        strength: 1e15,
-        range: 1.0,
-        contact: 0.0,
-        widening: 0.0,
-        epsilon: 0.1,
-        desired_speed: 1.0,
-    });
+    let stiff = Model::Exponential(Exponential { a: 1e15, b: 1.0, c: 0.0, a_v: 0.0, epsilon: 0.1, v0: 1.0 });
     assert!(steady_speed(&stiff, 2.5).is_err());
 }
 
@@ -74,7 +67,14 @@ fn no_uniform_flow_where_there_is_no_room() {
 fn the_search_for_a_steady_speed_ends_at_so_many_desired_ones() {
     let law = |strength: f64, desired_speed: f64| {
         let (relative, power, widening, epsilon) = (0.0, 2.0, 0.0, 0.1);
-        Model::Algebraic(Algebraic { strength, relative, power, widening, epsilon, desired_speed })
+        Model::Algebraic(Algebraic {
+            mu: strength,
+            delta: relative,
+            q: power,
+            a_v: widening,
+            epsilon,
+            v0: desired_speed,
+        })
     };
     // at a room of 1 the steady speed is v_0 - mu^2: 1e11 backwards is within 1e12 v_0 of v_0 = 1, not of 1/100
     let speed = steady_speed(&law(1e11_f64.sqrt(), 1.0), 3.0).expect("it is within");

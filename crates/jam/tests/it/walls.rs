@@ -1,4 +1,4 @@
-//! Fixed steps that jump over a wall: no step that ends beyond it goes unreported.
+//! Fixed steps that jump over a wall: every step that ends beyond it is reported.
 
 use crate::sample::{Random, laws};
 use jam::events::{EventKind, Watch};

@@ -1,4 +1,4 @@
-//! The difference of a formula from its value at a reference, without cancellation.
+//! The difference of a formula from its value at a reference state, without cancellation.
 //!
 //! A formula is carried out twice. First at the reference, with [`Reference`] numbers: every operation that is not linear
 //! leaves on a [`Tape`] what it needs of the reference. Then with [`Change`]s, as often as wanted: the operations take
@@ -198,7 +198,7 @@ macro_rules! linear {
 linear!(Add, add, +);
 linear!(Sub, sub, -);
 
-/// An operation with a constant: what it does to the value, and to a change of it.
+/// An operation with a constant: its effect on the value, and on a change of it.
 macro_rules! constant {
     ($trait:ident, $name:ident, $operator:tt, $change:ident, $other:ident => $value:expr) => {
         impl $trait<f64> for Reference<'_> {
@@ -255,7 +255,8 @@ impl<const W: usize> Div for Change<'_, W> {
     }
 }
 
-/// The functions, each with what it keeps and its rule; those marked with a rule for many at once.
+/// The functions, each with the values it stores and its rule; marked functions also have a rule for many values at
+/// once.
 macro_rules! functions {
     ($(@ $long:ident, $long_kept:ident, $rows:ident;)* $($name:ident, $kept:ident, $rule:ident;)*) => {
         impl Number for Reference<'_> {

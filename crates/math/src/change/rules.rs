@@ -1,4 +1,5 @@
-//! How much an operation changes when its operands change: one rule for each, with what it keeps of the reference.
+//! Rules for differences: how much the result of an operation changes when its operands change, and what each rule
+//! stores of the reference.
 //!
 //! With a = a0 + da: the product changes by `da b + a0 db`, the quotient q by `(da - q0 db) / b`, the exponential by
 //! `e^a0 (e^da - 1)`, the logarithm by `ln(1 + da / a0)`. No rule subtracts two nearly equal numbers.
@@ -259,8 +260,8 @@ pub(super) fn softplus_of<const W: usize>(kept: &Kept, da: Lanes<W>) -> Lanes<W>
     Lanes(x)
 }
 
-/// From so many on a function is carried out in several short loops, of which a processor overlaps more (see
-/// [`row`](crate::row)).
+/// From this number of values on, a function is evaluated in several short loops, which a processor overlaps better
+/// (see [`row`](crate::row)).
 const MANY: usize = 32;
 
 /// Of |a|.

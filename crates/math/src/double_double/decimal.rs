@@ -1,4 +1,4 @@
-//! DoubleDouble numbers as decimal text and back.
+//! Conversion of double-double numbers to and from decimal text.
 
 use super::DoubleDouble;
 use std::cmp::Ordering;

@@ -1,4 +1,4 @@
-//! Power series of a formula along a motion, one order after another.
+//! Power series of a formula along a motion, computed order by order.
 //!
 //! Each operation has a recurrence for its next coefficient ([`recurrences`]). A formula is carried out once for each
 //! order, with [`Jet`]s that hold the coefficients of this order: linear operations act on these, the others read and
@@ -62,7 +62,7 @@ impl<C: Coefficient> Block<C> {
     }
 }
 
-/// The memory of an operation that is not linear: so many rows of a block for each order.
+/// The memory of an operation that is not linear: a number of rows of a block for each order.
 pub const ROWS: usize = recurrences::ROWS;
 
 /// Where the operations of a formula keep earlier coefficients: [`ROWS`] rows for each operation that

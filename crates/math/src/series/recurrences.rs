@@ -1,4 +1,5 @@
-//! The next coefficient of an operation's result, from those of its operands and the earlier ones.
+//! Recurrences for the next coefficient of an operation's result, from the coefficients of its operands and its own
+//! earlier ones.
 //!
 //! An elementary function solves a differential equation of its own, which is a recurrence for its coefficients (R. E.
 //! Moore, *Interval Analysis*, 1966, chapter 11; E. Hairer, S. P. Norsett, G. Wanner, *Solving Ordinary Differential
@@ -44,17 +45,36 @@ impl<'t, C: Coefficient> History<'t, C> {
         self.row(index)[0].get()
     }
 
-    /// `a_1 b_{k-1} + ... + a_{k-1} b_1`: the coefficient of this order of a product, less its ends.
+    /// `a_1 b_{k-1} + ... + a_{k-1} b_1`: the coefficient of this order of a product, less its ends. To be called before the
+    /// coefficient of this order is written to row `a`, where the sum of the next order waits meanwhile.
+    ///
+    /// Every second order goes through the rows, and finds on its way all of the next sum but the ends, which have
+    /// coefficients that do not exist yet: the numbers loaded serve for both.
     #[inline(always)]
     fn inner(self, a: usize, b: usize) -> C {
-        let mut sum = C::default();
-        if self.order > 1 {
-            let (a, b) = (&self.row(a)[1..self.order], &self.row(b)[1..self.order]);
-            // by index: iterators that run against each other cost several times the sum
-            #[allow(clippy::needless_range_loop)]
-            for i in 0..a.len() {
-                sum = sum + a[i].get() * b[a.len() - 1 - i].get();
+        let order = self.order;
+        if order < 2 {
+            return C::default();
+        }
+        let (row, others) = (self.row(a), &self.row(b)[..order]);
+        if order % 2 == 1 {
+            let (mut sum, row) = (row[order].get(), &row[..order]);
+            // both ends; in a loop, since the compiler would tear two products to pieces
+            for i in (1..order).step_by(order - 2) {
+                sum = sum + row[i].get() * others[order - i].get();
             }
+            return sum;
+        }
+        let first = &row[..order];
+        let (mut sum, mut next) = (first[1].get() * others[order - 1].get(), C::default());
+        // by index: iterators that run against each other cost several times the sum
+        for i in 2..order {
+            let a = first[i].get();
+            sum = sum + a * others[order - i].get();
+            next = next + a * others[order + 1 - i].get();
+        }
+        if order + 1 < self.length {
+            row[order + 1].set(next);
         }
         sum
     }
@@ -68,9 +88,10 @@ impl<'t, C: Coefficient> History<'t, C> {
 /// Of a b.
 #[inline(always)]
 pub fn product<C: Coefficient, const START: bool>(h: History<'_, C>, a: C, b: C) -> C {
+    let inner = if START { C::default() } else { h.inner(0, 1) };
     h.write(0, a);
     h.write(1, b);
-    if START { a * b } else { (h.first(0) * b + a * h.first(1)) + h.inner(0, 1) }
+    if START { a * b } else { (h.first(0) * b + a * h.first(1)) + inner }
 }
 
 /// Of c = a / b, from `c b = a`.
@@ -224,11 +245,11 @@ pub fn tanh<C: Coefficient, const START: bool>(h: History<'_, C>, a: C) -> C {
         h.write(1, (decay * inverse) * (inverse * 4.0));
         return f;
     }
-    let rate = a * h.k();
-    h.write(2, rate);
+    let (rate, squares) = (a * h.k(), h.inner(0, 0));
     let f = (h.first(1) * rate + h.inner(1, 2)) * (1.0 / h.k());
     h.write(0, f);
-    h.write(1, -(h.first(0) * f * 2.0 + h.inner(0, 0)));
+    h.write(1, -(h.first(0) * f * 2.0 + squares));
+    h.write(2, rate);
     f
 }
 

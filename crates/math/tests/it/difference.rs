@@ -1,4 +1,4 @@
-//! Differences of the softplus function, whose errors must be relative to the difference.
+//! Differences of the softplus function: their errors must be small relative to the difference.
 
 use crate::lane::{about, true_softplus};
 use crate::sample::{COUNT, Random, assert_error, error_in_units};

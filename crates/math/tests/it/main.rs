@@ -1,5 +1,4 @@
-//! Tests of the elementary functions: how near they come to the true values, and
-//! that their bits are the same everywhere.
+//! Tests of the elementary functions: their accuracy, and that their bits are the same everywhere.
 
 mod complex;
 mod difference;

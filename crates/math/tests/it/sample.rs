@@ -1,5 +1,4 @@
-//! Random arguments, the same in every run, errors in units in the last place, and a
-//! loop over a lane function.
+//! Reproducible random arguments, errors in units in the last place, and a loop over a lane function.
 
 use math::double_double::DoubleDouble;
 use math::simd::Kernel;

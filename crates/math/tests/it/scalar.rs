@@ -1,5 +1,5 @@
-//! The scalar functions against CORE-MATH, which rounds correctly (a C library, so
-//! where one was found to build).
+//! The scalar functions against CORE-MATH, which rounds correctly. (CORE-MATH is a C library, so the test needs a C
+//! compiler.)
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 
 use crate::sample::{Random, arguments};

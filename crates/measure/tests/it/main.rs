@@ -1,4 +1,4 @@
-//! Ratios of paired measurements, and what counts as slower.
+//! Ratios of paired measurements, and the criterion for a slowdown.
 
 use measure::benchmarks::Measured;
 use measure::pairs::{FEWEST, median, ratio};

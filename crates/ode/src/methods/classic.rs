@@ -1,4 +1,4 @@
-//! Euler, Heun and the classical method of order 4.
+//! Euler's and Heun's methods, and the classical method of order 4.
 //!
 //! Coefficients: E. Hairer, S. P. Norsett, G. Wanner, *Solving Ordinary Differential Equations I*, section II.1.
 

@@ -1,4 +1,4 @@
-//! Pairs of orders 3 and 5 whose last stage is the rate at the end of the step.
+//! Pairs of orders 3 and 5 whose last stage is the right-hand side at the end of the step.
 
 #![allow(clippy::excessive_precision, reason = "the digits as published, to be compared one by one")]
 

@@ -1,4 +1,4 @@
-//! Steps of Heun's scheme that a system makes many at a time: which of them, and with the bits of single ones.
+//! Batches of Heun steps by a system: when they are used, and that they have the bits of single steps.
 
 use crate::problems::{Equations, oscillator, solve};
 use ode::{Batch, Control, Group, Method, Observer, Problem, ResumePoint, Statistics, Step, System, integrate};

@@ -1,4 +1,4 @@
-//! Against the solver of another crate.
+//! Comparison with the solver of another crate.
 
 use crate::problems::{distance, kepler, planet, solve};
 use differential_equations::ode::ODE;

@@ -1,4 +1,4 @@
-//! What an integration does where it cannot go on.
+//! Integrations that cannot continue.
 
 use crate::problems::{Equations, general_methods, oscillator, solve, watched};
 use ode::{Control, Failure, Method};
@@ -28,7 +28,7 @@ fn a_blow_up_ends_at_its_time() {
         // a relative error of the state is one of the time that is left
         assert!((time - 1.0).abs() < 1e-11 && step < 1e-60, "{failure:?}");
         let text = failure.to_string();
-        let start = format!("at t = {time:?} the tolerance asks for a step of {step:e}, too small to go on");
+        let start = format!("at t = {time:?} the tolerance asks for a step of {step:e}, too small to continue");
         assert_eq!(text, start, "raising the tolerance would not help");
     }
 }

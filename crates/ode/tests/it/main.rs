@@ -1,5 +1,5 @@
-//! Tests of the integrator: coefficients against the order conditions, solutions against known ones, the drivers
-//! against what they promise.
+//! Tests of the integrator: coefficients against the order conditions, results against known solutions, and the
+//! documented behaviour of the drivers.
 
 mod batches;
 mod comparison;

@@ -1,4 +1,4 @@
-//! Rings of pedestrians, their laws written out once more from the paper, against the solver of another crate.
+//! Rings of pedestrians against the solver of another crate, with the laws written out again from the paper.
 
 use crate::problems::{Equations, distance, solve};
 use differential_equations::ode::ODE;

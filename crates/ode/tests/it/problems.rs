@@ -1,4 +1,4 @@
-//! Small systems with known solutions, and short ways to integrate them.
+//! Small systems with known solutions, and helpers that integrate them.
 
 use ode::{Control, Failure, Group, Measure, Method, Problem, Statistics, Step, System, integrate};
 use std::cell::Cell;

@@ -1,4 +1,4 @@
-//! Going on from a mark: the same bits and counts as without a break.
+//! Resuming from a mark gives the same bits and counts as an uninterrupted run.
 
 use crate::problems::{general_methods, oscillator, solve};
 use ode::{

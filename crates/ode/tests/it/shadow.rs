@@ -1,4 +1,4 @@
-//! Errors that are carried along with a solution by Taylor's method, against exact ones.
+//! Error estimates propagated along solutions by Taylor's method, against exact errors.
 
 use ode::{Control, Group, Measure, Method, Problem, Shadow, Step, System, Tangent, integrate};
 use std::ops::{ControlFlow, Range};

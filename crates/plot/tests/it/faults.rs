@@ -1,4 +1,4 @@
-//! Bad data are refused with numbers, never drawn.
+//! Invalid data are refused with the numbers at fault, and never drawn.
 
 use plot::{Axis, ColorScale, Lines, Map, Picture, PlotError, Series};
 

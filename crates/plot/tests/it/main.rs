@@ -1,4 +1,4 @@
-//! Pictures as a caller gets them.
+//! Tests of pictures through the public interface.
 
 mod faults;
 #[path = "../../examples/gallery.rs"]

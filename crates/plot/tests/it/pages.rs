@@ -1,4 +1,4 @@
-//! What every finished page must hold.
+//! Properties of every finished page.
 
 use crate::gallery::{KINDS, page};
 use plot::{PlotError, Rendered};

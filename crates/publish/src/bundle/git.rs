@@ -1,4 +1,4 @@
-//! What git knows of the checkout.
+//! What git knows about the checkout.
 
 use checkout::failure::Failure;
 use checkout::paths::Paths;

@@ -1,4 +1,4 @@
-//! The archive for a repository such as Zenodo: what belongs into it, and how it is written.
+//! The archive for a repository such as Zenodo: its contents, and how it is written.
 //!
 //! Its bytes depend on the commit alone: members are sorted, owners, modes and dates are fixed (the date is that of the
 //! commit), nothing is compressed.

@@ -1,4 +1,4 @@
-//! Writing the archive.
+//! Writes the archive.
 
 use super::{Content, Member, Members, SUMS};
 use checkout::disk;

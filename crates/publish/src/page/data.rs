@@ -1,5 +1,5 @@
-//! The numbers that the page carries: maps, curves, trajectories, published values, packed ([`super::pack`]); what they are
-//! stands in an index in JSON.
+//! The numbers in the page (maps, curves, trajectories, published values), packed ([`super::pack`]) and listed in a
+//! JSON index.
 
 use super::html::symbol;
 use super::pack::Numbers;
@@ -7,10 +7,12 @@ use super::source::Source;
 use super::{laws, rejudged, scenes, sums};
 use checkout::failure::Failure;
 use checkout::figure::Figure;
+use checkout::paths::Paths;
 use files::scene_file::{Kind, Panel, SceneFile};
 use files::table::Table;
 use plot::ColorScale;
 use serde_json::{Value, json};
+use verify::published::{CURVES, Curve, Points};
 
 /// Positions and speeds of the trajectories are rounded to this.
 pub const STEP: f64 = 1e-3;
@@ -175,88 +177,29 @@ fn whole(values: &[f64]) -> Vec<i64> {
     values.iter().map(|value| (value * PER_UNIT).round() as i64).collect()
 }
 
-/// Published beside regenerated numbers.
-#[derive(Debug)]
-pub struct Published {
-    /// Name of the set.
-    pub id: &'static str,
-    /// What it shows, in words.
-    pub title: &'static str,
-    /// The published table, below `data/reference`.
-    pub file: &'static str,
-    /// The regenerated table, `fig12/t300`.
-    pub curve: &'static str,
-    /// Names of the two columns.
-    pub columns: [&'static str; 2],
-    /// Where a number is known.
-    pub x: Vec<f64>,
-    /// The published number there.
-    pub published: Vec<f64>,
-    /// The regenerated one.
-    pub regenerated: Vec<f64>,
-    /// The largest error of reading.
-    pub reading: f64,
-}
-
-impl Published {
-    /// Published minus regenerated numbers.
-    pub fn differences(&self) -> Vec<f64> {
-        self.published.iter().zip(&self.regenerated).map(|(published, regenerated)| published - regenerated).collect()
-    }
-}
-
-/// The two sets that are known: name, title, published table, regenerated table, columns.
-const PUBLISHED: [(&str, &str, &str, &str, [&str; 2]); 2] = [
-    ("speeds", "Figure 12, left: speeds", "published_speed_t300", "fig12/t300", ["n", "v"]),
-    ("deviations", "Figure 13: standard deviation of the speeds", "published_std_log", "fig13/std", ["t", "std"]),
-];
-
-/// Reads published and regenerated numbers.
+/// The published curves, each with its numbers beside those of its table, and the largest error of reading.
 ///
 /// # Errors
-/// A table is missing, or a published number has no partner.
-pub fn published(source: &Source<'_>) -> Result<Vec<Published>, Failure> {
-    let read = |(id, title, file, curve, columns): (&'static str, &'static str, &'static str, &'static str, _)| {
-        let [x, y]: [&'static str; 2] = columns;
-        let path = source.paths.root.join("data/reference").join(format!("{file}.csv"));
-        let theirs = Table::read(&path).map_err(Failure::at(&path))?;
-        let ours = source.table(curve)?;
-        let (places, values) = (column(&ours, x)?, column(&ours, y)?);
-        // numbers of pedestrians were read off an axis: whole up to their reading error
-        let wanted: Vec<f64> = column(&theirs, x)?.into_iter().map(f64::round).collect();
-        let partner = |x: &f64| {
-            let row = places.iter().position(|place| place == x);
-            row.map(|row| values[row]).ok_or_else(|| Failure::failed(format!("{curve}: nothing at {x}")))
-        };
-        let regenerated = wanted.iter().map(partner).collect::<Result<Vec<f64>, Failure>>()?;
-        let reading = reading_error(source, &format!("{file}.csv"))?;
-        let published = column(&theirs, y)?;
-        Ok(Published { id, title, file, curve, columns, x: wanted, published, regenerated, reading })
+/// A table is missing, or has no value at the place of a published number.
+pub fn published(source: &Source<'_>) -> Result<Vec<(Curve, Points, f64)>, Failure> {
+    let read = |curve: Curve| {
+        let points = curve.beside(source.paths, &source.table(curve.table)?)?;
+        match points.x.len() == points.all {
+            true => Ok((curve, points, curve.reading_errors(source.paths)?[1])),
+            false => Err(Failure::failed(format!("{}: has no value where {} has one", curve.table, curve.file))),
+        }
     };
-    PUBLISHED.into_iter().map(read).collect()
+    CURVES.into_iter().map(read).collect()
 }
 
 fn published_json(source: &Source<'_>) -> Result<Value, Failure> {
-    let one = |set: &Published| {
+    let one = |(curve, points, reading): (Curve, Points, f64)| {
         json!({
-            "id": set.id, "title": set.title, "table": format!("data/{}.csv", set.curve),
-            "reference": format!("data/reference/{}.csv", set.file),
-            "curve": format!("values-{}", set.curve.replace('/', "-")), "x": set.x, "published": set.published,
-            "regenerated": set.regenerated, "difference": set.differences(), "reading": set.reading,
-            "symbols": set.columns.map(symbol), "words": source.words(set.curve, set.columns[1]),
+            "id": curve.name, "title": curve.title, "table": Paths::table(curve.table), "reference": curve.source(),
+            "curve": format!("values-{}", curve.table.replace('/', "-")), "x": points.x, "published": points.published,
+            "regenerated": points.regenerated, "difference": points.differences(), "reading": reading,
+            "symbols": curve.columns.map(symbol), "words": source.words(curve.table, curve.columns[1]),
         })
     };
-    Ok(published(source)?.iter().map(one).collect())
-}
-
-/// The largest number in the column of reading errors of `data/reference/README.md`.
-fn reading_error(source: &Source<'_>, file: &str) -> Result<f64, Failure> {
-    let text = source.text("data/reference/README.md")?;
-    let line = text.lines().find(|line| line.starts_with(&format!("| {file} ")));
-    let cell = line.and_then(|line| line.trim_end_matches(['|', ' ']).rsplit('|').next()).unwrap_or("");
-    let words = cell.split(|letter: char| !(letter.is_ascii_alphanumeric() || ".-+".contains(letter)));
-    let numbers = words.filter_map(|word| word.parse::<f64>().ok());
-    numbers
-        .max_by(f64::total_cmp)
-        .ok_or_else(|| Failure::failed(format!("data/reference/README.md: no error of {file}")))
+    Ok(published(source)?.into_iter().map(one).collect())
 }

@@ -1,8 +1,8 @@
-//! The figures: picture, caption, and what is known of each.
+//! The figures as HTML: picture, caption, and facts about each.
 
 use super::data;
 use super::formula::prose;
-use super::html::{self, code, escape, number, table};
+use super::html::{self, code, escape, number};
 use super::scenes;
 use super::source::Source;
 use checkout::failure::Failure;
@@ -10,33 +10,30 @@ use checkout::figure::Figure;
 use checkout::manifest::Entry;
 use checkout::outputs;
 use checkout::paths::Paths;
-use claims::report::JudgedClaim;
+use minijinja::{Value, context};
 use std::fmt::Write as _;
 
 /// Digits of a hash that are shown.
 const DIGITS: usize = 16;
 
-/// An article for each figure that `chosen` names.
+/// What the page shows of a figure.
 ///
 /// # Errors
 /// A picture, or the words for it, are missing.
-pub fn articles(source: &Source<'_>, chosen: impl Fn(&Figure) -> bool) -> Result<String, Failure> {
-    source.figures.iter().filter(|figure| chosen(figure)).map(|figure| article(source, figure)).collect()
-}
-
-fn article(source: &Source<'_>, figure: &Figure) -> Result<String, Failure> {
-    let id = escape(&figure.id);
-    Ok(format!(
-        "<article class=\"figure\" id=\"{id}\" aria-labelledby=\"{id}-title\">\n\
-         <h3 id=\"{id}-title\"><span class=\"count\">{name}</span> {title}</h3>\n\
-         <figure>{picture}<figcaption>{caption}</figcaption></figure>\n{explorer}{known}</article>\n",
-        name = name(figure),
-        title = escape(figure.title()),
-        picture = picture(source, figure)?,
-        caption = caption(source, figure),
-        explorer = explorer(figure),
-        known = known(source, figure),
-    ))
+pub fn shown(source: &Source<'_>, figure: &Figure) -> Result<Value, Failure> {
+    let recipe = figure.recipe.as_ref().ok();
+    let cells = |[symbol, value, panel, key, origin]: [String; 5]| {
+        html::row([escape(&symbol), escape(&value), escape(&panel), code(&key), prose(&origin)])
+    };
+    let parameters = recipe.map_or(Vec::new(), |recipe| scenes::rows(recipe).into_iter().map(cells).collect());
+    Ok(context! {
+        id => &figure.id, name => name(figure), title => figure.title(), label => figure.label(),
+        picture => picture(source, figure)?, caption => Value::from_safe_string(caption(source, figure)),
+        explorer => explorer(figure), parameters => parameters, outputs => outputs_rows(source, figure),
+        program => Paths::figure_folder(&figure.slug) + "main.rs", scene => Paths::scene(&figure.slug),
+        command => format!("cargo xtask figures {}", figure.id),
+        source => recipe.map_or("", |recipe| recipe.source.as_str()),
+    })
 }
 
 /// `Figure 3`, `Supplement 1`.
@@ -46,7 +43,7 @@ pub fn name(figure: &Figure) -> String {
 }
 
 /// The picture inline: as SVG, whose lines stay sharp; a supplement with thousands of marks as pixels where these take less.
-fn picture(source: &Source<'_>, figure: &Figure) -> Result<String, Failure> {
+fn picture(source: &Source<'_>, figure: &Figure) -> Result<Value, Failure> {
     let [png, svg] = outputs::pictures(source.paths, figure);
     let pixels = source.bytes(&png)?;
     let (width, height) = size(&pixels).ok_or_else(|| Failure::failed(format!("{png}: not a PNG")))?;
@@ -55,10 +52,7 @@ fn picture(source: &Source<'_>, figure: &Figure) -> Result<String, Failure> {
         true => html::data_uri("image/png", &pixels),
         false => html::data_uri("image/svg+xml", &vectors),
     };
-    let alternative = escape(source.alternative(&figure.id)?);
-    Ok(format!(
-        "<img src=\"{address}\" alt=\"{alternative}\" width=\"{width}\" height=\"{height}\" decoding=\"async\">"
-    ))
+    Ok(context! { address, width, height, alternative => source.alternative(&figure.id)? })
 }
 
 /// Width and height that a PNG states in its first chunk.
@@ -124,94 +118,37 @@ fn tables<'a>(source: &'a Source<'_>, figure: &Figure) -> impl Iterator<Item = (
     source.manifest.iter().filter(move |(name, _)| name.starts_with(&start))
 }
 
-/// Where the script builds maps and curves; empty for figures that have none.
-fn explorer(figure: &Figure) -> String {
-    let id = escape(&figure.id);
+/// What the script builds beside a figure; empty for those of which the page carries no numbers.
+fn explorer(figure: &Figure) -> &'static str {
     match () {
-        () if data::has_maps(figure) => format!("<div class=\"explorer\" data-maps=\"{id}\" hidden></div>\n"),
-        () if data::has_curves(figure) => format!("<div class=\"explorer\" data-curves=\"{id}\" hidden></div>\n"),
-        () => String::new(),
+        () if data::has_maps(figure) => "maps",
+        () if data::has_curves(figure) => "curves",
+        () => "",
     }
 }
 
-/// Parameters, errors and files, folded.
-fn known(source: &Source<'_>, figure: &Figure) -> String {
-    let name = name(figure);
-    let mut html = String::from("<details class=\"known\"><summary>Parameters, errors, files</summary>\n");
-    html.push_str(&parameters(figure, &name));
-    html.push_str(&outputs_table(source, figure, &name));
-    let folder = Paths::figure_folder(&figure.slug);
-    let _ = write!(
-        html,
-        "<p>Script {}, scene {}, made by {}. Label in the paper: {}.</p>\n{}</details>\n",
-        code(&format!("{folder}main.rs")),
-        code(&Paths::scene(&figure.slug)),
-        code(&format!("cargo xtask figures {}", figure.id)),
-        code(figure.recipe.as_ref().map_or("", |recipe| recipe.source.as_str())),
-        claims(source, figure),
-    );
-    html
-}
-
-fn parameters(figure: &Figure, name: &str) -> String {
-    let Ok(recipe) = &figure.recipe else { return String::new() };
-    let cells = |[symbol, value, panel, key, origin]: [String; 5]| {
-        vec![escape(&symbol), escape(&value), escape(&panel), code(&key), prose(&origin)]
-    };
-    let rows: Vec<Vec<String>> = scenes::rows(recipe).into_iter().map(cells).collect();
-    match rows.is_empty() {
-        true => String::new(),
-        false => table(
-            &format!("Parameters of {name}"),
-            &["parameter", "value", "panel", "key", "where it comes from"],
-            &rows,
-        ),
-    }
-}
-
-fn outputs_table(source: &Source<'_>, figure: &Figure, name: &str) -> String {
+/// Rows of HTML: name, method, tolerance, steps, errors and hash of each output.
+fn outputs_rows(source: &Source<'_>, figure: &Figure) -> Vec<Vec<Value>> {
     let pictures = outputs::pictures(source.paths, figure);
     let pictures = pictures.iter().filter_map(|name| source.manifest.get_key_value(name));
     let row = |(name, entry): (&String, &Entry)| {
-        let text = |key: &str| entry.counts.get(key).map_or(String::new(), json_text);
+        let text = |key: &str| match entry.counts.get(key) {
+            Some(serde_json::Value::String(text)) => escape(text),
+            Some(serde_json::Value::Number(value)) => value.as_f64().map_or(String::new(), |value| number(value, 15)),
+            _ => String::new(),
+        };
         let errors = entry.error.iter().map(|(column, error)| {
             format!("{column}: {}", error.map_or("unknown".to_owned(), |error| number(error, 2)))
         });
         let hash = entry.sha256.get(..DIGITS).unwrap_or(&entry.sha256);
-        vec![
+        html::row([
             code(name),
-            escape(&text("method")),
+            text("method"),
             text("tolerance"),
             text("steps"),
             errors.collect::<Vec<_>>().join("<br>"),
             format!("<code title=\"{}\">{hash}…</code>", entry.sha256),
-        ]
+        ])
     };
-    let rows: Vec<Vec<String>> = tables(source, figure).chain(pictures).map(row).collect();
-    let head = ["output", "method", "tolerance", "steps", "difference, of the range", "SHA-256"];
-    table(&format!("Outputs of {name}"), &head, &rows)
-}
-
-fn json_text(value: &serde_json::Value) -> String {
-    match value {
-        serde_json::Value::String(text) => text.clone(),
-        serde_json::Value::Number(value) => value.as_f64().map_or(String::new(), |value| number(value, 15)),
-        _ => String::new(),
-    }
-}
-
-/// Links to the claims that stand at the figure's label.
-fn claims(source: &Source<'_>, figure: &Figure) -> String {
-    let label = figure.label();
-    let mine = source.ledger.claims.iter().filter(|claim| !label.is_empty() && claim.label == label);
-    let link = |claim: &JudgedClaim| {
-        let (id, verdict) = (escape(&claim.id), claim.verdict.words());
-        format!("<li><a href=\"#claim-{id}\">{}</a> ({verdict})</li>", prose(&claim.says))
-    };
-    let items: String = mine.map(link).collect();
-    if items.is_empty() {
-        String::new()
-    } else {
-        format!("<p>What the paper says at this label:</p><ul>{items}</ul>\n")
-    }
+    tables(source, figure).chain(pictures).map(row).collect()
 }

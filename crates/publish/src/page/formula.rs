@@ -1,4 +1,4 @@
-//! Formulas in plain text, `mu_cr = sqrt(d'^3 / 4)`, as HTML: Greek letters, subscripts, powers, primes.
+//! Formulas in plain text, such as `mu_cr = sqrt(d'^3 / 4)`, as HTML: Greek letters, subscripts, powers, primes.
 
 use super::html::escape;
 

@@ -1,4 +1,4 @@
-//! Scenes that a reader can start from: those of the gallery, and the runs of the figures.
+//! The scenes offered as starting points: those of the gallery, and the runs of the figures.
 
 use super::figures::name;
 use super::source::Source;
@@ -37,7 +37,7 @@ pub fn presets(source: &Source<'_>) -> Result<Value, Failure> {
     Ok(Value::Array(groups))
 }
 
-/// `figure`: the one of the paper that it is a run of.
+/// `figure`: the figure of the paper to which the run belongs.
 fn runs(recipe: &SceneFile, title: &str, figure: Option<&str>) -> Vec<Value> {
     let panels: Vec<&Panel> = recipe.panels.iter().filter(|panel| panel.kind == Kind::Run).collect();
     let one = |panel: &&Panel| {

@@ -1,8 +1,8 @@
 //! The page: one HTML file that carries text, pictures, numbers and script, and asks nothing of any network.
 //!
-//! `source` reads what it is made from, `figures`, `claims` and `accuracy` write HTML, `data` the numbers for the
-//! script; `parts` holds the template, the style sheet and the script as they are. Every measured number comes from a
-//! table, the manifest or the ledger.
+//! `source` reads what it is made from, `figures` and `accuracy` say what is shown of it, `data` the numbers for the script;
+//! `parts` holds the templates, the style sheet and the script. Every measured number comes from a table, the manifest or
+//! the ledger.
 //!
 //! The page computes: `crates/browser`, built with the profile `page` for `wasm32-unknown-unknown` by the runner, lies in it
 //! packed. Where no compiler has that target the page is written without, and says how to get it. Its committed sum is that of
@@ -18,13 +18,11 @@
 //! The text of the scene file is all that goes into the module, so the file that a reader saves is what was run.
 
 pub mod accuracy;
-pub mod claims;
 pub mod data;
 pub mod figures;
 pub mod formula;
 pub mod html;
 pub mod laws;
-pub mod machines;
 pub mod module;
 pub mod pack;
 pub mod rejudged;
@@ -35,11 +33,17 @@ pub mod sums;
 use checkout::failure::Failure;
 use checkout::figure::Figure;
 use checkout::paths::Paths;
+use claims::entry::Verdict;
+use minijinja::value::Serde;
+use minijinja::{Value, context};
 use source::Source;
-use std::collections::BTreeMap;
+use verify::attest::{self, Attestation};
+use verify::published::{Curve, Points};
 
 /// The page with a slot for each text.
 pub const TEMPLATE: &str = include_str!("parts/template.html");
+/// What the ledger and the figures are shown by.
+const ENTRIES: &str = include_str!("parts/entries.html");
 /// How it looks.
 pub const STYLE: &str = include_str!("parts/style.css");
 /// What it does, in the order in which it is read.
@@ -80,99 +84,63 @@ const PRECISION: &str = "-precision-";
 pub fn render(paths: &Paths) -> Result<String, Failure> {
     let source = Source::read(paths)?;
     let data = data::collect(&source)?;
-    let mut slots = sections(&source)?;
-    // inside a script, `<` could end it
-    let index = data.index.to_string().replace('<', "\\u003c");
-    let joined = |files: &[(&str, &str)]| files.iter().map(|(_, text)| *text).collect::<String>();
-    slots.extend([("style", STYLE.to_owned()), ("script", joined(&SCRIPTS)), ("worker", joined(&WORKER))]);
-    slots.extend([("index", index), ("elements", data.elements)]);
-    html::fill(TEMPLATE, &slots)
-}
-
-/// The texts of the slots.
-fn sections(source: &Source<'_>) -> Result<BTreeMap<&'static str, String>, Failure> {
-    let ledger = &source.ledger;
-    let is_paper = |figure: &Figure| !figure.is_supplement();
-    let is_precision = |figure: &Figure| figure.is_supplement() && figure.slug.contains(PRECISION);
-    let is_other = |figure: &Figure| figure.is_supplement() && !figure.slug.contains(PRECISION);
-    let mut slots = BTreeMap::from([
-        ("glance", claims::glance(ledger)),
-        ("figures", figures::articles(source, is_paper)?),
-        ("precision", figures::articles(source, is_precision)?),
-        ("supplements", figures::articles(source, is_other)?),
-        ("cheapest", accuracy::cheapest(source)?),
-        ("events", accuracy::events(source)?),
-        ("verdict_boxes", claims::verdict_boxes(ledger)),
-        ("label_options", claims::label_options(ledger)),
-        ("claims", claims::claims(ledger)),
-        ("errata", claims::errata(ledger)),
-        ("parameters", claims::parameters(ledger)),
-        ("contents", contents(source)),
-        ("machines", machines::rows(source)?),
-    ]);
-    slots.extend(counts(source));
-    slots.extend(distances(source)?);
-    Ok(slots)
-}
-
-/// Links to the figures.
-fn contents(source: &Source<'_>) -> String {
-    let link = |figure: &Figure| {
-        let (id, name, title) = (&figure.id, figures::name(figure), html::escape(figure.title()));
-        format!("<li><a href=\"#{id}\">{name}</a> <span>{title}</span></li>\n")
+    let joined = |files: &[(&str, &str)]| Value::from_safe_string(files.iter().map(|(_, text)| *text).collect());
+    let of = |chosen: fn(&Figure) -> bool| {
+        let figures = source.figures.iter().filter(|figure| chosen(figure));
+        figures.map(|figure| figures::shown(&source, figure)).collect::<Result<Vec<Value>, Failure>>()
     };
-    source.figures.iter().filter(|figure| !figure.is_supplement()).map(link).collect()
+    let verdict = |verdict: Verdict| {
+        let words = verdict.words();
+        context! { words, class => words.replace(' ', "-"), count => source.ledger.count(verdict) }
+    };
+    let (table_count, largest_error_table, largest_error) = errors(&source);
+    let context = context! {
+        style => Value::from_safe_string(STYLE.to_owned()), script => joined(&SCRIPTS), worker => joined(&WORKER),
+        // inside a script, `<` could end it
+        index => Value::from_safe_string(data.index.to_string().replace('<', "\\u003c")),
+        elements => Value::from_safe_string(data.elements),
+        figures => of(|figure| !figure.is_supplement())?,
+        precision => of(|figure| figure.is_supplement() && figure.slug.contains(PRECISION))?,
+        supplements => of(|figure| figure.is_supplement() && !figure.slug.contains(PRECISION))?,
+        ledger => Value::from(Serde(&source.ledger)), verdicts => Verdict::ALL.map(verdict),
+        table_count, largest_error_table, largest_error,
+        distances => distances(&source)?, cheapest => accuracy::cheapest(&source)?, events => accuracy::events(&source)?,
+        machines => machines(paths)?,
+    };
+    html::render([("page.html", TEMPLATE), ("entries.html", ENTRIES)], context)
 }
 
-/// How many there are of what.
-fn counts(source: &Source<'_>) -> BTreeMap<&'static str, String> {
-    let is_figure = |name: &str| name.starts_with("data/fig");
-    let tables = source.manifest.keys().filter(|name| is_figure(name)).count();
-    let errors = source.manifest.iter().filter(|(name, _)| is_figure(name));
-    let errors = errors.flat_map(|(name, entry)| entry.error.values().map(move |error| (name, *error)));
+/// The number of tables of figures; the table and the size of the largest error among them.
+fn errors(source: &Source<'_>) -> (usize, String, Option<f64>) {
+    let of_figures = || source.manifest.iter().filter(|(name, _)| name.starts_with("data/fig"));
+    let errors = of_figures().flat_map(|(name, entry)| entry.error.values().map(move |error| (name, *error)));
     let largest = errors.max_by(|a, b| a.1.unwrap_or(f64::INFINITY).total_cmp(&b.1.unwrap_or(f64::INFINITY)));
     let (table, error) = largest.map_or((String::new(), None), |(name, error)| (name.clone(), error));
-    let of_paper = source.figures.iter().filter(|figure| !figure.is_supplement()).count();
-    BTreeMap::from([
-        ("figure_count", of_paper.to_string()),
-        ("supplement_count", (source.figures.len() - of_paper).to_string()),
-        ("table_count", tables.to_string()),
-        ("claim_count", source.ledger.claims.len().to_string()),
-        ("erratum_count", source.ledger.errata.len().to_string()),
-        ("parameter_count", source.ledger.parameters.len().to_string()),
-        ("largest_error", error.map_or("unknown".to_owned(), |error| html::number(error, 2))),
-        ("largest_error_table", html::code(&table)),
-    ])
+    (of_figures().count(), table, error)
 }
 
-/// How far published and regenerated numbers are apart.
-fn distances(source: &Source<'_>) -> Result<BTreeMap<&'static str, String>, Failure> {
-    let mut rows = Vec::new();
-    for set in data::published(source)? {
-        let (differences, reading) = (set.differences(), set.reading);
-        let sum: f64 = differences.iter().map(|difference| difference * difference).sum();
-        let mean = (sum / differences.len() as f64).sqrt();
-        let largest =
-            differences.iter().fold(0.0, |most: f64, value| if value.abs() > most { value.abs() } else { most });
-        let verdict = if largest <= reading { "within the error of reading" } else { "beyond the error of reading" };
-        rows.push(vec![
-            html::escape(set.title),
-            html::code(&format!("data/reference/{}.csv", set.file)),
-            differences.len().to_string(),
-            html::number(largest, 2),
-            html::number(mean, 2),
+/// Who got the same bits: the lines that `verify --attest` has added, against the committed sums.
+fn machines(paths: &Paths) -> Result<Vec<[String; 6]>, Failure> {
+    let row = |(one, is_same): (Attestation, bool)| {
+        let got = if is_same { "the committed bits" } else { "other bits" };
+        [one.processor, one.architecture, one.features.join(", "), one.system, one.rustc, got.to_owned()]
+    };
+    Ok(attest::compared(paths)?.into_iter().map(row).collect())
+}
+
+/// How far published and regenerated numbers are apart: rows of HTML.
+fn distances(source: &Source<'_>) -> Result<Vec<Vec<Value>>, Failure> {
+    let row = |(curve, points, reading): (Curve, Points, f64)| {
+        let verdict = if points.largest() <= reading { "within the reading error" } else { "beyond the reading error" };
+        html::row([
+            html::escape(curve.title),
+            html::code(&curve.source()),
+            points.all.to_string(),
+            html::number(points.largest(), 2),
+            html::number(points.root_mean_square(), 2),
             html::number(reading, 2),
             verdict.to_owned(),
-        ]);
-    }
-    let head = [
-        "numbers",
-        "published table",
-        "points",
-        "largest difference",
-        "root of the mean square",
-        "error of reading",
-        "verdict",
-    ];
-    Ok(BTreeMap::from([("distances", html::table("Published minus regenerated numbers", &head, &rows))]))
+        ])
+    };
+    Ok(data::published(source)?.into_iter().map(row).collect())
 }

@@ -1,5 +1,5 @@
-//! The WebAssembly module inside the page: packed, as base64, in an element of its own. The committed sum of the page is that of
-//! the page without it, for its bytes belong to a compiler.
+//! The WebAssembly module inside the page: compressed, as base64, in an element of its own. The committed sum is that
+//! of the page without the module, whose bytes depend on the compiler.
 
 use super::pack::packed;
 use checkout::failure::Failure;

@@ -1,5 +1,5 @@
-//! The numbers of the page, packed without loss: each is told by its difference from what its neighbours before it let expect
-//! (their plane through three corners), the bytes of equal weight lie together, and all of it is compressed.
+//! Lossless packing of the page's numbers. Each number is replaced by its difference from a prediction (the plane
+//! through three preceding neighbours), bytes of equal significance are stored together, and the result is compressed.
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;

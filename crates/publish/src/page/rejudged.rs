@@ -1,4 +1,4 @@
-//! The claims that the page judges anew on a reader's run: those that read tables of runs alone.
+//! The claims that the page judges again on a reader's run: those that read only tables of runs.
 
 use super::source::Source;
 use checkout::disk;

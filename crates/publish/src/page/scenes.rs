@@ -1,4 +1,4 @@
-//! Parameters of a figure, from its scene.
+//! The parameters of a figure, read from its scene.
 
 use super::html::symbol;
 use files::scene_file::{Panel, SceneFile};
@@ -30,7 +30,7 @@ pub fn shared(recipe: &SceneFile) -> BTreeMap<String, String> {
     shared
 }
 
-/// What tells a panel from the others: `μ = 0.45`; empty where there is one.
+/// What distinguishes a panel from the others: `μ = 0.45`; empty for a single panel.
 pub fn difference(recipe: &SceneFile, panel: &Panel) -> String {
     let shared = shared(recipe);
     let mine = values(panel);
@@ -58,7 +58,7 @@ pub fn name(key: &str) -> String {
         "run.record" => "what is recorded".to_owned(),
         _ if key.starts_with("map.x.") => format!("horizontal axis: {last}"),
         _ if key.starts_with("map.y.") => format!("vertical axis: {last}"),
-        _ if last.len() <= 2 || symbol(last) != last => symbol(last).to_owned(),
+        _ if last.len() <= 2 || symbol(last) != last => symbol(last),
         _ => last.to_owned(),
     }
 }

@@ -1,4 +1,4 @@
-//! What the page is made from: figures, manifest, descriptions of columns, tables, the ledger. Read once.
+//! The inputs of the page (figures, manifest, column descriptions, tables, the ledger), each read once.
 
 use super::html;
 use checkout::disk;
@@ -68,7 +68,7 @@ impl Source<'_> {
     /// The symbol of a column; the criteria differ in theirs from figure to figure.
     pub fn symbol(&self, table: &str, column: &str) -> String {
         let described = self.columns.get(&(table.to_owned(), column.to_owned())).filter(|_| column == "phi");
-        described.map_or_else(|| html::symbol(column).to_owned(), |(_, symbol)| html::latex(symbol))
+        described.map_or_else(|| html::symbol(column), |(_, symbol)| html::latex(symbol))
     }
 
     /// A table, `fig03/left`.

@@ -1,4 +1,4 @@
-//! What the page recomputes by itself: the tables of each figure with their committed sums.
+//! The tables that the page recomputes, with their committed sums.
 
 use super::figures::name;
 use super::source::Source;

@@ -1,4 +1,4 @@
-//! How a number is written: a text, or a mantissa and a power of ten.
+//! The form in which a number is written: a text, or a mantissa and a power of ten.
 
 /// A number as it is read: `mantissa` alone, or times ten to the `exponent`.
 #[derive(Clone, Debug, PartialEq, Eq)]

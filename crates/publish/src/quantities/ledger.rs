@@ -1,4 +1,4 @@
-//! Named measures of the ledger of claims, and how many claims there are of each verdict.
+//! Named measures from the ledger of claims, and the number of claims with each verdict.
 
 use super::form::Form;
 use super::{Quantities, Source};
@@ -17,7 +17,7 @@ pub fn collect(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure>
     entries(all, "errata", "erratum", errata.iter().map(|erratum| (&*erratum.id, &*erratum.tests)));
     entries(all, "parameters", "parameter", parameters.iter().map(|one| (&*one.id, &*one.tests)));
     for verdict in Verdict::ALL {
-        let count = claims.iter().filter(|claim| claim.verdict_found == verdict).count();
+        let count = claims.iter().filter(|claim| claim.found() == verdict).count();
         all.exact(&format!("claims.{}", verdict.words().replace(' ', "-")), count as f64, LEDGER);
     }
     Ok(())

@@ -1,4 +1,4 @@
-//! Numbers that are read off tables: `paper/quantities.toml`, whose head explains its form.
+//! Numbers read from tables, as `paper/quantities.toml` defines them (its header explains the format).
 
 use super::{Quantities, Source};
 use checkout::disk;

@@ -1,5 +1,5 @@
-//! The numbers that the document says, each under a name, with where it comes from and how it is written. The only place
-//! where they are collected; the document reads `paper/numbers.json`, LaTeX `paper/numbers.tex`.
+//! The numbers in the article, each with a name, its source and its written form. This is the only place that collects
+//! them; the article reads `paper/numbers.json`, and LaTeX reads `paper/numbers.tex`.
 
 mod accuracy;
 pub mod form;
@@ -13,7 +13,7 @@ use checkout::failure::Failure;
 use checkout::figure::Figure;
 use checkout::manifest;
 use checkout::paths::Paths;
-use files::table::{Cell, Sheet};
+use files::table::{Cell, Grid, Sheet};
 use form::Form;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
@@ -52,10 +52,10 @@ pub struct Source<'a> {
 ///
 /// # Errors
 /// Stale: there is no such table. Failed: it cannot be read.
-fn table(paths: &Paths, name: &str) -> Result<Sheet, Failure> {
+fn table<V: files::table::Value>(paths: &Paths, name: &str) -> Result<Grid<V>, Failure> {
     let path = paths.root.join(name);
     match path.is_file() {
-        true => Sheet::read(&path).map_err(Failure::failed),
+        true => Grid::read(&path).map_err(Failure::failed),
         false => Err(Failure::Stale(format!("{name}: no such table; cargo xtask figures --all"))),
     }
 }

@@ -1,4 +1,4 @@
-//! What the runs of the figures say: events, errors, and single values of their curves.
+//! Numbers from the runs of the figures: events, errors, and single values of their curves.
 
 use super::{Quantities, Source, largest, least, numbers, table};
 use checkout::disk;
@@ -53,7 +53,7 @@ const REFERENCES: [(&str, &str); 2] =
 fn events(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
     let text = disk::read_text(&source.paths.root.join(REFERENCE_EVENTS))?.unwrap_or_default();
     let references = checkout::events::parse_all(REFERENCE_EVENTS, &text)?;
-    for row in table(source.paths, EVENTS)?.rows() {
+    for row in table::<Cell>(source.paths, EVENTS)?.rows() {
         let [Cell::Word(scene), Cell::Word(event), Cell::Number(time), Cell::Number(n), Cell::Number(spread)] = row
         else {
             return Err(Failure::Usage(format!(

@@ -1,4 +1,4 @@
-//! Parameters: every number of every scene, and what follows from them by arithmetic.
+//! Parameters: every number in every scene, and what follows from them by arithmetic.
 
 use super::{Quantities, Source};
 use checkout::figure::Figure;

@@ -1,4 +1,4 @@
-//! The document: how numbers are written, when it is refused, whether its bytes are always the same.
+//! The article: number formats, the conditions under which it is refused, and reproducible bytes.
 
 use checkout::figure;
 use checkout::paths::{NUMBERS_JSON, NUMBERS_TEX, Paths};

@@ -1,4 +1,4 @@
-//! The page and the article: what they hold, how numbers are written, whether bytes are always the same.
+//! Tests of the page and the article: contents, number formats, reproducible bytes.
 
 mod article;
 mod page;

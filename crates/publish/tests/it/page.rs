@@ -1,5 +1,5 @@
-//! The page: its sources hold no measured number, what it repeats of other crates is what they have, and it is made
-//! from good figures only. What it shows is tested in a browser (`checks/browser`).
+//! The page: its sources contain no measured number, what it repeats from other crates agrees with them, and it is made
+//! from verified figures only. A browser tests its display (`checks/browser`).
 
 use publish::page::{SCRIPTS, TEMPLATE, WORKER};
 use std::collections::BTreeSet;
@@ -49,11 +49,11 @@ fn visible(template: &str) -> String {
         text.push_str(part.split_once('>').map_or(part, |(_, rest)| rest));
         text.push(' ');
     }
-    let mut plain = String::new();
-    for part in text.split("{{") {
-        plain.push_str(part.split_once("}}").map_or(part, |(_, rest)| rest));
+    for (open, close) in [("{{", "}}"), ("{%", "%}"), ("{#", "#}")] {
+        let parts = text.split(open).map(|part| part.split_once(close).map_or(part, |(_, rest)| rest));
+        text = parts.collect();
     }
-    plain
+    text
 }
 
 /// Digits between the first and the last that is not zero.
@@ -71,7 +71,12 @@ fn code(text: &str) -> String {
 #[test]
 fn numerals_are_found_where_they_stand() {
     assert_eq!(numerals("t = 960.87, fig12 and x_3; 2.9e-5."), ["960.87", "2.9", "5"]);
-    assert_eq!(visible("<body>a 1<b title=\"2\">{{three}} 4</b>").split_whitespace().collect::<String>(), "a14");
+    assert_eq!(
+        visible("<body>a 1<b title=\"2\">{{three[5]}}{% if six == 7 %} 4{% endif %}</b>")
+            .split_whitespace()
+            .collect::<String>(),
+        "a14"
+    );
     assert_eq!(["0.0500", "480", "960.87"].map(significant), [1, 2, 5]);
 }
 

@@ -1,4 +1,4 @@
-"""Force-based models of pedestrians (or cars) in single file on a ring: runs and what becomes of them, stability maps.
+"""Force-based models of pedestrians (or cars) in single file on a ring: runs, their outcomes, and stability maps.
 
     >>> import jamming
     >>> run = jamming.simulate({
@@ -11,9 +11,9 @@
     ((21, 10), 't_end')
 
 Each pedestrian n obeys ``dx_n/dt = v_n``, ``dv_n/dt = f(s_n, v_n, ...)`` with the spacing ``s_n = x_{n+1} - x_n`` to the one
-ahead; the last is behind the first, a length of the ring later. A scene says which law f, on which ring, from which start
-and for how long: see ``scenes/ring.toml`` and ``scenes/map.toml``, and ``scenes/FORMULAS.md`` for laws of your own. All
-quantities are dimensionless: lengths in units of a_0 (half the length of a standing pedestrian), times in units of the
+ahead; the last follows the first, one length of the ring ahead. A scene states the law f, the ring, the start and the
+duration: see ``scenes/ring.toml`` and ``scenes/map.toml``, and ``scenes/FORMULAS.md`` for laws of your own. All quantities
+are dimensionless: lengths are in units of a_0 (half the length of a standing pedestrian), times in units of the
 relaxation time tau, speeds in units of a_0/tau.
 
 The numbers are those of the command line, to the last bit. Source of the laws and of most scenes: Chraibi et al.,

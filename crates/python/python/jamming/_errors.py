@@ -1,4 +1,4 @@
-"""What can go wrong."""
+"""Exceptions."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 
 class SceneError(ValueError):
-    """A scene that cannot be computed. The message says all of it; the attributes say it apart, None where they do not apply.
+    """An invalid scene. The message is complete; the attributes give its parts, None where they do not apply.
 
     >>> import jamming
     >>> try:
@@ -24,7 +24,7 @@ class SceneError(ValueError):
     file: str | None
     """The scene file; None for a text or a dictionary."""
     line: int | None
-    """The line, from 1; None for what stands in no file, such as an override."""
+    """The line, counted from 1; None for values that come from no file, such as an override."""
     key: str | None
     """The key with its table, such as ``run.t_end``."""
     value: float | str | None
@@ -49,10 +49,10 @@ class SceneError(ValueError):
 
 
 class RunError(RuntimeError):
-    """A run that could not go on although nothing happened that ends it: the message says why and what helps."""
+    """A run that could not continue although no event ended it. The message says why and what helps."""
 
     run: Run
-    """What it gave until then."""
+    """Its results up to that point."""
 
     def __init__(self, message: str, run: Run) -> None:
         super().__init__(message, run)

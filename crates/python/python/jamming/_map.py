@@ -22,7 +22,7 @@ class Map:
     title: str
     """What the scene shows, in words."""
     summary: dict[str, Any]
-    """What ``cargo xtask map --json`` says: cells, shares of unstable and blank ones, why some are blank, error."""
+    """The output of ``cargo xtask map --json``: cells, shares of unstable and blank ones, reasons for blanks, error."""
     columns: tuple[str, str, str]
     """Names of the horizontal axis, of the vertical one and of the value (``margin``, ``phi`` or ``re_z``)."""
     x: NDArray[np.float64]
@@ -30,9 +30,9 @@ class Map:
     y: NDArray[np.float64]
     """Centres of the cells along the vertical axis, shape (Y,)."""
     x_range: tuple[float, float]
-    """From where to where the horizontal axis goes."""
+    """The range of the horizontal axis."""
     y_range: tuple[float, float]
-    """From where to where the vertical axis goes."""
+    """The range of the vertical axis."""
     values: NDArray[np.float64]
     """The value of each cell, shape (Y, X), NaN where it is blank: negative where the uniform flow is stable."""
 
@@ -52,7 +52,7 @@ class Map:
 
     @property
     def error(self) -> float:
-        """The largest difference from the same value found another way; relative to values above 1."""
+        """The largest difference from the same value computed in another way; relative for values above 1."""
         return float(self.summary["error"])
 
     def to_pandas(self) -> pd.DataFrame:
@@ -76,13 +76,13 @@ def map(scene: Scene, *, panel: str | None = None, progress: Progress = None, **
     scene: a path to a scene file with ``[map]``, its text (a str with a line break), or its tables as a dictionary.
     panel, progress, overrides: as for `simulate`.
 
-    With f_{s_j}, f_{v_j} the derivatives of the acceleration of n by spacing and speed of n + j in the uniform flow, a small
-    wave exp(z t + i k n) obeys z^2 + b z + c = 0, b(k) = -sum_j f_{v_j} e^{ijk}, c(k) = sum_j f_{s_j} e^{ijk} (1 - e^{ik}).
+    Let f_{s_j}, f_{v_j} be the derivatives of the acceleration of n with respect to the spacing and speed of n + j in the
+    uniform flow. A small wave exp(z t + i k n) obeys z^2 + b z + c = 0, b(k) = -sum_j f_{v_j} e^{ijk}, c(k) = sum_j f_{s_j} e^{ijk} (1 - e^{ik}).
     It decays if and only if Re b > 0 and D = (Re b)^2 Re c + Re b Im b Im c - (Im c)^2 > 0. The value ``margin`` (the
     default) is the largest -D / ((1 - cos k) sum_j f_{s_j}) over all k, negative where all waves decay; ``growth_rate`` is
     Re z of one k; ``criterion`` is the paper's, blank where its assumptions fail.
 
-    Raises `SceneError` (a ValueError) for a scene that is wrong, also if a cell has no uniform flow.
+    Raises `SceneError` (a ValueError) for an invalid scene, and if a cell has no uniform flow.
 
     >>> speeds = map({
     ...     "law": {"kind": "formula", "acceleration": "kappa*(V - v)", "V": "tanh(s - 2) + tanh(2)", "body": 0.0},

@@ -24,28 +24,28 @@ class Event(NamedTuple):
     event: str
     """``overlap``, ``negative_speed``, ``exchange``, ``blow_up`` or ``undefined``."""
     t: float
-    """When, in units of tau."""
+    """Its time, in units of tau."""
     n: int
-    """Who, from 0."""
+    """The pedestrian, counted from 0."""
     gap: float
-    """The spacing s_n then, in units of a_0."""
+    """The spacing s_n at that time, in units of a_0."""
     step: float
-    """The length of the integration's step in which it was found, in units of tau."""
+    """The length of the integration step that contains it, in units of tau."""
     error: float | None
     """The estimated error of t; None if it was not estimated, or the second run had no such event."""
 
 
 class Outcome(NamedTuple):
-    """What became of a run, with the numbers that this rests on."""
+    """The outcome of a run, with the numbers that decide it."""
 
     name: str
-    """In order of precedence: ``closed`` (two touch at the start), ``no_uniform_flow``, ``undefined`` (the formula has no value
-    for somebody), ``blow_up``, ``contact``, ``decays`` (back to the uniform flow for good), ``waves_backwards`` (lasting waves
-    in which somebody walks backwards), ``waves``, ``undecided``."""
+    """In order of precedence: ``closed`` (two pedestrians touch at the start), ``no_uniform_flow``, ``undefined`` (the formula
+    has no value for a pedestrian), ``blow_up``, ``contact``, ``decays`` (permanent return to the uniform flow),
+    ``waves_backwards`` (lasting waves with backward motion), ``waves``, ``undecided``."""
     t: float
-    """When that was certain, in units of tau."""
+    """The time at which this was certain, in units of tau."""
     decided_by: str
-    """What decided, in words."""
+    """The criterion that decided, in words."""
     missing: str | None
     """What is missing for a decision, if the run is undecided."""
     backward_flow: bool
@@ -53,29 +53,29 @@ class Outcome(NamedTuple):
     least_gap: float
     """The least effective gap of the run (of the logarithmic law and of formulas without one the least spacing), in units of a_0."""
     least_speed: float
-    """The least speed of the run, the start from rest left out, in units of a_0/tau."""
+    """The least speed of the run, without the start from rest, in units of a_0/tau."""
     std: float
-    """The standard deviation of the speeds: of waves the mean over the last window, else that at the end."""
+    """The standard deviation of the speeds: for waves the mean over the last window, otherwise the value at the end."""
     wave_speed: float | None
-    """The speed at which waves travel along the ring, below 0 against the direction of walking; None unless there are waves."""
+    """The speed of waves along the ring, negative against the direction of walking; None without waves."""
     distance: float | None
-    """How far the deciding numbers are from another outcome, in the unit of each; 0 if undecided, None if without bound."""
+    """The distance of the deciding numbers from another outcome, in their units; 0 if undecided, None if unbounded."""
 
 
 class Run:
-    """What a run gave. T samples of N pedestrians; a run that an event stops has the samples up to it.
+    """The results of a run: T samples of N pedestrians. A run that stops at an event has the samples up to it.
 
-    Arrays are views of one table in memory; they are not copied.
+    Arrays are views of one table in memory, not copies.
     """
 
     title: str
     """What the scene shows, in words."""
     summary: dict[str, Any]
-    """What ``summary.json`` of the command line says: law, steps, stop, events, jams, stability of the uniform flow, errors."""
+    """The contents of ``summary.json``: law, steps, stop, events, jams, stability of the uniform flow, errors."""
     outcome: Outcome | None
-    """What became of it; None if that was not asked for."""
+    """The outcome; None if it was not requested."""
     events: tuple[Event, ...]
-    """The first event of each kind, everybody to whom it happens at once, in order of time."""
+    """The first event of each kind, for all pedestrians to whom it happens at that time, in order of time."""
     t: NDArray[np.float64]
     """Times of the samples, shape (T,), in units of tau."""
     std: NDArray[np.float64]
@@ -126,13 +126,13 @@ class Run:
 
     @property
     def stop(self) -> str:
-        """What ended the tables: the name of an event, ``t_end``, or why the run could not go on."""
+        """What ended the tables: the name of an event, ``t_end``, or the reason why the run could not continue."""
         return str(self.summary["stop"])
 
     @property
     def errors(self) -> dict[str, float | None]:
-        """Estimated errors: of ``std`` the largest over all samples, of ``x`` and ``v`` the largest at the end. Empty if
-        the second run was left out; None where that run ended elsewhere and says nothing."""
+        """Estimated errors: for ``std`` the largest over all samples, for ``x`` and ``v`` the largest at the end. Empty
+        without a second run; None where that run ended elsewhere and gives no estimate."""
         return dict(self.summary["error"] or {})
 
     def to_pandas(self, table: str | None = None) -> pd.DataFrame:
@@ -160,17 +160,17 @@ class Run:
     def to_pedpy(self, a0: float | None = None, tau: float = 0.5, images: int = 0) -> pedpy.TrajectoryData:
         """The trajectories in metres and seconds, for PedPy's functions: one frame for each sample, y = 0.
 
-        a0: the length a_0 in metres; by default such that pedestrians want to walk at 1.2 m/s, ``a_0 = 1.2 tau / v_0``.
-        tau: the relaxation time in seconds. Frames come at the rate 1/(sample tau).
-        images: so many pedestrians of the ring's other turns behind the last and ahead of the first (numbers -1, -2, ... and
-        N, N + 1, ...), so that everybody has neighbours; on the ring, n + N is n, one length of the ring ahead.
+        a0: the length a_0 in metres; by default such that the desired speed is 1.2 m/s, ``a_0 = 1.2 tau / v_0``.
+        tau: the relaxation time in seconds. The frame rate is 1/(sample tau).
+        images: the number of periodic images behind the last and ahead of the first pedestrian (numbers -1, -2, ... and N,
+        N + 1, ...), so that all pedestrians have neighbours; n + N is the image of n one length of the ring ahead.
         """
         from ._pedpy import trajectories
 
         return trajectories(self, a0, tau, images)
 
     def walkable_area(self, a0: float | None = None, tau: float = 0.5) -> pedpy.WalkableArea:
-        """A straight corridor 1 m wide, in metres: from one length of the ring behind everybody to one ahead. See `to_pedpy`."""
+        """A straight corridor, 1 m wide, that extends by the length of the ring behind and ahead of all. See `to_pedpy`."""
         from ._pedpy import corridor
 
         return corridor(self, a0, tau)
@@ -201,16 +201,16 @@ def simulate(
     """Runs a scene to its end, or to the event that ends it, as ``cargo xtask simulate`` does, to the same bits.
 
     scene: a path to a scene file, its text (a str with a line break), or its tables as a dictionary.
-    panel: which one, for a scene with several runs.
-    check: whether a second run, by another method, estimates the errors of std, final state and events; it takes about as
-        long as the run.
-    outcome: whether it is judged what became of the run.
-    progress: a function that is called with the part that is done, from 0 to 1; or True for a bar, if tqdm is there.
+    panel: the panel, for a scene with several runs.
+    check: whether to estimate the errors of std, final state and events, if necessary by a second run with another method,
+        which takes about as long as the first.
+    outcome: whether to determine the outcome of the run.
+    progress: a function that is called with the fraction done, from 0 to 1; or True for a bar, if tqdm is installed.
     overrides: values that replace those of the scene, by dotted keys: ``**{"law.a_v": 0.3, "run.t_end": 100.0}``; or a whole
-        table, ``run={...}``. ``run.dt`` takes the place of ``run.tolerance``, and the other way round.
+        table, ``run={...}``. ``run.dt`` replaces ``run.tolerance``, and vice versa.
 
-    Raises `SceneError` (a ValueError) for a scene that is wrong, `RunError` where the integration cannot go on. Ctrl-C stops
-    a run; other threads of Python go on while it is computed.
+    Raises `SceneError` (a ValueError) for an invalid scene and `RunError` if the integration cannot continue. Ctrl-C stops a
+    run; other Python threads continue while it is computed.
 
     >>> ring = '''
     ... [law]                    # dv/dt = (V(s) - v), the optimal velocity model

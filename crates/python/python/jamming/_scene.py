@@ -1,4 +1,4 @@
-"""Scenes as they are given, and progress as it is wanted."""
+"""Conversion of scenes and progress arguments."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ Scene = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 """A path, the text of a scene file (a str with a line break), or its tables as a mapping."""
 
 Progress = Union[bool, Callable[[float], object], None]
-"""A function that is called with the part that is done, 0 to 1; True: a bar by tqdm, if it is there."""
+"""A function that is called with the fraction done, 0 to 1; True: a bar by tqdm, if it is installed."""
 
 
 def given(scene: Scene) -> dict[str, Any] | str | Path:
-    """The scene as the native module takes it."""
+    """The scene in the form that the native module accepts."""
     if isinstance(scene, Mapping):
         return plain(scene)
     if isinstance(scene, str) and "\n" in scene:
@@ -33,7 +33,7 @@ def plain(tables: Mapping[str, Any]) -> dict[str, Any]:
 
 @contextmanager
 def shown(progress: Progress, words: str) -> Iterator[Callable[[float], object] | None]:
-    """The function that is told how far a computation is."""
+    """The function that receives the progress of a computation."""
     if progress is not True:
         yield progress or None
         return

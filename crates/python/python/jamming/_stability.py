@@ -15,28 +15,28 @@ if TYPE_CHECKING:
 
 
 class Ring(NamedTuple):
-    """What small waves do on a ring of N pedestrians, k = 2 pi l / N."""
+    """The growth of small waves on a ring of N pedestrians, k = 2 pi l / N."""
 
     margin: float
     """The largest margin of its waves: negative where all decay."""
     growth_rate: float
     """Re z of the fastest wave, in units of 1/tau."""
     waves: int
-    """How often that wave goes into the ring: l."""
+    """The number l of periods of that wave on the ring."""
 
 
 class Stability:
-    """What becomes of small waves exp(z t + i k n) on the uniform flow with one headway; see `jamming.map` for the equations."""
+    """The growth of small waves exp(z t + i k n) on a uniform flow with one headway; see `jamming.map` for the equations."""
 
     headway: float
     """The spacing L/N of the uniform flow, in units of a_0."""
     speed: float
     """The steady speed v', at which the acceleration is 0, in units of a_0/tau."""
     margin: float | None
-    """How far the flow is from instability: negative where the waves of all lengths decay. None where the flow lies on a
-    kink of the law and has no derivatives."""
+    """The distance from instability: negative where waves of all lengths decay. None where the flow lies on a kink of the
+    law and has no derivatives."""
     margin_error: float | None
-    """The difference from the margin found in twice the digits, by a finer grid of waves."""
+    """The difference from the margin computed in double-double arithmetic on a finer grid of waves."""
     growing: tuple[float, float] | None
     """The least and the largest wave number k that grows (0: the limit of long waves); None where none does."""
 
@@ -53,7 +53,7 @@ class Stability:
 
     @property
     def stable(self) -> bool | None:
-        """Whether waves of no length grow; None where the flow lies on a kink of the law."""
+        """Whether no wave of any length grows; None where the flow lies on a kink of the law."""
         return None if self.margin is None else self.growing is None
 
     def growth_rate(self, k: ArrayLike) -> NDArray[np.float64]:
@@ -62,7 +62,8 @@ class Stability:
         return rate
 
     def growth_rate_error(self, k: ArrayLike) -> NDArray[np.float64]:
-        """The estimated error of `growth_rate`: the difference from the rate with derivatives and residual in twice the digits."""
+        """The estimated error of `growth_rate`: the difference from the rate with derivatives and residual in double-double
+        arithmetic."""
         rate, refined = self._rates(k)
         return np.asarray(np.abs(rate - refined))
 
@@ -76,7 +77,7 @@ class Stability:
         return rates[0].reshape(k.shape), rates[1].reshape(k.shape)
 
     def on_ring(self, pedestrians: int) -> Ring | None:
-        """What the waves of a ring of so many (at least 2) do; None where the flow lies on a kink of the law."""
+        """The waves of a ring with the given number of pedestrians (at least 2); None where the flow lies on a kink of the law."""
         if pedestrians < 2:
             raise ValueError(f"pedestrians = {pedestrians}: must be at least 2")
         found = self._response.on_ring(pedestrians)
@@ -90,7 +91,7 @@ class Stability:
 
 
 def stability(law: Scene, headway: float, *, speed: float | None = None, **overrides: Any) -> Stability:
-    """The stability of the uniform flow in which everybody keeps the spacing ``headway`` and the steady speed.
+    """The stability of the uniform flow in which all pedestrians keep the spacing ``headway`` and the steady speed.
 
     law: the table ``[law]`` as a dictionary or as text, or a scene that has one: a path, a text or a dictionary.
     headway: L/N, in units of a_0.

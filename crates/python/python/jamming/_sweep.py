@@ -1,4 +1,4 @@
-"""What became of the runs of a plane."""
+"""Outcomes of the runs in a plane of parameters."""
 
 from __future__ import annotations
 
@@ -21,29 +21,29 @@ class Sweep:
     title: str
     """What the scene shows, in words."""
     columns: tuple[str, ...]
-    """Names of the columns of the table: the horizontal axis, the vertical one, and what is known of each cell."""
+    """Names of the columns of the table: the horizontal axis, the vertical one, and the results of each cell."""
     x: NDArray[np.float64]
     """Values of the cells along the horizontal axis, shape (X,)."""
     y: NDArray[np.float64]
     """Values of the cells along the vertical axis, shape (Y,)."""
     x_range: tuple[float, float]
-    """From where to where the horizontal axis goes."""
+    """The range of the horizontal axis."""
     y_range: tuple[float, float]
-    """From where to where the vertical axis goes."""
+    """The range of the vertical axis."""
     logarithmic: tuple[bool, bool]
-    """Whether the cells of the axes, x and y, have equal ratios and not equal widths."""
+    """Whether the axes, x and y, are logarithmic: cells with equal ratios instead of equal widths."""
     outcome: NDArray[np.str_]
-    """What became of each run: a name as in `jamming.Outcome`."""
+    """The outcome of each run: a name as in `jamming.Outcome`."""
     words: dict[str, str]
     """These names in words."""
     backward_flow: NDArray[np.bool_]
     """Whether the uniform flow itself walks backwards."""
     decided_by: NDArray[np.str_]
     """``criterion`` (the start, without a run), ``run``, ``both`` (a run near the uniform flow, and its stability), or
-    ``neighbours``: all cells around have this outcome, and it was not run."""
+    ``neighbours`` (not run, since all cells around have this outcome)."""
     numbers: dict[str, NDArray[np.float64]]
     """``t_decided`` (tau), ``least_gap`` (a_0), ``least_speed``, ``std``, ``wave_speed`` (a_0/tau) as in `jamming.Outcome`, and
-    ``error``, that of the least gap and the least speed, from a second run. NaN where there is none."""
+    ``error`` (of the least gap and the least speed, from a second run). NaN where a number is missing."""
 
     def __init__(self, made: dict[str, Any]) -> None:
         def cells(array: NDArray[Any]) -> NDArray[Any]:
@@ -65,12 +65,12 @@ class Sweep:
         return f"<Sweep: {self.columns[0]} and {self.columns[1]}, {len(self.x)} x {len(self.y)} cells: {counts}>"
 
     def counts(self) -> dict[str, int]:
-        """How many cells have each outcome, of those that occur."""
+        """The number of cells with each outcome that occurs."""
         counts = {name: int((self.outcome == name).sum()) for name in self.words}
         return {name: count for name, count in counts.items() if count}
 
     def edges(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Where cells begin and end along both axes, shapes (X + 1,) and (Y + 1,)."""
+        """The edges of the cells along both axes, shapes (X + 1,) and (Y + 1,)."""
         spaces = [np.geomspace if is_log else np.linspace for is_log in self.logarithmic]
         return spaces[0](*self.x_range, len(self.x) + 1), spaces[1](*self.y_range, len(self.y) + 1)
 
@@ -98,17 +98,17 @@ def sweep(
     progress: Progress = None,
     **overrides: Any,
 ) -> Sweep:
-    """Says what became of the runs of a plane, as ``cargo xtask sweep`` does, to the same bits.
+    """Finds the outcomes of the runs in a plane, as ``cargo xtask sweep`` does, to the same bits.
 
     scene: a path to a scene file with ``[sweep]`` beside law, ring, start and run, its text (a str with a line break), or its
-        tables as a dictionary. Axes are parameters of the law (left out there), ``shift``, ``headway`` or ``d_gap`` (N is
-        kept; ``ring.length`` is left out), or ``pedestrians`` (the headway is kept). With ``refine`` (the default) cells
-        between others of one outcome are filled in without a run.
-    jobs: threads; all processors if it is None. The cells do not depend on it.
-    panel, progress, overrides: as for `simulate`. Ctrl-C stops it after the runs in hand. Nothing is kept then: for planes
-        of hours there is the command line, which goes on after a kill and takes shards from several machines.
+        tables as a dictionary. Axes are parameters of the law (omitted there), ``shift``, ``headway`` or ``d_gap`` (at fixed
+        N; omit ``ring.length``), or ``pedestrians`` (at a fixed headway). With ``refine`` (the default) regions whose border
+        has a single outcome are filled in without runs.
+    jobs: the number of threads; None for all processors. The cells do not depend on it.
+    panel, progress, overrides: as for `simulate`. Ctrl-C stops the sweep after the runs in progress, and nothing is kept. Use
+        the command line for planes that take hours: it resumes after a kill and combines shards from several machines.
 
-    Raises `SceneError` (a ValueError) for a scene that is wrong.
+    Raises `SceneError` (a ValueError) for an invalid scene.
 
     >>> plane = sweep({
     ...     "law": {"kind": "formula", "acceleration": "kappa*(V - v)", "V": "tanh(s - 2) + tanh(2)", "body": 0.0, "scale": 1.0},

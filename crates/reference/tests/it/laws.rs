@@ -1,4 +1,4 @@
-//! The laws, written twice, agree to the rounding of a double.
+//! The two implementations of the laws agree to rounding.
 
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
 use math::double_double::{DoubleDouble, decimal};
@@ -8,24 +8,17 @@ use reference::scenes::{NAMES, Parameters, scene};
 fn model(name: &str) -> Model {
     let desired_speed = 3.0;
     let algebraic = |strength| {
-        Model::Algebraic(Algebraic { strength, relative: 0.0, power: 2.0, widening: 0.0, epsilon: 0.1, desired_speed })
+        Model::Algebraic(Algebraic { mu: strength, delta: 0.0, q: 2.0, a_v: 0.0, epsilon: 0.1, v0: desired_speed })
     };
     let exponential = |strength| {
-        Model::Exponential(Exponential {
-            strength,
-            range: 1.5,
-            contact: 0.0,
-            widening: 0.0,
-            epsilon: 0.1,
-            desired_speed,
-        })
+        Model::Exponential(Exponential { a: strength, b: 1.5, c: 0.0, a_v: 0.0, epsilon: 0.1, v0: desired_speed })
     };
     match name {
         "algebraic_stable" => algebraic(0.45),
         "algebraic_unstable" => algebraic(0.55),
         "exponential_stable" => exponential(1.5),
         "exponential_unstable" => exponential(3.0),
-        _ => Model::Logarithmic(Logarithmic { desired_speed: 1.0, widening: 0.0, epsilon: 0.01 }),
+        _ => Model::Logarithmic(Logarithmic { v0: 1.0, a_v: 0.0, epsilon: 0.01 }),
     }
 }
 

@@ -1,4 +1,4 @@
-//! The method has its order, and its steps do not depend on where the times of output lie.
+//! The method attains its order, and its steps do not depend on the output times.
 
 use math::double_double::DoubleDouble;
 use reference::extrapolation::Extrapolation;

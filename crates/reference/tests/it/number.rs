@@ -1,4 +1,4 @@
-//! Differences against subtraction in numbers of twice the digits; the laws in every kind of number.
+//! Differences against subtraction in double-double numbers; the laws in every kind of number.
 
 use math::double_double::DoubleDouble;
 use reference::formula::{Formula, smooth_ramp};

@@ -1,4 +1,4 @@
-//! The committed digits come out again, with other rows and another tolerance.
+//! The committed digits are reproduced with another tableau and another tolerance.
 
 use math::double_double::decimal;
 use reference::run::{Precision, Run};

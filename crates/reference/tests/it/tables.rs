@@ -1,4 +1,4 @@
-//! Only digits that two runs confirm are written; the standard deviation is that of the population.
+//! Only digits confirmed by two runs are written; the standard deviation is the population's.
 
 use math::double_double::DoubleDouble;
 use reference::laws::Law;

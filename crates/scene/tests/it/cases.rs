@@ -56,6 +56,25 @@ fn no_method_steps_over_a_kink() {
     }
 }
 
+/// At t = 60, by an integrator with steps of 0.002.
+const CLIPPED_STD: f64 = 0.006_042_124_728_1;
+const CLIPPED_POSITION: f64 = 53.312_628_682_56;
+
+/// At the start everybody accelerates alike and steadily: Taylor's series is a polynomial, whose step would be without end.
+#[test]
+fn kinks_of_a_formula_are_met_to_the_stated_error() {
+    assert_eq!(case("kinks-of-a-formula", &Overrides::default()).method, Method::Dop853, "without a method");
+    for name in ["taylor", "dop853", "dopri54"] {
+        let overrides = Overrides { method: Some(name.to_owned()), ..Overrides::default() };
+        let (outcome, errors) = jam::errors::stated(&case("kinks-of-a-formula", &overrides)).expect("it runs");
+        let off = [std_at(&outcome, 60.0) - CLIPPED_STD, outcome.positions[0] - CLIPPED_POSITION].map(f64::abs);
+        for (off, stated) in off.into_iter().zip([errors.std, errors.positions]) {
+            let stated = stated.expect("an error is stated");
+            assert!(off < 3.0 * stated && stated < 1e-7, "{name}: off by {off:e}, stated {stated:e}");
+        }
+    }
+}
+
 #[test]
 fn a_kink_narrower_than_rounding_costs_a_few_steps() {
     let mut scene = case("kink-eps-1e-6", &Overrides::default());

@@ -1,4 +1,4 @@
-//! Checkpoints: a run resumed from any of them is the run that never stopped, to the last bit.
+//! Checkpoints: a run resumed from any of them has the bits of an uninterrupted run.
 
 use crate::project::figure;
 use files::scene_file;

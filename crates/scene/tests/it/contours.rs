@@ -103,9 +103,9 @@ fn figure_14_changes_sign_where_the_closed_form_says() {
     // phi = q mu^2 / d'^(q + 1)
     let zero = |map: &Map, k: f64| {
         let law = algebraic(map);
-        assert_eq!(law.relative, 0.0);
-        let power = law.power * law.strength * law.strength / marginal_phi(law.widening, k);
-        math::pow(power, 1.0 / (law.power + 1.0))
+        assert_eq!(law.delta, 0.0);
+        let power = law.q * law.mu * law.mu / marginal_phi(law.a_v, k);
+        math::pow(power, 1.0 / (law.q + 1.0))
     };
     for name in ["top_left", "top_right", "bottom_left"] {
         let (map, crossed) = crossings("fig14", name, Positive::Below, &zero);
@@ -120,7 +120,7 @@ fn figure_14_changes_sign_where_the_closed_form_says() {
 fn figure_14_is_stable_all_over_its_last_panel() {
     let (map, table) = panel("fig14", "bottom_right");
     let law = algebraic(&map);
-    assert_eq!((law.strength, law.relative, law.power, law.widening), (0.5, 1.0, 1.0, 0.1));
+    assert_eq!((law.mu, law.delta, law.q, law.a_v), (0.5, 1.0, 1.0, 0.1));
     assert_eq!(table.len(), 200 * 200);
     for row in table.rows() {
         let (gap, k, rate) = (row[0], row[1], row[2]);
@@ -138,7 +138,7 @@ fn figure_15_changes_sign_where_the_closed_form_says() {
     // phi = a / b exp(-d' / b)
     let zero = |map: &Map, k: f64| {
         let law = exponential(map);
-        law.range * math::ln(law.strength / law.range / marginal_phi(law.widening, k))
+        law.b * math::ln(law.a / law.b / marginal_phi(law.a_v, k))
     };
     for name in ["top_left", "top_right", "bottom_left", "bottom_right"] {
         let (map, crossed) = crossings("fig15", name, Positive::Below, &zero);
@@ -146,7 +146,7 @@ fn figure_15_changes_sign_where_the_closed_form_says() {
         for (gap, k) in crossed {
             let law = exponential(&map);
             // a rounding of d' is one of phi, d' / b times as large
-            assert_imaginary(&law.linearise(gap), k, ROUNDING * (1.0 + gap / law.range), name);
+            assert_imaginary(&law.linearise(gap), k, ROUNDING * (1.0 + gap / law.b), name);
         }
     }
 }
@@ -154,7 +154,7 @@ fn figure_15_changes_sign_where_the_closed_form_says() {
 #[test]
 fn figure_3_changes_sign_where_the_closed_form_says() {
     let zero = |map: &Map, gap: f64| {
-        let Algebraic { relative: delta, power, widening: a_v, epsilon, .. } = algebraic(map);
+        let Algebraic { delta, q: power, a_v, epsilon, .. } = algebraic(map);
         assert_eq!(power, 2.0);
         let cube = gap * gap * gap;
         if delta == 0.0 {
@@ -169,7 +169,7 @@ fn figure_3_changes_sign_where_the_closed_form_says() {
         let (map, crossed) = crossings("fig03", name, Positive::Above, &zero);
         assert!(crossed.len() > 100, "{name}: {}", crossed.len());
         for (strength, gap) in crossed {
-            let law = Algebraic { strength, ..algebraic(&map) };
+            let law = Algebraic { mu: strength, ..algebraic(&map) };
             let linear = law.linearise(gap);
             let value = criteria::algebraic(&law, gap);
             assert!(value.abs() < ROUNDING * (0.5 + linear.phi + linear.kappa), "{name}: {value:e} at {gap}");
@@ -184,10 +184,10 @@ fn figures_5_and_6_change_sign_where_the_closed_form_says() {
             // a / b exp(-d' / b) = 1 / (2 (1 - a_v))
             let zero = |_: &Map, range: f64| range * math::exp(gap / range) / (2.0 * (1.0 - widening));
             let (map, crossed) = crossings(id, name, Positive::Above, &zero);
-            assert_eq!(exponential(&map).widening, widening);
+            assert_eq!(exponential(&map).a_v, widening);
             assert!(crossed.len() > 100, "{id} {name}: {}", crossed.len());
             for (strength, range) in crossed {
-                let law = Exponential { strength, range, ..exponential(&map) };
+                let law = Exponential { a: strength, b: range, ..exponential(&map) };
                 let value = criteria::exponential(&law, gap);
                 assert!(value.abs() < ROUNDING * (1.0 + gap / range), "{id} {name}: {value:e} at b = {range}");
             }
@@ -219,18 +219,18 @@ const SHARP: f64 = 1e-10;
 
 #[test]
 fn figure_9_changes_sign_where_the_closed_form_says() {
-    let left = |map: &Map, k: f64| stabilising_widening(logarithmic(map).desired_speed, one_plus_cos(k));
+    let left = |map: &Map, k: f64| stabilising_widening(logarithmic(map).v0, one_plus_cos(k));
     let (map, crossed) = crossings("fig09", "left", Positive::Below, &left);
     assert!(crossed.len() > 50, "{}", crossed.len());
     for (widening, k) in crossed {
-        assert_imaginary(&about(&Logarithmic { widening, ..logarithmic(&map) }), k, SHARP, "left");
+        assert_imaginary(&about(&Logarithmic { a_v: widening, ..logarithmic(&map) }), k, SHARP, "left");
     }
     // c v_0' / (2 d_0) (1 + cos k) = 1
     let right = |_: &Map, k: f64| 2.0 * (1.0 + C * (1.0 - 0.5 * HEADWAY)) / (C * one_plus_cos(k));
     let (map, crossed) = crossings("fig09", "right", Positive::Above, &right);
     assert!(crossed.len() > 100, "{}", crossed.len());
     for (desired_speed, k) in crossed {
-        assert_imaginary(&about(&Logarithmic { desired_speed, ..logarithmic(&map) }), k, SHARP, "right");
+        assert_imaginary(&about(&Logarithmic { v0: desired_speed, ..logarithmic(&map) }), k, SHARP, "right");
     }
 }
 
@@ -241,7 +241,7 @@ fn figure_10_changes_sign_where_the_closed_form_says() {
     let (map, crossed) = crossings("fig10", "map", Positive::Below, &zero);
     assert!(crossed.len() > 100, "{}", crossed.len());
     for (widening, desired_speed) in crossed {
-        let linear = about(&Logarithmic { widening, desired_speed, ..logarithmic(&map) });
+        let linear = about(&Logarithmic { a_v: widening, v0: desired_speed, ..logarithmic(&map) });
         let size = 1.0 + 2.0 * linear.phi + 2.0 * linear.beta;
         let margin = linear.long_wave_margin();
         assert!(margin.abs() < SHARP * size, "a_v = {widening}, v_0' = {desired_speed}: {margin:e}");
@@ -249,7 +249,7 @@ fn figure_10_changes_sign_where_the_closed_form_says() {
     // and cell by cell
     let (map, table) = panel("fig10", "map");
     for row in table.rows() {
-        let linear = about(&Logarithmic { widening: row[0], desired_speed: row[1], ..logarithmic(&map) });
+        let linear = about(&Logarithmic { a_v: row[0], v0: row[1], ..logarithmic(&map) });
         assert_eq!(row[2] > 0.0, linear.long_wave_margin() > 0.0, "{row:?}");
     }
 }

@@ -1,4 +1,4 @@
-//! Every error message about a scene file, verbatim: file, line, key, value, and what would be valid.
+//! Error messages about scene files: file, line, key, value, and what would be valid.
 
 use files::scene_file::{self, Kind};
 use ode::Method;
@@ -52,7 +52,7 @@ fn complaint(text: &str) -> Option<String> {
         let read = match panel.kind {
             Kind::Run => scene::run::read(&parsed.file, &panel.tables).map(|_| ()),
             Kind::Map => scene::map::read(&parsed.file, &panel.tables).map(|_| ()),
-            Kind::Sweep => scene::sweep::read(&parsed.file, &panel.tables).map(|_| ()),
+            Kind::Sweep => sweep::read(&parsed.file, &panel.tables).map(|_| ()),
             Kind::Curve => scene::curve::table(&parsed.file, &panel.tables).map(|_| ()),
             Kind::Drawing => Ok(()),
         };
@@ -228,7 +228,7 @@ fn complaints_about_closed_gaps_and_flows_that_do_not_exist() {
         &[(
             "a_v = 0.0",
             "a_v = 0.5",
-            ":10: ring.length = 200: no uniform flow at headway L/N = 3.125: at no speed from -1e12 v_0 to v_0 does the drive balance the force with room left; a longer ring, fewer pedestrians or a weaker force has a uniform flow",
+            ":10: ring.length = 200: no uniform flow at headway L/N = 3.125: at no speed from -1e12 v_0 to v_0 does the drive balance the force at a positive gap; a longer ring, fewer pedestrians or a weaker force has a uniform flow",
         )],
     );
 }
@@ -309,7 +309,7 @@ fn what_is_just_allowed_is_allowed() {
 
 #[test]
 fn complaints_about_the_whole_file() {
-    let known = "title, source, origin, panel, law, ring, start, run, uniform, map, curve, sweep";
+    let known = "title, source, origin, reads, panel, law, ring, start, run, uniform, map, curve, sweep";
     let tables = "law, ring, start, run, uniform, map, curve, sweep";
     assert_complaints(
         RUN,

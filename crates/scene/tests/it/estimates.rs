@@ -1,4 +1,4 @@
-//! Errors as estimated against errors as they are, in random scenes.
+//! Estimated errors against true errors, in random scenes.
 
 use jam::errors::Propagated;
 use jam::errors::{errors, errors_of};

@@ -10,9 +10,7 @@ fn read(parsed: &SceneFile) {
         match panel.kind {
             Kind::Run => drop(scene::run::read(&parsed.file, &panel.tables).unwrap_or_else(|error| panic!("{error}"))),
             Kind::Map => drop(scene::map::read(&parsed.file, &panel.tables).unwrap_or_else(|error| panic!("{error}"))),
-            Kind::Sweep => {
-                drop(scene::sweep::read(&parsed.file, &panel.tables).unwrap_or_else(|error| panic!("{error}")))
-            }
+            Kind::Sweep => drop(sweep::read(&parsed.file, &panel.tables).unwrap_or_else(|error| panic!("{error}"))),
             Kind::Curve => {
                 drop(scene::curve::table(&parsed.file, &panel.tables).unwrap_or_else(|error| panic!("{error}")));
             }

@@ -1,5 +1,5 @@
-//! The gallery of published laws: every scene is read, its verdict on the uniform flow is that of the whole ring's linear
-//! equations, and each law gives numbers that were found elsewhere.
+//! The gallery of published laws. Every scene is valid, its verdict on the uniform flow agrees with the linear
+//! equations of the whole ring, and each law reproduces numbers obtained elsewhere.
 
 use files::reader::{Entry, Section, Value};
 use files::scene_file::{self, Kind, SceneFile};

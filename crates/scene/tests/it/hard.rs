@@ -1,4 +1,4 @@
-//! Runs that fail, and runs at the edge: what they say, and that no table holds a number that is none.
+//! Runs that fail and runs at the edge: their messages, and that no table contains a NaN or an infinity.
 
 use files::table::Table;
 use jam::run::{Broken, Narrowest, Outcome, run};
@@ -79,9 +79,8 @@ fn a_run_of_too_many_steps_says_how_far_it_came() {
         let broken = attempt(law, "0.3", &steps).expect_err("too many steps");
         let ode::Failure::TooManySteps { time, steps } = broken.failure else { panic!("{method}: {broken}") };
         assert!(steps == most && time > 0.0 && time < 100.0 && broken.narrowest.is_some(), "{broken}");
-        let words = format!(
-            "{most} steps, as many as are allowed, reach t = {time:?} only; raise most_steps or the tolerance; smallest"
-        );
+        let words =
+            format!("{most} steps, the limit, reach only t = {time:?}; raise most_steps or the tolerance; smallest");
         assert!(broken.to_string().starts_with(&words), "{broken}");
     }
 }

@@ -1,5 +1,5 @@
-//! Tests of scenes: every complaint, the figures' own scenes, maps, curves, overrides, and runs against published curves
-//! and against a second method; checkpoints.
+//! Tests of scenes: error messages, the figures' scenes, maps, curves, overrides, checkpoints, and runs against
+//! published curves and a second method.
 
 mod cases;
 mod checkpoint;
@@ -14,7 +14,6 @@ mod hard;
 mod maps;
 mod outcome;
 mod overrides;
-mod pool;
 mod project;
 mod properties;
 mod published;

@@ -23,7 +23,7 @@ fn computed(text: &str) -> (scene::map::Map, scene::map::Computed) {
 }
 
 fn law(mu: f64, widening: f64) -> Algebraic {
-    Algebraic { strength: mu, relative: 0.0, power: 2.0, widening, epsilon: 0.1, desired_speed: 3.0 }
+    Algebraic { mu, delta: 0.0, q: 2.0, a_v: widening, epsilon: 0.1, v0: 3.0 }
 }
 
 #[test]
@@ -106,26 +106,25 @@ fn assert_axis(lines: &[&str], parameter: &str, with: impl Fn(f64) -> Model) {
 
 #[test]
 fn every_parameter_of_every_law_can_be_an_axis() {
-    let algebraic = Algebraic { relative: 0.25, widening: 0.125, power: 1.5, ..law(0.5, 0.0) };
+    let algebraic = Algebraic { delta: 0.25, a_v: 0.125, q: 1.5, ..law(0.5, 0.0) };
     let lines =
         ["kind = \"algebraic\"", "mu = 0.5", "delta = 0.25", "q = 1.5", "a_v = 0.125", "v0 = 3.0", "epsilon = 0.1"];
-    assert_axis(&lines, "mu", |strength| Model::Algebraic(Algebraic { strength, ..algebraic }));
-    assert_axis(&lines, "delta", |relative| Model::Algebraic(Algebraic { relative, ..algebraic }));
-    assert_axis(&lines, "q", |power| Model::Algebraic(Algebraic { power, ..algebraic }));
-    assert_axis(&lines, "a_v", |widening| Model::Algebraic(Algebraic { widening, ..algebraic }));
-    assert_axis(&lines, "v0", |desired_speed| Model::Algebraic(Algebraic { desired_speed, ..algebraic }));
-    let exponential =
-        Exponential { strength: 3.0, range: 1.5, contact: 0.5, widening: 0.125, epsilon: 0.1, desired_speed: 3.0 };
+    assert_axis(&lines, "mu", |strength| Model::Algebraic(Algebraic { mu: strength, ..algebraic }));
+    assert_axis(&lines, "delta", |relative| Model::Algebraic(Algebraic { delta: relative, ..algebraic }));
+    assert_axis(&lines, "q", |power| Model::Algebraic(Algebraic { q: power, ..algebraic }));
+    assert_axis(&lines, "a_v", |widening| Model::Algebraic(Algebraic { a_v: widening, ..algebraic }));
+    assert_axis(&lines, "v0", |desired_speed| Model::Algebraic(Algebraic { v0: desired_speed, ..algebraic }));
+    let exponential = Exponential { a: 3.0, b: 1.5, c: 0.5, a_v: 0.125, epsilon: 0.1, v0: 3.0 };
     let lines = ["kind = \"exponential\"", "a = 3.0", "b = 1.5", "c = 0.5", "a_v = 0.125", "v0 = 3.0", "epsilon = 0.1"];
-    assert_axis(&lines, "a", |strength| Model::Exponential(Exponential { strength, ..exponential }));
-    assert_axis(&lines, "b", |range| Model::Exponential(Exponential { range, ..exponential }));
-    assert_axis(&lines, "c", |contact| Model::Exponential(Exponential { contact, ..exponential }));
-    assert_axis(&lines, "a_v", |widening| Model::Exponential(Exponential { widening, ..exponential }));
-    assert_axis(&lines, "v0", |desired_speed| Model::Exponential(Exponential { desired_speed, ..exponential }));
-    let logarithmic = Logarithmic { desired_speed: 3.0, widening: 0.125, epsilon: 0.01 };
+    assert_axis(&lines, "a", |strength| Model::Exponential(Exponential { a: strength, ..exponential }));
+    assert_axis(&lines, "b", |range| Model::Exponential(Exponential { b: range, ..exponential }));
+    assert_axis(&lines, "c", |contact| Model::Exponential(Exponential { c: contact, ..exponential }));
+    assert_axis(&lines, "a_v", |widening| Model::Exponential(Exponential { a_v: widening, ..exponential }));
+    assert_axis(&lines, "v0", |desired_speed| Model::Exponential(Exponential { v0: desired_speed, ..exponential }));
+    let logarithmic = Logarithmic { v0: 3.0, a_v: 0.125, epsilon: 0.01 };
     let lines = ["kind = \"logarithmic\"", "a_v = 0.125", "v0 = 3.0", "epsilon = 0.01"];
-    assert_axis(&lines, "a_v", |widening| Model::Logarithmic(Logarithmic { widening, ..logarithmic }));
-    assert_axis(&lines, "v0", |desired_speed| Model::Logarithmic(Logarithmic { desired_speed, ..logarithmic }));
+    assert_axis(&lines, "a_v", |widening| Model::Logarithmic(Logarithmic { a_v: widening, ..logarithmic }));
+    assert_axis(&lines, "v0", |desired_speed| Model::Logarithmic(Logarithmic { v0: desired_speed, ..logarithmic }));
 }
 
 /// The growth rate of a law that answers to the gap alone, in double-double precision: `z^2 + z + phi (1 - e^{ik}) = 0` gives

@@ -1,4 +1,4 @@
-//! What became of a run: every class from a scene that is known to end in it.
+//! Outcomes: every class, from a scene that is known to end in it.
 
 use files::scene_file;
 use jam::outcome::{Class, Decision, Verdict};

@@ -1,4 +1,4 @@
-//! Values of the command line on top of a scene.
+//! Command-line values override those of a scene.
 
 use crate::project::{figure, scene};
 use jam::states::StateVariables;

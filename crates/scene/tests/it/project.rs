@@ -1,4 +1,4 @@
-//! The project's own scene files, and scenes made of them.
+//! The project's scene files, and scenes derived from them.
 
 use files::scene_file::{self, Kind, SceneFile};
 use jam::run::Outcome;

@@ -176,7 +176,7 @@ fn fate(text: &str) -> String {
                 "map: Broken".to_owned()
             }
         }),
-        Kind::Sweep => scene::sweep::read(&parsed.file, &panel.tables).map(|_| "sweep: Whole".to_owned()),
+        Kind::Sweep => sweep::read(&parsed.file, &panel.tables).map(|_| "sweep: Whole".to_owned()),
         Kind::Curve => scene::curve::table(&parsed.file, &panel.tables).map(|_| "curve: Whole".to_owned()),
         Kind::Drawing => panic!("no drawing was asked for"),
     };

@@ -1,5 +1,5 @@
-//! What the figures print, against the reference solutions (data/reference/solutions): every sample of every curve, all
-//! pedestrians at some times, and the times of the events.
+//! The numbers in the figures against the reference solutions (data/reference/solutions): every sample of every curve,
+//! all pedestrians at some times, and the times of the events.
 
 use crate::project::{figure, root, scene};
 use files::table::Table;

@@ -1,4 +1,4 @@
-//! Runs: two methods against each other, events, what a run records.
+//! Runs: two methods against each other, events, and what a run records.
 
 use crate::project::{figure, jams, scene, with_check};
 use files::table::Table;
@@ -204,7 +204,7 @@ fn tables_have_a_row_for_every_sample() {
     let speeds: Vec<f64> =
         tables::trajectories(&run.samples).rows().filter(|row| row[0] == 7.5).map(|row| row[3]).collect();
     let std = run.samples.iter().find(|sample| sample.time == 7.5).expect("the sample").std;
-    assert!((jam::observe::spread(&speeds) - std).abs() < 1e-14);
+    assert!((jam::observe::speed_std(&speeds) - std).abs() < 1e-14);
 }
 
 #[test]

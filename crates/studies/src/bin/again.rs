@@ -1,15 +1,15 @@
-//! Runs some cells of a committed plane again: those that were filled in without a run, or those that were run, under a
-//! scene with other numerics. Prints a row of `data/outcomes/how_sure.csv`: how many cells, how many have another outcome, and
-//! of how many both outcomes are decided.
+//! Runs some cells of a committed plane again, under a scene with other numerics: cells that were filled in without a
+//! run, or cells that were run. It prints a row of `data/outcomes/how_sure.csv`: the number of cells, the number with
+//! another outcome, and of these the number in which both outcomes are decided.
 
 use clap::{Parser, ValueEnum};
 use figures::failure::{Failure, exit, print};
-use figures::planes::cells_of;
 use files::scene_file;
 use jam::outcome::Class;
-use scene::sweep::{self, DecidedBy};
+use planes::picture::cells_of;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use sweep::DecidedBy;
 
 /// What the command line asks for.
 #[derive(Debug, Parser)]

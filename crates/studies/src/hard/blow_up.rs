@@ -1,4 +1,5 @@
-//! Case 1: the blow-up of the unstable algebraic run of figure 4. Each pedestrian thrown back hits the next twice as fast.
+//! Case 1: the blow-up of the unstable algebraic run of figure 4. Each pedestrian that is thrown back hits the next one
+//! twice as fast.
 
 use super::Tables;
 use super::rows::{Rows, row};

@@ -6,7 +6,7 @@ use super::run::{Case, Leg, difference, two_methods};
 use figures::failure::Failure;
 use jam::laws::Model;
 use jam::laws::presets::PRESETS;
-use jam::observe::spread;
+use jam::observe::speed_std;
 use jam::ring::Ring;
 use jam::states::StateVariables;
 use jam::uniform::steady_speed;
@@ -52,7 +52,7 @@ pub fn tables(quick: bool) -> Result<Tables, Failure> {
             linear.fastest(ring.pedestrians).0,
             one.steps,
             event,
-            spread(&one.speeds),
+            speed_std(&one.speeds),
             mean,
             difference(&one.speeds, &two.speeds)
         ]);

@@ -1,4 +1,4 @@
-//! Case 1, continued: what steps of fixed length make of the blow-up, and when they call it an overlap.
+//! Case 1, continued: what fixed steps report near the blow-up, and when they report an overlap.
 
 use super::Tables;
 use super::blow_up::{NEAR, SHIFT, case, near};

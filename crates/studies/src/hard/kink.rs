@@ -1,4 +1,4 @@
-//! Case 3: the width of the smooth ramp goes to 0 and the right-hand side to a kink: how the orders of the schemes fall.
+//! Case 3: the order of each scheme as the width of the smooth ramp goes to 0 and the right-hand side acquires a kink.
 
 use super::Tables;
 use super::rows::{Rows, row};
@@ -17,7 +17,7 @@ const MOST: u32 = 12;
 
 /// Eight pedestrians a little closer than where the logarithmic force begins: the gaps that open cross the kink twice.
 fn case(epsilon: f64) -> Case {
-    let model = Model::Logarithmic(Logarithmic { desired_speed: 1.0, widening: 0.0, epsilon });
+    let model = Model::Logarithmic(Logarithmic { v0: 1.0, a_v: 0.0, epsilon });
     Case { model, ring: Ring { pedestrians: 8, length: 15.0 }, kind: StateVariables::Spacings }
 }
 

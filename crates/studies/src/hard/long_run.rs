@@ -1,4 +1,4 @@
-//! Case 7: long runs: drift of the sum of the gaps and of the mean speed, in every form of the state.
+//! Case 7: long runs: drift of the sum of the spacings and of the mean speed, in every form of the state.
 
 use super::Tables;
 use super::fixed_steps::name;
@@ -6,7 +6,7 @@ use super::rows::{Rows, row};
 use super::run::{Case, Ended, Leg, two_methods};
 use figures::failure::Failure;
 use jam::laws::{Algebraic, Logarithmic, Model};
-use jam::observe::spread;
+use jam::observe::speed_std;
 use jam::ring::Ring;
 use jam::states::StateVariables;
 use jam::uniform::steady_speed;
@@ -17,9 +17,8 @@ const END: f64 = 1e5;
 
 /// A stable ring, which settles, and one with a jam, which does not.
 fn rings() -> [(&'static str, Model, Ring); 2] {
-    let stable =
-        Algebraic { strength: 0.45, relative: 0.0, power: 2.0, widening: 0.0, epsilon: 0.1, desired_speed: 3.0 };
-    let jammed = Logarithmic { desired_speed: 1.0, widening: 0.0, epsilon: 0.01 };
+    let stable = Algebraic { mu: 0.45, delta: 0.0, q: 2.0, a_v: 0.0, epsilon: 0.1, v0: 3.0 };
+    let jammed = Logarithmic { v0: 1.0, a_v: 0.0, epsilon: 0.01 };
     [
         ("algebraic", Model::Algebraic(stable), Ring { pedestrians: 10, length: 30.0 }),
         ("logarithmic", Model::Logarithmic(jammed), Ring { pedestrians: 10, length: 15.0 }),
@@ -58,7 +57,7 @@ pub fn tables(quick: bool) -> Result<Tables, Failure> {
             ] {
                 let expected = if is_stable { steady } else { mean(&other.speeds) };
                 let (sum, speed) = (drift(run, ring), mean(&run.speeds));
-                let std = spread(&run.speeds);
+                let std = speed_std(&run.speeds);
                 let state = name(kind);
                 rows.push(row![
                     law,

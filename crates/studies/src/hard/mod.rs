@@ -1,5 +1,5 @@
-//! The hard cases as tables: what happens there, and what each scheme does (discussed in the numerical supplement).
-//! A number is computed in two independent ways wherever one is printed; the table has their difference.
+//! Tables of the hard cases: what happens in each, and what each scheme does (discussed in the numerical supplement).
+//! Every number is computed in two independent ways, and the table states their difference.
 
 mod blow_up;
 mod cfm;

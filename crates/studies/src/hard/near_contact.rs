@@ -1,4 +1,5 @@
-//! Case 2: two pedestrians, one running into the other: the room goes to 0+ and back, for several powers of the force.
+//! Case 2: one pedestrian runs into another: the gap shrinks to nearly 0 and opens again, for several exponents of the
+//! force.
 
 use super::Tables;
 use super::rows::{Rows, row};
@@ -14,14 +15,7 @@ const END: f64 = 1.0;
 
 /// `<0.55, 0, q, 0>` on a ring of two with much room, in gaps.
 fn case(q: f64) -> Case {
-    let model = Model::Algebraic(Algebraic {
-        strength: 0.55,
-        relative: 0.0,
-        power: q,
-        widening: 0.0,
-        epsilon: 0.1,
-        desired_speed: 3.0,
-    });
+    let model = Model::Algebraic(Algebraic { mu: 0.55, delta: 0.0, q, a_v: 0.0, epsilon: 0.1, v0: 3.0 });
     Case { model, ring: Ring { pedestrians: 2, length: 100.0 }, kind: StateVariables::Spacings }
 }
 

@@ -1,4 +1,4 @@
-//! Case 4: the smooth ramp over its whole range, against itself in numbers of 106 bits.
+//! Case 4: the smooth ramp over its whole range, against double-double arithmetic.
 
 use super::Tables;
 use super::rows::{Rows, row};

@@ -1,4 +1,4 @@
-//! Rows of cells, each made of a word, a number or an option of one.
+//! Rows of cells, each made from a word, a number or an optional number.
 
 pub use files::table::{Cell, Sheet as Rows};
 

@@ -1,4 +1,4 @@
-//! Runs of a ring as the hard cases need them: any form, any method, and what ended each.
+//! Runs of a ring for the hard cases: any form, any method, and the reason why each ended.
 
 use figures::failure::Failure;
 use jam::events::{Event, Watch};
@@ -88,7 +88,7 @@ impl Observer for Looking<'_> {
 /// The law of figure 4, `<mu, 0, 2, 0>`, with this `mu`.
 pub fn figure_4(strength: f64) -> Model {
     let (relative, power, widening, epsilon, desired_speed) = (0.0, 2.0, 0.0, 0.1, 3.0);
-    Model::Algebraic(Algebraic { strength, relative, power, widening, epsilon, desired_speed })
+    Model::Algebraic(Algebraic { mu: strength, delta: relative, q: power, a_v: widening, epsilon, v0: desired_speed })
 }
 
 impl Case {
@@ -134,14 +134,12 @@ impl Case {
     }
 
     fn failed(&self, failure: &ode::Failure, gaps: &[f64], speeds: &[f64]) -> Stop {
-        let (name, time, step) = match failure {
-            ode::Failure::NotFinite { time, step } => ("not_finite", *time, *step),
-            ode::Failure::StepTooSmall { time, step } => ("step_too_small", *time, *step),
-            ode::Failure::TooManySteps { time, .. } => ("too_many_steps", *time, 0.0),
-            ode::Failure::NoErrorEstimate(_) => ("no_error_estimate", 0.0, 0.0),
-            ode::Failure::NoSeries => ("no_series", 0.0, 0.0),
-            ode::Failure::NotResumable => ("not_resumable", 0.0, 0.0),
+        let (time, step) = match failure {
+            ode::Failure::NotFinite { time, step } | ode::Failure::StepTooSmall { time, step } => (*time, *step),
+            ode::Failure::TooManySteps { time, .. } | ode::Failure::NotConfirmed { time } => (*time, 0.0),
+            ode::Failure::NoErrorEstimate(_) | ode::Failure::NoSeries | ode::Failure::NotResumable => (0.0, 0.0),
         };
+        let name = failure.name();
         let room = |n: usize| self.model.effective_gap(gaps[n], speeds[n], speeds[(n + 1) % speeds.len()]);
         let pedestrian = (0..gaps.len()).min_by(|&a, &b| room(a).total_cmp(&room(b))).unwrap_or(0);
         Stop { name, time, pedestrian, gap: gaps[pedestrian], step }

@@ -1,4 +1,5 @@
-//! Case 8: rings of 2 to 1e6 pedestrians: in a short time nobody far from the shifted one knows the size of the ring.
+//! Case 8: rings of 2 to 1e6 pedestrians: in a short time the size of the ring has no effect far from the shifted
+//! pedestrian.
 
 use super::Tables;
 use super::rows::{Rows, row};

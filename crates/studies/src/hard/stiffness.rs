@@ -16,7 +16,7 @@ const END: f64 = 40.0;
 const ALLOWED: f64 = 1e-2;
 
 fn case(v0: f64) -> Case {
-    let model = Model::Logarithmic(Logarithmic { desired_speed: v0, widening: 0.0, epsilon: 0.01 });
+    let model = Model::Logarithmic(Logarithmic { v0, a_v: 0.0, epsilon: 0.01 });
     Case { model, ring: Ring { pedestrians: 20, length: 30.0 }, kind: StateVariables::Deviations }
 }
 

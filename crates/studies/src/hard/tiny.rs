@@ -1,4 +1,4 @@
-//! Case 12: perturbations too small for a square, and none at all.
+//! Case 12: perturbations whose square underflows, and no perturbation at all.
 
 use super::Tables;
 use super::fixed_steps::name;
@@ -15,9 +15,9 @@ const END: f64 = 20.0;
 
 fn models() -> [(Model, f64); 3] {
     let (widening, epsilon) = (0.0, 0.1);
-    let algebraic = Algebraic { strength: 0.55, relative: 0.0, power: 2.0, widening, epsilon, desired_speed: 3.0 };
-    let exponential = Exponential { strength: 3.0, range: 1.5, contact: 0.0, widening, epsilon, desired_speed: 3.0 };
-    let logarithmic = Logarithmic { desired_speed: 1.0, widening, epsilon: 0.01 };
+    let algebraic = Algebraic { mu: 0.55, delta: 0.0, q: 2.0, a_v: widening, epsilon, v0: 3.0 };
+    let exponential = Exponential { a: 3.0, b: 1.5, c: 0.0, a_v: widening, epsilon, v0: 3.0 };
+    let logarithmic = Logarithmic { v0: 1.0, a_v: widening, epsilon: 0.01 };
     [
         (Model::Algebraic(algebraic), 30.0),
         (Model::Exponential(exponential), 35.0),

@@ -1,5 +1,4 @@
-//! Case 9: space requirements that grow with speed: `a_v >= 1` is stable whatever the force; negative speeds make
-//! `a_n + a_{n+1}` vanish.
+//! Case 9: velocity-dependent size: `a_v >= 1` is stable for any force; negative speeds make `a_n + a_{n+1}` vanish.
 
 use super::Tables;
 use super::fixed_steps::name;
@@ -7,19 +6,19 @@ use super::rows::{Rows, row};
 use super::run::{Case, Leg, difference, two_methods};
 use figures::failure::Failure;
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
-use jam::observe::spread;
+use jam::observe::speed_std;
 use jam::ring::Ring;
 use jam::states::{StateVariables, gaps_state};
 use jam::uniform::steady_speed;
 
 fn algebraic(strength: f64, widening: f64) -> Model {
     let power = 2.0;
-    Model::Algebraic(Algebraic { strength, relative: 0.0, power, widening, epsilon: 0.1, desired_speed: 3.0 })
+    Model::Algebraic(Algebraic { mu: strength, delta: 0.0, q: power, a_v: widening, epsilon: 0.1, v0: 3.0 })
 }
 
 fn exponential(strength: f64, widening: f64) -> Model {
     let (range, contact) = (0.5, 0.0);
-    Model::Exponential(Exponential { strength, range, contact, widening, epsilon: 0.1, desired_speed: 3.0 })
+    Model::Exponential(Exponential { a: strength, b: range, c: contact, a_v: widening, epsilon: 0.1, v0: 3.0 })
 }
 
 /// Stability against `a_v`, and what a pair does that walks backwards.
@@ -55,7 +54,7 @@ fn stability(quick: bool) -> Result<Rows, Failure> {
                 let run = |(method, control)| case.run_from(&start, Leg { method, control, begin: 0.0, end });
                 let [one, two] = two_methods(1e-11).map(run);
                 let is_whole = one.stop.is_none() && two.stop.is_none();
-                let std = is_whole.then(|| spread(&one.speeds));
+                let std = is_whole.then(|| speed_std(&one.speeds));
                 let off = is_whole.then(|| difference(&one.speeds, &two.speeds));
                 let (margin, growth) = (linear.long_wave_margin(), linear.fastest(1000).0);
                 rows.push(row![model.name(), widening, strength, speed, linear.phi, margin, growth, std, off]);
@@ -69,7 +68,7 @@ fn stability(quick: bool) -> Result<Rows, Failure> {
 fn negative() -> Rows {
     let mut rows = Rows::new(&["law", "v", "space", "room", "acceleration"]);
     let a_v = 0.5;
-    let logarithmic = Model::Logarithmic(Logarithmic { desired_speed: 3.0, widening: a_v, epsilon: 0.01 });
+    let logarithmic = Model::Logarithmic(Logarithmic { v0: 3.0, a_v, epsilon: 0.01 });
     for model in [algebraic(0.55, a_v), exponential(3.0, a_v), logarithmic] {
         for off in [1.0, 1e-1, 1e-3, 1e-6, 0.0, -1e-6, -1e-3, -1e-1, -1.0] {
             let v = -1.0 / a_v + off;
@@ -87,7 +86,7 @@ fn backwards() -> Result<Rows, Failure> {
     let mut rows =
         Rows::new(&["law", "state", "start_speed", "event", "t", "n", "gap", "least_speed_at_10", "uncertainty"]);
     let a_v = 0.5;
-    let logarithmic = Model::Logarithmic(Logarithmic { desired_speed: 1.0, widening: a_v, epsilon: 0.01 });
+    let logarithmic = Model::Logarithmic(Logarithmic { v0: 1.0, a_v, epsilon: 0.01 });
     for model in [algebraic(0.55, a_v), exponential(1.0, a_v), logarithmic] {
         for speed in [-1.0, -4.0] {
             let ring = Ring { pedestrians: 5, length: 30.0 };

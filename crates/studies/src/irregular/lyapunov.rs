@@ -1,5 +1,5 @@
-//! The largest Lyapunov exponent of a run: how fast two that began side by side part, brought close again and again
-//! (Benettin's method).
+//! The largest Lyapunov exponent of a run by Benettin's method: two neighbouring trajectories diverge and are
+//! repeatedly brought close again.
 
 use super::Scheme;
 use crate::draw::Draw;
@@ -95,8 +95,7 @@ mod tests {
 
     #[test]
     fn in_a_stable_flow_the_exponent_is_the_growth_rate_of_the_slowest_wave() {
-        let law =
-            Algebraic { strength: 0.2, relative: 0.0, power: 2.0, widening: 0.0, epsilon: 0.1, desired_speed: 3.0 };
+        let law = Algebraic { mu: 0.2, delta: 0.0, q: 2.0, a_v: 0.0, epsilon: 0.1, v0: 3.0 };
         let (model, ring) = (Model::Algebraic(law), Ring { pedestrians: 8, length: 24.0 });
         let speed = steady_speed(&model, 3.0).expect("a steady speed");
         let (_, rate) = model.response(3.0, speed).expect("a linearised law").of_ring(8);

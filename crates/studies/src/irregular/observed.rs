@@ -1,10 +1,10 @@
-//! What is looked at while the waves run.
+//! The quantities observed while the waves run.
 
 use super::Scheme;
 use crate::hard::rows::{Rows, row};
 use crate::hard::run::{Case, difference};
 use figures::failure::Failure;
-use jam::observe::spread;
+use jam::observe::speed_std;
 use jam::ring::Start;
 use jam::states::RingSystem;
 use ode::{Observer, Problem, Sampler, Step, integrate};
@@ -30,10 +30,9 @@ pub(super) struct Window {
     pub largest_speed: f64,
 }
 
-/// Successive windows, so many and so long, of a run from a state at a time, and its last state.
+/// Successive windows of a run from a given state and time, with the given number and length, and its last state.
 ///
-/// # Errors
-/// The run failed, or somebody was touched.
+/// # Errors The run failed, or two pedestrians touched.
 pub(super) fn windows(
     case: &Case,
     start: &[f64],
@@ -57,7 +56,7 @@ pub(super) fn windows(
                 window.least_gap = (0..gaps.len()).map(room).fold(window.least_gap, math::smaller);
                 window.least_speed = speeds.iter().copied().fold(window.least_speed, math::smaller);
                 window.largest_speed = speeds.iter().copied().fold(window.largest_speed, math::larger);
-                window.std += spread(speeds);
+                window.std += speed_std(speeds);
                 moments += 1.0;
             })?;
             window.std /= moments;

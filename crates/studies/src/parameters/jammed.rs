@@ -55,7 +55,7 @@ impl Run {
     /// The law.
     pub fn model(&self) -> Model {
         let (desired_speed, epsilon) = (self.desired_speed, self.epsilon);
-        Model::Logarithmic(Logarithmic { desired_speed, widening: 0.0, epsilon })
+        Model::Logarithmic(Logarithmic { v0: desired_speed, a_v: 0.0, epsilon })
     }
 
     /// The ring.
@@ -107,7 +107,7 @@ pub struct Jammed {
     pub plateau: Option<f64>,
     /// When the standard deviation of the speeds passes [`ONSET`], linear between samples.
     pub onset: Option<f64>,
-    /// The least speed of anybody in the late time, at samples.
+    /// The least speed at the samples late in the run.
     pub slowest: Option<f64>,
     /// The largest.
     pub fastest: Option<f64>,
@@ -115,7 +115,7 @@ pub struct Jammed {
 
 /// How much of the end of a run is late.
 pub const LATE: f64 = 500.0;
-/// For how long jams must have been followed for their speed to be told.
+/// The least time for which jams must be followed to measure their speed.
 pub const FOLLOWED: f64 = 50.0;
 /// The standard deviation at which jams count as formed: a tenth of the desired speed of figure 13.
 pub const ONSET: f64 = 0.1;

@@ -1,6 +1,6 @@
-//! How far the jams of figures 11 to 13 depend on what was chosen: the run of those figures with one number changed at a
-//! time. Every row is computed by two methods that share no coefficients; the columns that end in `_error` are the
-//! differences of the two.
+//! How the jams of figures 11 to 13 depend on the choices made: the run of those figures with one number changed at a
+//! time. Two methods without common coefficients compute every row; the columns that end in `_error` hold their
+//! differences.
 
 pub mod jammed;
 
@@ -15,7 +15,7 @@ use ode::{Control, Method};
 /// The local error of the runs of the tables, relative to the perturbation.
 const TOLERANCE: f64 = 1e-9;
 
-/// What a row says after the number that was changed.
+/// The cells of a row after the number that was changed.
 const OBSERVED: [&str; 20] = [
     "steady_speed",
     "growth_rate",
@@ -96,7 +96,7 @@ fn tolerances(main: &Run) -> Result<Rows, Failure> {
 /// How long the jams are followed, and how often.
 const LONG: (f64, f64) = (10_000.0, 100.0);
 
-/// The number of jams as time goes on, far beyond the end of the figures.
+/// The number of jams against time, far beyond the end of the figures.
 fn times(main: &Run) -> Result<Rows, Failure> {
     let long = Run { end: LONG.0, sample: LONG.1, ..*main };
     let (one, other) = two(&long)?;

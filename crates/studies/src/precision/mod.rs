@@ -46,7 +46,7 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// A method goes on to finer steps while its last run took less than half of these right-hand sides.
+    /// A method continues to finer steps while its last run took less than half of these right-hand sides.
     fn most(&self) -> u64 {
         match (self.quick, self.full) {
             (true, _) => 20_000,
@@ -139,7 +139,7 @@ impl Problem {
     }
 }
 
-/// How often a run of so many seconds is made again.
+/// The number of repetitions of a run that takes the given number of seconds.
 fn repeats(seconds: f64) -> u32 {
     match seconds {
         s if s < 0.02 => 9,

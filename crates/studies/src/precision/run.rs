@@ -1,9 +1,9 @@
-//! One run: what it costs and how far it is from the solution.
+//! One run: its cost, and its distance from the solution.
 
 use super::scenes::Instant;
 use cpu_time::ProcessTime;
 use jam::events::{EventKind, Watch};
-use jam::observe::spread;
+use jam::observe::speed_std;
 use jam::states::StateVariables;
 use math::double_double::DoubleDouble;
 use ode::{Control, Method, Observer, Problem, Sampler, Step, integrate};
@@ -65,14 +65,7 @@ pub fn measure(scene: &Scene, method: Method, control: Control, solution: &[Inst
     let clock = ProcessTime::now();
     let result = integrate(&problem, &mut judge);
     let seconds = clock.elapsed().as_secs_f64();
-    let failed = result.as_ref().err().map(|failure| match failure {
-        ode::Failure::NotFinite { .. } => "not_finite",
-        ode::Failure::StepTooSmall { .. } => "step_too_small",
-        ode::Failure::TooManySteps { .. } => "too_many_steps",
-        ode::Failure::NoSeries => "no_series",
-        ode::Failure::NoErrorEstimate(_) => "no_error_estimate",
-        ode::Failure::NotResumable => "not_resumable",
-    });
+    let failed = result.as_ref().err().map(ode::Failure::name);
     let statistics = result.ok();
     // an event in the last step may come after the last sample, or with it
     let is_whole = judge.passed == solution.len() && judge.stop.is_none();
@@ -95,7 +88,7 @@ impl Observer for Judge<'_> {
         let Judge { solution, pedestrians, sampler, passed, worst, std, .. } = self;
         let end = if until < step.end { until } else { step.end };
         sampler.within(step, end, &mut |time, state| {
-            std.push(spread(&state[*pedestrians..2 * *pedestrians]));
+            std.push(speed_std(&state[*pedestrians..2 * *pedestrians]));
             if let Some(instant) = solution.get(*passed).filter(|instant| (instant.time - time).abs() < 1e-9) {
                 let (gap, speed) = distance(instant, state);
                 *worst = (larger(worst.0, gap), larger(worst.1, speed));

@@ -1,4 +1,4 @@
-//! The six scenes with a solution to 20 digits, and that solution.
+//! The six scenes whose solutions are known to 20 digits, and those solutions.
 
 use figures::failure::Failure;
 use files::scene_file;

@@ -1,4 +1,4 @@
-//! How far an error at the start has grown at a time, from the reference runs in numbers of 106 bits.
+//! How far an initial error has grown by a given time, from reference runs in double-double arithmetic.
 
 use super::Extent;
 use crate::hard::Tables;

@@ -1,5 +1,5 @@
-//! Heun's scheme four times: as the other runs have it, with compensated sums, in positions that are wrapped into the ring,
-//! and in numbers of 106 bits.
+//! Heun's scheme in four variants: standard, with compensated sums, in positions wrapped into the ring, and in
+//! double-double arithmetic.
 
 use figures::failure::Failure;
 use jam::states::RingSystem;

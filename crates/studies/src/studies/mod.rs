@@ -1,5 +1,5 @@
-//! Studies of errors: what rounding does to Heun's scheme, growth rates of waves against the linear theory, and how far
-//! an error grows (the numerical supplement of the report tells what the tables say).
+//! Studies of errors: the effect of rounding on Heun's scheme, growth rates of waves against the linear theory, and the
+//! growth of errors (discussed in the numerical supplement of the article).
 
 mod error_growth;
 mod heun;
@@ -142,12 +142,12 @@ impl Run {
     }
 
     /// The standard deviation of the speeds.
-    fn speed_deviation(&self) -> f64 {
+    fn speed_std(&self) -> f64 {
         match self.state {
-            State::RingSystem(_) => self.form.speed_deviation(&self.sum.state),
+            State::RingSystem(_) => self.form.speed_std(&self.sum.state),
             State::Wrapped => {
                 let positions = StateVariables::Positions.build(&self.model, self.ring);
-                positions.speed_deviation(&self.sum.state)
+                positions.speed_std(&self.sum.state)
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Growth rates of all waves, measured one by one in runs, against `Re z^+` of the linear theory.
+//! Growth rates of all waves, each measured in a run, against `Re z^+` of the linear theory.
 
 use super::{Extent, figure_4_stable};
 use crate::hard::Tables;
@@ -25,17 +25,9 @@ const LONGEST: f64 = 200.0;
 type Pair = (&'static str, [Model; 2], Ring);
 
 fn laws() -> [Pair; 3] {
-    let exponential = |strength| {
-        Model::Exponential(Exponential {
-            strength,
-            range: 1.5,
-            contact: 0.0,
-            widening: 0.0,
-            epsilon: 0.1,
-            desired_speed: 3.0,
-        })
-    };
-    let logarithmic = |desired_speed| Model::Logarithmic(Logarithmic { desired_speed, widening: 0.0, epsilon: 0.01 });
+    let exponential =
+        |strength| Model::Exponential(Exponential { a: strength, b: 1.5, c: 0.0, a_v: 0.0, epsilon: 0.1, v0: 3.0 });
+    let logarithmic = |desired_speed| Model::Logarithmic(Logarithmic { v0: desired_speed, a_v: 0.0, epsilon: 0.01 });
     let ring = |pedestrians| Ring { pedestrians, length: figure_4_stable().1.length };
     [
         ("mode_growth_algebraic", [0.45, 0.55].map(figure_4), ring(67)),

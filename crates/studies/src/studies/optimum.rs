@@ -1,4 +1,4 @@
-//! The step with the smallest error, found in the table of rounding and predicted from its longest step.
+//! The step with the smallest error: found in the table of rounding, and predicted from its longest step.
 
 use super::STATES;
 use crate::hard::rows::{Rows, row};

@@ -13,7 +13,7 @@ use std::path::Path;
 
 /// The numbers of steps in a unit of time: steps of 1e-1 to 1e-5.
 const PER_UNIT: [f64; 13] = [1e1, 2e1, 5e1, 1e2, 2e2, 5e2, 1e3, 2e3, 5e3, 1e4, 2e4, 5e4, 1e5];
-/// The first so many are run without rounding; the truncation of shorter ones follows from the last three of these.
+/// Number of steps that are run without rounding; the truncation of shorter ones follows from the last three of these.
 const WITHOUT_ROUNDING: usize = 5;
 /// The times of the rows.
 const TIMES: [f64; 3] = [500.0, 1000.0, 2000.0];

@@ -1,4 +1,4 @@
-//! The reference solution of figure 4's stable run, and states of all forms as it writes them.
+//! The reference solution of figure 4's stable run, and its states in every form.
 
 use super::{Run, State};
 use figures::failure::Failure;
@@ -24,7 +24,7 @@ pub fn exact_scene() -> Result<Scene, Failure> {
     scene(NAME, Parameters::Doubles).ok_or_else(|| Failure::work(format!("no scene {NAME}")))
 }
 
-/// The state at a whole time from the folder of solutions: clearances, speeds, and a place that nobody compares.
+/// The state at a whole time from the folder of solutions: clearances, speeds, and a position that is not compared.
 ///
 /// # Errors
 /// The table cannot be read, or has no such time.

@@ -1,5 +1,5 @@
-//! The standard deviation of figure 4, stable panel, by the scheme of the paper in positions, unwrapped and wrapped into the
-//! ring, beside the true one.
+//! The standard deviation of figure 4, stable panel, by the scheme of the paper in positions, unwrapped and wrapped
+//! into the ring, beside the true values.
 
 use super::heun::Adding;
 use super::{Extent, Run, State, solution};
@@ -35,10 +35,10 @@ pub fn tables(extent: Extent, solutions: &Path) -> Result<Tables, Failure> {
 /// The standard deviations at multiples of [`SAMPLE`], from 0.
 fn curve(state: State, count: usize) -> Result<Vec<f64>, Failure> {
     let mut run = Run::new(state);
-    let mut found = vec![run.speed_deviation()];
+    let mut found = vec![run.speed_std()];
     for _ in 0..count {
         run.advance(STEP, SAMPLE, Adding::Plain)?;
-        found.push(run.speed_deviation());
+        found.push(run.speed_std());
     }
     Ok(found)
 }

@@ -1,9 +1,8 @@
-//! Random laws: whether the criterion for long waves tells the stability of all of them, and what the two roots are.
+//! Random laws: whether the criterion for long waves decides the stability of all of them, and the two roots.
 
 use super::critical::{algebraic, wave_numbers};
 use crate::draw::Draw;
 use crate::hard::rows::{Rows, row};
-use figures::failure::Failure;
 use jam::criteria;
 use jam::laws::{Exponential, Logarithmic, Model};
 use jam::stability::Linear;
@@ -41,13 +40,13 @@ fn random_exponential(draw: &mut Draw, has_contact: bool) -> Option<Case> {
     let (strength, range) = (draw.between(0.0, 10.0), draw.between(0.1, 3.0));
     let (contact, widening) = (draw.between(0.0, 5.0), draw.between(0.0, 1.5));
     let contact = if has_contact { contact } else { 0.0 };
-    let law = Exponential { strength, range, contact, widening, epsilon: 0.1, desired_speed: 3.0 };
+    let law = Exponential { a: strength, b: range, c: contact, a_v: widening, epsilon: 0.1, v0: 3.0 };
     let gap = draw.between(0.05, 3.0);
     Some(Case { linear: law.linearise(gap), criterion: criteria::exponential(&law, gap) })
 }
 
 fn random_logarithmic(draw: &mut Draw) -> Option<Case> {
-    let law = Logarithmic { desired_speed: draw.between(0.1, 6.0), widening: draw.between(0.0, 1.0), epsilon: 0.01 };
+    let law = Logarithmic { v0: draw.between(0.1, 6.0), a_v: draw.between(0.0, 1.0), epsilon: 0.01 };
     let headway = draw.between(0.5, 2.5);
     let speed = steady_speed(&Model::Logarithmic(law), headway).ok()?;
     // the paper supposes a headway below the critical distance; with eps > 0 this means well below it
@@ -58,10 +57,7 @@ fn random_logarithmic(draw: &mut Draw) -> Option<Case> {
 
 /// Counts the laws whose largest growth rate over all waves has another sign than the margin for long waves (`wrong`), or
 /// than the paper's criterion (`paper_wrong`).
-///
-/// # Errors
-/// None; the tables share one type.
-pub fn all_waves() -> Result<Rows, Failure> {
+pub fn all_waves() -> Rows {
     let mut rows =
         Rows::new(&["law", "cases", "waves", "unstable", "wrong", "paper_wrong", "at_the_edge", "worst_is_long"]);
     for (name, make) in KINDS {
@@ -83,14 +79,11 @@ pub fn all_waves() -> Result<Rows, Failure> {
         }
         rows.push(row![name, cases, wave_numbers().count(), unstable, wrong, paper_wrong, edge, long]);
     }
-    Ok(rows)
+    rows
 }
 
 /// The two roots of the same laws at 64 wave numbers, and at `k = 0`.
-///
-/// # Errors
-/// None; the tables share one type.
-pub fn roots() -> Result<Rows, Failure> {
+pub fn roots() -> Rows {
     let mut rows = Rows::new(&[
         "law",
         "cases",
@@ -123,5 +116,5 @@ pub fn roots() -> Result<Rows, Failure> {
         }
         rows.push(row![name, cases, complex, below, grows, zeros, other, sign]);
     }
-    Ok(rows)
+    rows
 }

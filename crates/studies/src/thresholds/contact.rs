@@ -1,5 +1,5 @@
-//! Contacts of the logarithmic law: how speed relaxes once force and drive cancel, when pedestrians first touch, and from
-//! which desired speed on they do.
+//! Contacts under the logarithmic law: how the speed relaxes once force and drive cancel, when pedestrians first touch,
+//! and from which desired speed on.
 
 use crate::hard::rows::{Rows, row};
 use crate::hard::run::{Case, Leg, two_methods};
@@ -47,11 +47,11 @@ struct Touched {
     /// Its speed then, that of the one ahead.
     speed: f64,
     ahead: f64,
-    /// When somebody first walks backwards, if that comes within [`AFTER`].
+    /// The time of the first negative speed, if it comes within [`AFTER`].
     negative: Option<f64>,
 }
 
-/// How long a run goes on after the first contact.
+/// How long a run continues after the first contact.
 const AFTER: f64 = 50.0;
 
 /// How often the least speed is looked for.
@@ -64,7 +64,7 @@ struct Seen {
     touched: Option<Touched>,
     /// The least speed at multiples of [`SAMPLE`] before the first contact, from [`STARTED`] on: all start at rest.
     least: f64,
-    /// When somebody walks backwards before any contact.
+    /// The time of the first negative speed before any contact.
     negative_before: Option<f64>,
 }
 

@@ -12,7 +12,7 @@ use std::f64::consts::{E, LN_2, PI};
 pub enum Waves {
     /// All: the long ones are the first.
     All,
-    /// Those of a ring of so many pedestrians.
+    /// The waves of a ring of N pedestrians.
     Ring(usize),
 }
 
@@ -53,12 +53,12 @@ pub fn bisect(is_unstable: &dyn Fn(f64) -> bool, mut low: f64, mut high: f64) ->
 
 /// The algebraic law `<mu, delta, q, a_v>` with the regularisation of the paper.
 pub fn algebraic(strength: f64, (relative, power, widening): (f64, f64, f64)) -> Algebraic {
-    Algebraic { strength, relative, power, widening, epsilon: 0.1, desired_speed: 3.0 }
+    Algebraic { mu: strength, delta: relative, q: power, a_v: widening, epsilon: 0.1, v0: 3.0 }
 }
 
 /// The exponential law `<a, b, 0, a_v>`.
 pub fn exponential(strength: f64, range: f64, widening: f64) -> Exponential {
-    Exponential { strength, range, contact: 0.0, widening, epsilon: 0.1, desired_speed: 3.0 }
+    Exponential { a: strength, b: range, c: 0.0, a_v: widening, epsilon: 0.1, v0: 3.0 }
 }
 
 /// The linearised logarithmic law in the uniform flow of this headway, `eps` = 0.01 as in the paper.
@@ -66,7 +66,7 @@ pub fn exponential(strength: f64, range: f64, widening: f64) -> Exponential {
 /// # Errors
 /// There is no uniform flow.
 pub fn logarithmic(desired_speed: f64, widening: f64, headway: f64) -> Result<Linear, Failure> {
-    let model = Model::Logarithmic(Logarithmic { desired_speed, widening, epsilon: 0.01 });
+    let model = Model::Logarithmic(Logarithmic { v0: desired_speed, a_v: widening, epsilon: 0.01 });
     let speed = steady_speed(&model, headway).map_err(Failure::work)?;
     Ok(model.linearise(headway, speed))
 }
@@ -88,7 +88,7 @@ struct Asked {
 }
 
 impl Asked {
-    /// A row: found for so many pedestrians, 0 for all waves.
+    /// A row for a number of pedestrians, or 0 for all waves.
     fn row(&self, count: usize, found: Option<(f64, f64)>) -> Vec<Cell> {
         let Asked { quantity, law, delta, q, a_v, b, v0, d_gap, headway, closed } = *self;
         let (value, error) = (found.map(|found| found.0), found.map(|found| (found.0 - found.1).abs()));
@@ -190,7 +190,7 @@ fn closed_mu((delta, q, a_v): (f64, f64, f64), d: f64) -> Option<f64> {
 
 /// Without widening no steady speed is needed.
 fn logarithmic_without_widening(desired_speed: f64, headway: f64) -> Linear {
-    Logarithmic { desired_speed, widening: 0.0, epsilon: 0.01 }.linearise(headway, 0.0)
+    Logarithmic { v0: desired_speed, a_v: 0.0, epsilon: 0.01 }.linearise(headway, 0.0)
 }
 
 /// The largest widening at which the logarithmic law is still unstable: the last change on a grid, then bisection.
@@ -238,10 +238,7 @@ pub fn ring() -> Result<Rows, Failure> {
 
 /// What negative `delta` does: the critical strength of `<mu, delta, 2, 0>` at `d' = 1`, and the share of the square of
 /// figure 3 where some wave grows, of the cells with `gamma > 0`.
-///
-/// # Errors
-/// None; the tables share one type.
-pub fn minus_delta() -> Result<Rows, Failure> {
+pub fn minus_delta() -> Rows {
     let mut rows = Rows::new(&["delta", "critical_mu", "critical_mu_error", "cells", "unstable", "share"]);
     for i in -6..=6 {
         let delta = 0.25 * f64::from(i);
@@ -262,7 +259,7 @@ pub fn minus_delta() -> Result<Rows, Failure> {
         let off = found.zip(other).map(|(a, b)| (a - b).abs());
         rows.push(row![delta, found, off, cells, unstable, unstable as f64 / cells as f64]);
     }
-    Ok(rows)
+    rows
 }
 
 /// The largest growth rate over waves from very long to alternating ones.

@@ -1,5 +1,5 @@
-//! How close pedestrians of the logarithmic law come to each other in jams, and from which desired speed on they touch, at
-//! other densities: whether the headway in a jam, and the desired speed at which it closes, depend on the density.
+//! The least headway in jams of the logarithmic law, and the desired speed from which on pedestrians touch, at several
+//! densities: whether either depends on the density.
 
 use super::contact::bracket;
 use crate::hard::rows::{Rows, row};
@@ -40,8 +40,8 @@ pub fn collision_by_headway() -> Result<Rows, Failure> {
     Ok(rows)
 }
 
-/// The least headway between t = 100 and the end of the run; `zero_at` is the desired speed at which
-/// it would vanish if it went on falling as from the desired speed of the row before to that of this one.
+/// The least headway between t = 100 and the end of the run; `zero_at` is the desired speed at which it would vanish by
+/// linear extrapolation from the row before and this one.
 ///
 /// # Errors
 /// A run failed.

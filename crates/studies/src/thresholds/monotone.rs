@@ -1,4 +1,4 @@
-//! Along the axes of the maps: whether the value rises or falls from cell to cell.
+//! Whether values rise or fall from cell to cell along the axes of the maps.
 
 use crate::hard::rows::{Rows, row};
 use figures::failure::Failure;

@@ -1,5 +1,5 @@
-//! What a space requirement that grows with speed does to stability: at a given effective distance, as the figures of
-//! the paper show it, and at a given density, where it takes away distance.
+//! The effect of velocity-dependent size on stability: at a given effective gap, as in the figures of the paper, and at
+//! a given density, where it reduces the gap.
 
 use super::critical::{algebraic, exponential};
 use crate::hard::rows::{Rows, row};
@@ -19,10 +19,7 @@ type Widened = fn(f64) -> Model;
 
 /// The margin for long waves (negative: stable) and the largest growth rate on the ring, with the widening from 0 to 1 or
 /// as far as there is a uniform flow.
-///
-/// # Errors
-/// None; the tables share one type.
-pub fn table() -> Result<Rows, Failure> {
+pub fn table() -> Rows {
     let mut rows =
         Rows::new(&["law", "fixed", "a_v", "speed", "gap", "phi", "margin", "growth_rate", "growth_rate_error"]);
     let laws: [(&str, Widened, usize); 4] = [
@@ -53,11 +50,11 @@ pub fn table() -> Result<Rows, Failure> {
             }
         }
     }
-    Ok(rows)
+    rows
 }
 
-/// Unstable runs with a widening, from the start of the paper: what happens first, and how small anybody's space
-/// requirement `a_n' = 1 + a_v v_n` becomes until then.
+/// Unstable runs with a widening, from the start of the paper: the first event, and the least space requirement `a_n' =
+/// 1 + a_v v_n` until then.
 ///
 /// # Errors
 /// A run failed without an event.
@@ -155,22 +152,19 @@ impl RunObserver for Followed {
 
 /// What a smaller safety distance `a_0` and a longer `tau` do to the logarithmic law, in metres and seconds: pedestrians
 /// 0.9 m apart that want to walk 1.2 m/s. Both `v_0' = v_0 tau / a_0` and the headway in units of `a_0` change.
-///
-/// # Errors
-/// None; the tables share one type.
-pub fn safety() -> Result<Rows, Failure> {
+pub fn safety() -> Rows {
     let mut rows = Rows::new(&["varied", "a_0", "tau", "v0", "headway", "xi", "margin", "unstable"]);
     let mut push = |varied: &str, a_0: f64, tau: f64| {
         let (desired_speed, headway) = (1.2 * tau / a_0, 0.9 / a_0);
-        let linear = Logarithmic { desired_speed, widening: 0.0, epsilon: 0.01 }.linearise(headway, 0.0);
+        let linear = Logarithmic { v0: desired_speed, a_v: 0.0, epsilon: 0.01 }.linearise(headway, 0.0);
         let margin = linear.long_wave_margin();
         rows.push(row![varied, a_0, tau, desired_speed, headway, linear.phi, margin, usize::from(margin > 0.0)]);
     };
     (8..=40).for_each(|i| push("a_0", f64::from(i) / 40.0, 0.5));
     (1..=40).for_each(|i| push("tau", 0.6, f64::from(i) / 40.0));
-    Ok(rows)
+    rows
 }
 
 fn logarithmic(desired_speed: f64, widening: f64) -> Model {
-    Model::Logarithmic(Logarithmic { desired_speed, widening, epsilon: 0.01 })
+    Model::Logarithmic(Logarithmic { v0: desired_speed, a_v: widening, epsilon: 0.01 })
 }

@@ -1,4 +1,4 @@
-//! A dense system of linear equations.
+//! Solves a dense system of linear equations.
 
 /// Solves `matrix x = right`, row by row, by elimination with partial pivoting; `None` if the matrix is singular.
 pub(super) fn solve(mut matrix: Vec<f64>, mut right: Vec<f64>) -> Option<Vec<f64>> {

@@ -1,5 +1,6 @@
-//! Travelling waves of the algebraic law with relative speed on a ring, stable or not, without a run: from where the uniform
-//! flow becomes unstable, along their amplitude. Runs from some of them say whether they last.
+//! Travelling waves of the algebraic law with relative speed on a ring, stable or not, computed without runs: a branch
+//! is followed along its amplitude from the onset of instability. Runs that start from some of the waves show whether
+//! they last.
 
 mod elimination;
 mod presets;
@@ -9,7 +10,7 @@ use crate::hard::rows::{Cell, Rows, row};
 use crate::hard::run::two_methods;
 use figures::failure::Failure;
 use jam::laws::{Algebraic, Model};
-use jam::observe::spread;
+use jam::observe::speed_std;
 use jam::ring::Ring;
 use jam::stability::{Response, Waves};
 use jam::states::StateVariables;
@@ -29,7 +30,7 @@ const FINER: f64 = 1.5;
 const FIRST: [f64; 2] = [2e-4, 1e-4];
 /// A branch ends this far above the threshold, or at this amplitude.
 const LAST: [f64; 2] = [0.009, 0.4];
-/// And after so many tries.
+/// Largest number of tries.
 const TRIES: usize = 200;
 /// Steps of the amplitude grow by this factor where Newton's method needs few steps, and shrink where it fails.
 const GROWTH: f64 = 1.18;
@@ -37,7 +38,7 @@ const FEW: usize = 6;
 
 /// `<mu, 1, 2, 0>` at `v0' = 3`.
 fn law(strength: f64) -> Algebraic {
-    Algebraic { strength, relative: 1.0, power: 2.0, widening: 0.0, epsilon: 0.1, desired_speed: 3.0 }
+    Algebraic { mu: strength, delta: 1.0, q: 2.0, a_v: 0.0, epsilon: 0.1, v0: 3.0 }
 }
 
 /// The linearised law at this strength, with the steady speed.
@@ -158,16 +159,17 @@ pub fn tables() -> Result<[(&'static str, Rows); 4], Failure> {
                 wave.strength,
                 error,
                 wave.strength - critical,
-                spread(&wave.speeds),
+                speed_std(&wave.speeds),
                 slowest,
                 gap,
                 wave_speed
             ]);
         }
-        let onset = waves.first().map(|wave| spread(&wave.speeds) * spread(&wave.speeds) / (wave.strength - critical));
+        let onset =
+            waves.first().map(|wave| speed_std(&wave.speeds) * speed_std(&wave.speeds) / (wave.strength - critical));
         let highest = turn(&waves, |before, here, after| here >= before && here > after);
         let lowest = turn(&waves, |before, here, after| here <= before && here < after);
-        let [strength, std] = [|wave: &&Wave| wave.strength, |wave: &&Wave| spread(&wave.speeds)];
+        let [strength, std] = [|wave: &&Wave| wave.strength, |wave: &&Wave| speed_std(&wave.speeds)];
         turns.push(row![
             pedestrians as f64,
             critical,
@@ -216,14 +218,14 @@ fn lasts(family: &Family, wave: &Wave, pedestrians: usize) -> Result<Vec<Cell>, 
     let headway = headway_of_gap(&model, GAP).map_err(Failure::work)?;
     let form = StateVariables::Spacings.build(&model, Ring { pedestrians, length: headway * pedestrians as f64 });
     let [gaps, mut speeds] = [&family.gaps(wave), &wave.speeds].map(|values| resampled(values, pedestrians));
-    let began = spread(&speeds);
+    let began = speed_std(&speeds);
     speeds[0] += DISTURBED;
     let start: Vec<f64> = gaps.into_iter().chain(speeds).chain([0.0]).collect();
     let mut ends = [0.0; 2];
     for (end, (method, control)) in ends.iter_mut().zip(two_methods(1e-8)) {
         let problem = Problem { system: &*form, start: &start, begin: 0.0, end: END, method, control };
         let made = integrate(&problem, &mut watched_by_nobody).map_err(Failure::work)?;
-        *end = spread(&made.state[pedestrians..2 * pedestrians]);
+        *end = speed_std(&made.state[pedestrians..2 * pedestrians]);
     }
     let margin = response(wave.strength)?.0.margin(Waves::Ring(pedestrians)).0;
     Ok(row![pedestrians as f64, wave.strength, margin, END, began, ends[0], (ends[0] - ends[1]).abs()])

@@ -1,5 +1,5 @@
-//! The outcome of one run of each preset of the algebraic law (tab:model), beyond the threshold of its uniform flow if it
-//! has one.
+//! The outcome of one run for each preset of the algebraic law (tab:model), beyond the threshold of its uniform flow if
+//! it has one.
 
 use super::GAP;
 use crate::hard::rows::{Rows, row};
@@ -20,7 +20,7 @@ const PEDESTRIANS: usize = 67;
 const WIDENING: f64 = 0.1;
 /// How far beyond the threshold a run is.
 const BEYOND: f64 = 1.15;
-/// Where the threshold is looked for: so many strengths up to this one.
+/// The threshold is searched on a grid of strengths up to this one.
 const STEPS: u32 = 100;
 const STRONGEST: f64 = 2.0;
 /// The strength of the run of a preset whose uniform flow is stable with all of them.
@@ -34,7 +34,7 @@ pub(super) fn table() -> Result<Rows, Failure> {
     let mut rows =
         Rows::new(&["preset", "mu", "delta", "q", "a_v", "margin", "outcome", "t", "least_gap", "least_speed", "std"]);
     for preset in PRESETS {
-        let strength = match preset.strength {
+        let strength = match preset.mu {
             Some(strength) => strength,
             None => threshold(&preset)?.map_or(OTHERWISE, |threshold| BEYOND * threshold),
         };
@@ -60,10 +60,10 @@ pub(super) fn table() -> Result<Rows, Failure> {
         let verdict = outcome.verdict.ok_or_else(|| Failure::work("a run without an outcome"))?;
         rows.push(row![
             preset.name,
-            law.strength,
-            law.relative,
-            law.power,
-            law.widening,
+            law.mu,
+            law.delta,
+            law.q,
+            law.a_v,
             margin(&preset, strength)?,
             verdict.class.name(),
             verdict.time,

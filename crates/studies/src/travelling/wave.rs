@@ -17,7 +17,7 @@ pub(super) struct Wave {
     pub(super) amplitude: f64,
     /// The strength of the force.
     pub(super) strength: f64,
-    /// How fast the phase of everybody grows.
+    /// The rate at which the phase of all pedestrians grows.
     pub(super) frequency: f64,
     /// The speeds, at equidistant phases.
     pub(super) speeds: Vec<f64>,
@@ -44,7 +44,7 @@ const STEP: f64 = 1e-6;
 impl Family {
     /// The waves of the law without widening, at a gap of the uniform flow.
     pub(super) fn new(law: Algebraic, gap: f64, pedestrians: usize, points: usize) -> Family {
-        assert!(points % 2 == 1 && law.widening == 0.0, "an odd number of points, and gaps without speeds");
+        assert!(points % 2 == 1 && law.a_v == 0.0, "an odd number of points, and gaps without speeds");
         let apart = TAU / pedestrians as f64;
         let column = |part: &dyn Fn(f64, f64) -> f64, mean: f64| -> Vec<f64> {
             let phases = (0..points).map(|i| TAU * i as f64 / points as f64);
@@ -91,7 +91,7 @@ impl Family {
     /// derivatives row by row, and what is missing.
     fn equations(&self, wave: &Wave) -> (Vec<f64>, Vec<f64>) {
         let (points, size) = (self.points, self.points + 2);
-        let law = |strength: f64| Algebraic { strength, ..self.law };
+        let law = |strength: f64| Algebraic { mu: strength, ..self.law };
         let [slopes, ahead] = [&self.slope, &self.ahead].map(|column| product(column, &wave.speeds));
         let gaps = self.gaps(wave);
         let (mut matrix, mut right) = (vec![0.0; size * size], vec![0.0; size]);
@@ -135,7 +135,7 @@ fn product(column: &[f64], vector: &[f64]) -> Vec<f64> {
     (0..size).map(entry).collect()
 }
 
-/// The trigonometric polynomial through these values, at so many equidistant phases instead.
+/// The trigonometric polynomial through these values, at the given number of equidistant phases instead.
 pub(super) fn resampled(values: &[f64], points: usize) -> Vec<f64> {
     let size = values.len();
     let kernel = |offset: f64| 1.0 + 2.0 * (1..=size / 2).map(|k| math::cos(k as f64 * offset)).sum::<f64>();

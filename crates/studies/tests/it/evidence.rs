@@ -1,5 +1,5 @@
-//! What the ledger reads: critical values against formulas worked out by hand, jams seen at other samples, the maps that are
-//! counted, distances of curves.
+//! Tables that the ledger reads: critical values against formulas derived by hand, jams at other samples, counted maps,
+//! distances of curves.
 
 use crate::root;
 use files::scene_file::{self, Kind};
@@ -39,7 +39,7 @@ fn critical_values_are_those_of_the_formulas() {
     let a = |a: f64| exponential(a, 1.5, 0.0).linearise(1.5);
     assert_near(edge(&a, Waves::All), 0.75 * E, 1e-11, "a");
     // c v_0' / (2 d_0) = 1/2 with d_0 = 1 + c / 4
-    let v0 = |v0: f64| Logarithmic { desired_speed: v0, widening: 0.0, epsilon: 0.01 }.linearise(1.5, 0.0);
+    let v0 = |v0: f64| Logarithmic { v0, a_v: 0.0, epsilon: 0.01 }.linearise(1.5, 0.0);
     assert_near(edge(&v0, Waves::All), 1.0 / (E - 1.0) + 0.25, 1e-10, "v_0'");
 }
 

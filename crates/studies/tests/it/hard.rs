@@ -1,4 +1,4 @@
-//! The hard cases: each law that the numerical supplement of the report states, on the tables of a quick run of the program.
+//! The hard cases: each statement of the numerical supplement, on the tables of a quick run of the program.
 
 use crate::succeed;
 use files::table::Table;

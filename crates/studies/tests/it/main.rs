@@ -1,4 +1,4 @@
-//! The tables of the report of accuracy and the evidence for claims: what must be true of their numbers.
+//! Tests of the accuracy tables and of the evidence for claims.
 
 mod evidence;
 mod hard;

@@ -1,4 +1,4 @@
-//! Error against work: a quick run against the committed tables, and laws that these must follow.
+//! Error against work: a quick run against the committed tables, and relations that both must satisfy.
 
 use crate::{root, succeed};
 use math::double_double::DoubleDouble;

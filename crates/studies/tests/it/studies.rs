@@ -1,4 +1,5 @@
-//! The studies of errors: a quick run gives rows of the committed tables, and the tables say what the numerical supplement of the report says.
+//! Studies of errors: a quick run reproduces rows of the committed tables, and the tables support the numerical
+//! supplement.
 
 use crate::{root, succeed};
 use files::table::Table;

@@ -1,4 +1,4 @@
-//! Kept inputs of the fuzzers of readers of events and of tables of accuracy.
+//! Replays the stored fuzzer inputs of the readers of events and of accuracy tables.
 
 #[path = "../../../../fuzz/targets/events.rs"]
 mod events;

@@ -1,4 +1,4 @@
-//! Lists of sums, samples and distances.
+//! Lists of sums, samples, and distances.
 
 use checkout::sums::{State, Sums};
 use files::table::Sheet;

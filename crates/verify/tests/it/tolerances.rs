@@ -1,4 +1,4 @@
-//! Tolerances: derived again by their rules, and tried on other methods and other parameters.
+//! Tolerances: each is derived again by its rule, and all are tried on other methods and other parameters.
 
 use checkout::paths::Paths;
 use files::table::{Sheet, Table};

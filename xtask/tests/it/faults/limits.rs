@@ -1,4 +1,5 @@
-//! Full disks, folders that cannot be written, few files, little memory, wrong clocks, two runs at once, odd paths.
+//! Full disks, folders that cannot be written, few file handles, little memory, wrong clocks, two runs at once, odd
+//! paths.
 
 use super::Tally;
 use super::checkout::{Checkout, Ended, copy, make_executable, remove};

@@ -1,4 +1,4 @@
-//! Numbers that look random and are the same each time.
+//! Reproducible random numbers.
 
 /// SplitMix64.
 pub struct Random(u64);

@@ -1,5 +1,5 @@
-//! The force of a law that is a formula in a scene: its graph, carried out by rows of pedestrians, with the bits that the
-//! same formula has as a Rust function.
+//! The force of a law that is a formula in a scene. Its graph is evaluated over rows of pedestrians and gives the bits
+//! of the same formula written in Rust.
 
 pub mod program;
 mod rows;

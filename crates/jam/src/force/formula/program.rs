@@ -1,4 +1,4 @@
-//! A formula as a list of instructions on registers, each of which holds a number for every pedestrian of a row.
+//! A formula as a list of instructions on registers, each of which holds one number for every pedestrian of a row.
 
 use formula::{Binary, Bound, Id, Operation, Unary, Variable};
 use math::number::Number;
@@ -22,7 +22,7 @@ pub enum Source {
 /// What an instruction does with a number and a constant, with a number, or with two.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Action {
-    /// A number that is the same for everybody; the operand says nothing.
+    /// A number that is the same for all pedestrians; the operand is unused.
     Constant(f64),
     /// `x + c`
     AddConstant(f64),
@@ -63,7 +63,7 @@ pub struct Instruction {
     pub into: usize,
     /// The node of the graph that it belongs to, for messages.
     pub node: Id,
-    /// The register of its first operand, if nobody needs that any more.
+    /// The register of its first operand, if that is not needed any more.
     pub spent: Option<usize>,
 }
 
@@ -87,7 +87,7 @@ struct Builder<'a> {
 }
 
 impl Program {
-    /// The program of a root. Where the graph takes the contact off a spacing, the net gap is there already.
+    /// The program of a root. Where the graph subtracts the contact spacing, the net gap already exists.
     pub fn new(bound: &Bound, root: Id, contact: f64) -> Program {
         let needed = bound.needed(root);
         let sources = vec![None; bound.nodes().len()];
@@ -140,7 +140,7 @@ impl Program {
         false
     }
 
-    /// The same where all pedestrians are alike: everybody's variables are one's own.
+    /// The same for identical pedestrians: the variables of all of them are equal.
     pub fn of_uniform_flow(&self) -> Program {
         let own = |source: Source| match source {
             Source::Spacing { net, .. } => Source::Spacing { j: 0, net },
@@ -171,7 +171,7 @@ impl Program {
         variables
     }
 
-    /// Gives registers whose contents nobody needs any more to later instructions.
+    /// Reuses registers whose contents are not needed any more for later instructions.
     fn share_registers(&mut self) {
         let mut last_use = vec![0; self.instructions.len()];
         for (index, instruction) in self.instructions.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! A program carried out for a row of pedestrians: instruction by instruction, each a short loop.
+//! Executes a program for a row of pedestrians: each instruction is a short loop.
 
 use super::program::{Action, Program, Source};
 use formula::Unary;
@@ -77,7 +77,8 @@ impl Neighbours {
     }
 }
 
-/// The ring once around and so many places on, up to whole blocks. The reach is no larger than the ring.
+/// The whole ring followed by the first `reach` pedestrians again, filled up to whole blocks. The reach is at most the
+/// size of the ring.
 fn extend(reach: Reach, ring: &[f64], row: &mut Vec<f64>) {
     let n = ring.len();
     row.clear();
@@ -99,7 +100,7 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// With so many registers.
+    /// With the given number of registers.
     pub fn resize(&mut self, registers: usize) {
         self.registers.resize(registers, vec![0.0; LENGTH]);
     }

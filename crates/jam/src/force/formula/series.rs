@@ -1,4 +1,4 @@
-//! A program carried out for the coefficients of a series: order by order, instruction by instruction, each a loop over
+//! Executes a program for the coefficients of a series: order by order and instruction by instruction, each a loop over
 //! blocks of pedestrians.
 
 use super::program::{Action, Program, Source};

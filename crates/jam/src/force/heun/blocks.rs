@@ -1,4 +1,4 @@
-//! Rings larger than a cache: block by block, each many steps at a time, and on several threads.
+//! Heun's scheme on rings larger than a cache: block by block, many steps per block, on several threads.
 //!
 //! A step of Heun's scheme asks for two pedestrians ahead, never for one behind. So a block that is to make `m` steps
 //! takes `2 m` more from ahead with it as they are at the beginning, and makes some of their steps again: their last two
@@ -51,7 +51,7 @@ pub(super) fn in_blocks<L: Law>(law: L, steps: Steps, cut: Cut, state: &mut [f64
     true
 }
 
-/// As many steps of everybody as a block makes at a time.
+/// The number of steps that a block makes at a time.
 fn round<L: Law>(law: L, steps: Steps, cut: Cut, state: &mut [f64]) -> bool {
     let parts = parts(steps.count, cut.threads, state);
     if parts.len() == 1 {
@@ -157,7 +157,7 @@ fn block<L: Law>(
     let has_image = part.is_last && image < all;
     fill(&mut segment.now.positions, &part.positions[range.start..], &part.ahead.0, all, has_image);
     fill(&mut segment.now.speeds, &part.speeds[range.start..], &part.ahead.1, all, has_image);
-    // the place of the image is nobody's: what is computed for it is overwritten
+    // the ghost's place is not a pedestrian's: what is computed for it is overwritten
     let end = all + usize::from(has_image);
     for _ in 0..count {
         if has_image {

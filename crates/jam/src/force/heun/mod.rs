@@ -1,4 +1,5 @@
-//! Many steps of Heun's scheme in positions and speeds at once: the scheme of the paper, 3e8 steps of it a run.
+//! Many steps of Heun's scheme in positions and speeds at once. This is the scheme of the paper, whose runs have up to
+//! 3e8 steps.
 //!
 //! The same sums in the same order as the general method makes them, so the same bits. What makes it fast: all steps of a
 //! batch run in one function, on arrays that stay in the first-level cache ([`segment`]). Rings too large for a cache go
@@ -33,9 +34,9 @@ pub(super) fn batch<L: Law>(law: &L, steps: Steps, cut: Option<Cut>, state: &mut
     }
 }
 
-/// Makes `count` steps of length `h` of the state `[x_0 .. x_{N-1}, v_0 .. v_{N-1}]` of a ring in one piece or cut, with
-/// registers no wider than `limit`. For tests and measurements: neither changes a bit, and
-/// [`Positions`](crate::states::Positions) chooses the best by itself.
+/// Makes `count` steps of length `h` of the state `[x_0 .. x_{N-1}, v_0 .. v_{N-1}]` of a ring in one piece or cut,
+/// with registers no wider than `limit`. For tests and measurements: neither affects a bit, and
+/// [`Positions`](crate::states::Positions) chooses the best.
 pub fn heun_steps(
     model: &Model,
     ring: Ring,
@@ -47,10 +48,11 @@ pub fn heun_steps(
     model.force().heun(Steps { length: ring.length, h, count, limit }, cut, state)
 }
 
-/// All pedestrians at once. Behind the last stand images of the first ones, one ring length ahead, so that the neighbour
-/// ahead is the next element, and the elements fill whole registers: the loops have no exception and no remainder.
-/// Before every evaluation two images are renewed: the one whom the last pedestrian follows, and the last one; those
-/// between follow that. They serve nobody, but are near enough to where they belong to raise no alarm.
+/// All pedestrians at once. Behind the last stand images of the first ones, one ring length ahead, so that the
+/// neighbour ahead is the next element, and the elements fill whole registers: the loops have no exception and no
+/// remainder. Before every evaluation two images are renewed: the one whom the last pedestrian follows, and the last
+/// one; those between follow that. They are not used, but are close enough to their true places not to trigger an
+/// event.
 struct InOne<'a, L> {
     law: L,
     steps: Steps,
@@ -108,7 +110,7 @@ impl<L: Law> InOne<'_, L> {
     }
 }
 
-/// Whether everybody has room and no negative speed; false for what is not a number.
+/// Whether all gaps are open and no speed is negative; false for NaN.
 fn is_quiet<L: Law>(law: &L, length: f64, state: &[f64]) -> bool {
     let (x, v) = state.split_at(state.len() / 2);
     let last = x.len() - 1;

@@ -1,4 +1,4 @@
-//! A segment of the ring: pedestrians of whom each follows the next element, and the two halves of a step of Heun's scheme.
+//! A segment of the ring, in which each pedestrian follows the next element, and the two halves of a Heun step.
 
 use crate::force::compiled::{Row, accelerations};
 use crate::laws::Law;
@@ -17,7 +17,7 @@ impl Places {
         Places { positions: vec![0.0; size], speeds: vec![0.0; size] }
     }
 
-    /// Fills a place with the image of somebody in another place, that much further ahead.
+    /// Fills a place with the ghost of the pedestrian in another place, shifted ahead by the given distance.
     #[inline(always)]
     pub(super) fn fill_ghost(&mut self, image: usize, of: usize, ahead: f64) {
         self.positions[image] = self.positions[of] + ahead;
@@ -50,7 +50,7 @@ pub(super) struct Scheme<'a, L> {
 }
 
 impl Segment {
-    /// A segment for so many pedestrians.
+    /// A segment for a number of pedestrians.
     pub(super) fn new(size: usize) -> Segment {
         let (now, guess) = (Places::new(size + 1), Places::new(size + 1));
         Segment { now, guess, accelerations: vec![0.0; size], net_gaps: [0.0; LENGTH], row: [0.0; LENGTH] }
@@ -107,8 +107,8 @@ fn accelerate<L: Law>(
     }
 }
 
-/// An Euler step from `x`, `v`. The sign bit of what it returns is set if one of the pedestrians has no room or a negative
-/// speed: gathering signs is cheaper than comparing.
+/// An Euler step from `x`, `v`. The sign bit of the result is set if a gap is closed or a speed is negative: combining
+/// signs is cheaper than comparing.
 #[inline(always)]
 #[expect(clippy::too_many_arguments, reason = "only slices that are arguments are known not to overlap")]
 fn euler<L: Law>(

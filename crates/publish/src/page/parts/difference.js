@@ -40,6 +40,6 @@ function differenceOf(name, csv) {
     return `differs first in line ${first.row + 2}, ${first.column}: ${words(first.mine)} here, ${words(first.theirs)} on the page, `
       + `${words(first.gap, 2)} apart; at most ${words(largest, 2)} apart`;
   }
-  if (lines.length !== lengths[0]) return `has ${lines.length} rows in place of ${lengths[0]}`;
-  return `has another sum, but the numbers agree in the ${digits} that the page carries`;
+  if (lines.length !== lengths[0]) return `has ${lines.length} rows instead of ${lengths[0]}`;
+  return `has another sum, but the numbers agree in the ${digits} that the page contains`;
 }

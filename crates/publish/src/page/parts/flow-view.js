@@ -23,12 +23,12 @@ class FlowView {
   show({ speed, uniform_flow: flow, k, rate, waves, error }, pedestrians) {
     this.rates.hidden = !flow || !k;
     if (this.rates.hidden) {
-      this.verdict.textContent = speed === null ? 'There is no uniform flow; the run goes on in spacings.'
-        : `The uniform flow (speed ${words(speed)}) answers to small waves with no derivative: it lies on a kink of the law.`;
+      this.verdict.textContent = speed === null ? 'There is no uniform flow; the run is integrated in spacings.'
+        : `The uniform flow (speed ${words(speed)}) lies on a kink of the law, where it has no linear response.`;
       return;
     }
     this.verdict.textContent = `By the exact criterion the uniform flow at speed ${words(speed, 6)} is ${FlowView.all(flow)}; `
-      + `${FlowView.onRing(flow, pedestrians)}. Rates are off by at most ${words(error, 1)}.`;
+      + `${FlowView.onRing(flow, pedestrians)}. The error of the rates is at most ${words(error, 1)}.`;
     const series = [{ name: 'all waves', x: k, y: rate }];
     if (waves.k.length) series.push({ name: 'waves of the ring', x: waves.k, y: waves.rate, points: true });
     const spec = { name: 'Growth rate against wave number', x: 'k', y: 'Re z⁺', series };
@@ -38,16 +38,17 @@ class FlowView {
 
   static all({ growing_k: growing, margin }) {
     if (growing) {
-      const from = growing[0] === 0 ? 'from long ones' : `from k = ${words(growing[0], 4)}`;
-      return `unstable (margin ${words(margin, 4)}): waves ${from} to k = ${words(growing[1], 4)} grow`;
+      const [least, largest] = growing.map((k) => words(k, 4));
+      const range = growing[0] === 0 ? `k < ${largest}` : `${least} < k < ${largest}`;
+      return `unstable (margin ${words(margin, 4)}): waves with ${range} grow`;
     }
     if (margin === 0) return 'neutral (margin 0): no wave grows, but not all decay';
-    return `stable (margin ${words(margin, 4)}) for waves of all lengths`;
+    return `stable (margin ${words(margin, 4)}): waves of all lengths decay`;
   }
 
   static onRing({ margin_on_ring: margin, waves, growth_rate: rate }, pedestrians) {
-    const wave = `${waves} in ${pedestrians}`;
-    if (margin > 0) return `of the waves on this ring ${wave} grow fastest, at rate ${words(rate, 4)}`;
-    return `on this ring all decay, ${wave} slowest, at rate ${words(rate, 4)}`;
+    const wave = `the wave with ${waves} period${waves === 1 ? '' : 's'}`;
+    if (margin > 0) return `on this ring of ${pedestrians} ${wave} grows fastest, at rate ${words(rate, 4)}`;
+    return `on this ring of ${pedestrians} every wave decays, ${wave} most slowly, at rate ${words(rate, 4)}`;
   }
 }

@@ -6,7 +6,7 @@ const WITHOUT = 'This copy of the page was written without its WebAssembly modul
 /** What keeps the page from computing, in words; undefined if nothing does. */
 function hindrance() {
   if (!document.getElementById('module').textContent) return WITHOUT;
-  if (typeof WebAssembly !== 'object') return 'WebAssembly is off in this browser, so nothing is computed here; the page shows what was computed elsewhere.';
+  if (typeof WebAssembly !== 'object') return 'WebAssembly is off in this browser, so nothing is computed here; the page shows results computed elsewhere.';
   if (typeof DecompressionStream !== 'function') return 'This browser cannot unpack the module (DecompressionStream), so nothing is computed here.';
   return undefined;
 }

@@ -25,10 +25,10 @@ class Motion {
   /** What is too large to be shown, and why; undefined if nothing is. */
   static tooLarge(state) {
     if (state.get('ring', 'pedestrians') > MOST_PEDESTRIANS) {
-      return { key: 'ring.pedestrians', problem: `too many for the page, which takes ${words(MOST_PEDESTRIANS)}; the command line takes more` };
+      return { key: 'ring.pedestrians', problem: `too many for the page, whose limit is ${words(MOST_PEDESTRIANS)}; the command line accepts more` };
     }
     const rows = (state.get('run', 't_end') / state.get('run', 'sample')) * state.get('ring', 'pedestrians');
-    return rows > MOST_ROWS ? { key: 'run.sample', problem: `gives ${words(rows, 3)} rows, more than the ${words(MOST_ROWS)} that the page keeps; sample less often` } : undefined;
+    return rows > MOST_ROWS ? { key: 'run.sample', problem: `gives ${words(rows, 3)} rows, more than the page's limit of ${words(MOST_ROWS)}; sample less often` } : undefined;
   }
 
   add([t, std, ...numbers]) {

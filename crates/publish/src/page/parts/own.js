@@ -91,7 +91,7 @@ class OwnLaw {
       milliseconds: performance.now() - started,
       flow: JSON.stringify({ speed: told.speed, flow: told.uniform_flow, error: told.error }),
     });
-    this.view.stop('The run begins when nothing changes any more.');
+    this.view.stop('The run begins when you stop editing.');
     this.timer = setTimeout(() => this.view.start(this.state, this.fast(told)), PATIENCE);
   }
 

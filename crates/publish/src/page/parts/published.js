@@ -43,7 +43,7 @@ class Comparison {
       },
       () => {
         const difference = { name: '', x: this.set.x, y: this.set.difference, points: true };
-        this.add('Published minus regenerated; dashed: the error of reading', {
+        this.add('Published minus regenerated; dashed: the reading error', {
           x, y: `difference of ${y}`, band: this.set.reading, series: [difference],
         });
       },

@@ -1,7 +1,7 @@
 // What the paper says of the figure that a scene began from, judged on the reader's run.
 
-const NOW_ERRORS = 'Errors of positions and speeds are those estimated at the end of the run, taken for every sample; that of the standard deviation '
-  + 'is the largest over all samples. Both verdicts follow from the tests as the ledger has them.';
+const NOW_ERRORS = 'The errors of positions and speeds are those estimated at the end of the run, used for every sample; that of the standard deviation '
+  + 'is the largest over all samples. Both verdicts follow from the tests in the ledger.';
 
 class Rejudged {
   constructor(host) {
@@ -27,8 +27,8 @@ class Rejudged {
     this.host.dataset.claims = JSON.stringify(claims);
     const changed = claims.filter(({ before, now }) => before !== now).length;
     this.status.textContent = claims.length
-      ? `Claims that rest on this run alone: ${claims.length}. With another verdict than for the paper’s numbers: ${changed}.`
-      : 'No claim rests on this run alone.';
+      ? `Claims that depend on this run alone: ${claims.length}. Verdicts that differ from those for the paper’s numbers: ${changed}.`
+      : 'No claim depends on this run alone.';
     this.list.replaceChildren(...claims.map((claim) => this.claim(claim)));
     if (claims.length) this.list.append(make('p', { class: 'hint' }, NOW_ERRORS));
   }

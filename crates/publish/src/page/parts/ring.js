@@ -26,7 +26,7 @@ class Ring {
     this.circle = make('canvas', { class: 'circle', role: 'img', 'aria-label': 'The ring of pedestrians' });
     this.strip = make('canvas', {
       class: 'strip', role: 'img', onpointerdown: (event) => this.jump(event),
-      'aria-label': 'All positions against time, coloured by speed: dark bands are jams that travel backwards. A line stands at the time shown.',
+      'aria-label': 'All positions against time, coloured by speed: dark bands are jams that travel backwards. A line marks the time shown.',
     });
     this.button = make('button', { type: 'button', 'aria-pressed': 'false', onclick: () => this.toggle() }, 'Play');
     this.slider = make('input', {

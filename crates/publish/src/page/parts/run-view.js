@@ -3,22 +3,22 @@
 /** Milliseconds between two drawings of a run under way. */
 const BREATH = 250;
 const EVENTS = {
-  overlap: 'overlap', negative_speed: 'somebody walks backwards', exchange: 'two exchange places', undefined: 'the formula has no value',
+  overlap: 'overlap', negative_speed: 'a pedestrian walks backwards', exchange: 'two pedestrians exchange places', undefined: 'the formula has no value',
   blow_up: 'a speed grows without bound',
 };
 const CLASSES = {
-  closed: 'two touch at the start', no_uniform_flow: 'no uniform flow', undefined: 'the formula loses its value', blow_up: 'blow-up',
-  contact: 'contact', decays: 'back to the uniform flow', waves_backwards: 'lasting waves, in which somebody walks backwards',
+  closed: 'two pedestrians touch at the start', no_uniform_flow: 'no uniform flow', undefined: 'the formula has no value any more', blow_up: 'blow-up',
+  contact: 'contact', decays: 'back to the uniform flow', waves_backwards: 'lasting waves, in which a pedestrian walks backwards',
   waves: 'lasting waves', undecided: 'undecided',
 };
-const OWN_HINT = 'In the strip time runs to the right, the position on the ring upwards; a click goes to that time. Speeds are shown by '
-  + 'their colour, from standing (or backwards) to the fastest.';
+const OWN_HINT = 'In the strip time runs to the right, the position on the ring upwards; a click goes to that time. Colours show speeds '
+  + 'from standing (or backwards) to the fastest.';
 
 class RunView {
   constructor(host) {
     this.host = host;
     this.status = make('output', { 'aria-live': 'polite' });
-    this.bar = make('progress', { max: 1, value: 0, 'aria-label': 'How much of the run is computed' });
+    this.bar = make('progress', { max: 1, value: 0, 'aria-label': 'Progress of the run' });
     this.stage = make('div', {});
     this.note = make('p', { class: 'hint', hidden: true }, 'This scene records the standard deviation alone; with record = trajectories the ring is shown.');
     this.button = make('button', { type: 'button', hidden: true, onclick: () => { this.stop('Stopped.'); this.host.classList.remove('stale'); } }, 'Stop the run');
@@ -163,7 +163,7 @@ class RunView {
   }
 
   outcome({ outcome, stop, reason }) {
-    if (reason) return `The run broke: ${reason}.`;
+    if (reason) return `The run failed: ${reason}.`;
     if (!outcome) return `The run ended (${stop}).`;
     if (outcome.class === 'undecided') return `Outcome: undecided; needs ${outcome.missing}.`;
     const wave = outcome.wave_speed === null ? '' : `, travelling at ${words(outcome.wave_speed)}`;

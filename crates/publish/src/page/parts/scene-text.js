@@ -43,7 +43,7 @@ class SceneState {
 
   /** The text of the scene file; `keys[line]`, from 1, has the key of that line and the column where its value begins. */
   text() {
-    const lines = [`title  = ${toml(this.title)}`, 'source = "a scene of one\'s own"'];
+    const lines = [`title  = ${toml(this.title)}`, 'source = "an example"'];
     const keys = {};
     for (const table of TABLES) {
       if (!this[table].length) continue;

@@ -58,7 +58,7 @@ class Verification {
     return new Promise((resolve, reject) => {
       this.hear = (answer) => {
         if (answer.failure) {
-          // what a trap leaves behind is not gone on with
+          // the module is not used again after a trap
           if (answer.trapped) this.end();
           reject(new Error(answer.failure));
         } else if (answer.done) resolve(answer);

@@ -58,7 +58,7 @@ onmessage = ({ data: { module, work, given } }) => {
     const answer = work ? works[work](given) : {};
     postMessage({ done: work, given, seconds: (performance.now() - started) / 1000, ...answer });
   } catch (error) {
-    // a trap leaves the module in no state to go on with
+    // after a trap the module is unusable
     postMessage({ done: work, given, failure: error.message, trapped: error instanceof WebAssembly.RuntimeError });
   }
 };
