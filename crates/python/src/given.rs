@@ -110,7 +110,8 @@ fn value(entry: &Bound<'_, PyAny>) -> Result<Value, SceneError> {
     match entry.extract::<f64>() {
         // a whole number of Python may have more digits than a double
         Ok(number) if entry.is_instance_of::<PyInt>() && !entry.eq(number).unwrap_or(false) => {
-            let problem = format!("{entry} is a whole number that a double cannot represent; the nearest is {number:?}");
+            let problem =
+                format!("{entry} is a whole number that a double cannot represent; the nearest is {number:?}");
             Err(SceneError::new(TABLES, 0, problem))
         }
         Ok(number) => Ok(Value::Number(number)),

@@ -2,13 +2,13 @@
 
 use crate::given::{Given, choose, scene_error};
 use crate::watch::{Watch, detached};
+use ::sweep::{Cell, DecidedBy, NUMBERS, Pool, Sweep, tiles};
 use files::reader::SceneError;
 use files::scene_file::Kind;
 use jam::outcome::Class;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use sweep::{Cell, DecidedBy, NUMBERS, Pool, Sweep, tiles};
 use std::num::NonZero;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::time::Duration;
@@ -25,7 +25,7 @@ pub fn sweep<'py>(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let chosen = choose(&given, panel, Kind::Sweep, values)?;
-    let sweep = sweep::read(&chosen.file, &chosen.panel.tables).map_err(|error| scene_error(py, &error))?;
+    let sweep = ::sweep::read(&chosen.file, &chosen.panel.tables).map_err(|error| scene_error(py, &error))?;
     let found = detached(py, || compute(&sweep, jobs, &Watch::new(progress.as_ref(), 1)))?;
     let cells = found.map_err(|problem| scene_error(py, &SceneError::new(&chosen.file, 0, problem)))?;
     let made = PyDict::new(py);
