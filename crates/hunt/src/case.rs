@@ -4,7 +4,7 @@ use crate::answer::{Answer, Numbers};
 use crate::bound::Bound;
 use crate::{draw, judge, question, stated};
 use files::scene_file;
-use jam::errors::Propagated;
+use jam::errors::run_propagated;
 use reference::solution::Kind;
 use serde_json::{Value, json};
 
@@ -20,8 +20,8 @@ pub fn of(seed: u64) -> Vec<Value> {
 
 fn case(seed: u64, text: &str, panel: &scene_file::Panel) -> Option<Value> {
     let scene = scene::run::read("scene.toml", &panel.tables).ok()?;
-    let mut propagated = Propagated::new(&scene);
-    let outcome = jam::run::run_from(&scene, None, &mut propagated).ok()?;
+    let (made, propagated) = run_propagated(&scene, &mut ());
+    let outcome = made.ok()?;
     let (refused, stated) = stated::of(&scene, &outcome, &propagated);
     if refused.is_some() {
         return None;

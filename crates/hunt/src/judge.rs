@@ -5,9 +5,9 @@ use crate::bound::Bound;
 use crate::question;
 use crate::stated::{self, Stated};
 use files::scene_file;
-use jam::errors::Propagated;
+use jam::errors::run_propagated;
 use jam::events::{Event, EventKind};
-use jam::run::{Broken, Outcome, run_from};
+use jam::run::{Broken, Outcome};
 use jam::states::StateVariables;
 use math::larger;
 use reference::solution::{End, Kind, Question};
@@ -102,11 +102,7 @@ fn judge_panel(text: &str, panel: &scene_file::Panel) -> Verdict {
         }
     };
     verdict.method = format!("{} {:?} {:?}", scene.method.name(), scene.control, scene.form);
-    let run = || {
-        let mut propagated = Propagated::new(&scene);
-        (run_from(&scene, None, &mut propagated), propagated)
-    };
-    match catch_unwind(run) {
+    match catch_unwind(|| run_propagated(&scene, &mut ())) {
         Err(_) => {
             verdict.ending = "panicked".into();
             verdict.findings.push("the run panicked".into());
