@@ -11,7 +11,7 @@ use math::affine::Affine;
 use math::change::{Player, Recorder, Tape};
 use math::dual::Dual;
 use math::lanes::Lanes;
-use math::simd::{Kernel, Width, dispatch, dispatch_up_to};
+use math::simd::{Kernel, Width, dispatch, dispatch_to_four, dispatch_up_to};
 use ode::Batch;
 use std::cell::{OnceCell, RefCell};
 use std::sync::Arc;
@@ -94,7 +94,7 @@ impl<L: Law> Force for Compiled<L> {
         }
         let (law, tape) = (self.law, &reference.tape);
         if !dispatch(Deviations::<L, true> { law, tape, spacings, speeds, accelerations }) {
-            dispatch_up_to(WIDEST, Deviations::<L, false> { law, tape, spacings, speeds, accelerations });
+            dispatch_to_four(Width::Four, Deviations::<L, false> { law, tape, spacings, speeds, accelerations });
         }
         reference.acceleration
     }
@@ -157,10 +157,6 @@ fn pace<L: Law>(law: &L) -> Pace {
     if law.is_long() { Pace::Wide } else { Pace::Narrow }
 }
 
-/// The widest registers for laws with terms that the runs of the paper do not have: another copy of each would take longer to
-/// compile than it saves.
-pub(super) const WIDEST: Width = Width::Four;
-
 /// Pedestrians each of whom follows the next; the last one follows a pedestrian with the given speed, which may also be
 /// stored after the others.
 #[derive(Clone, Copy)]
@@ -170,12 +166,14 @@ pub(super) struct Row<'a> {
     pub(super) ahead_of_last: f64,
 }
 
-/// Writes the accelerations of a row. A function of its own, compiled once for whoever needs them.
+/// Writes the accelerations of a row. A function of its own, compiled once for whoever needs them. Laws with terms that the
+/// runs of the paper do not have do without the widest registers: another copy of each would take longer to compile than it
+/// saves.
 pub(super) fn accelerations<L: Law>(law: L, limit: Width, row: Row<'_>, accelerations: &mut [f64]) {
     if law.plain().is_some() {
         dispatch_up_to(limit, Accelerations::<L, true> { law, row, accelerations });
     } else {
-        dispatch_up_to(limit.min(WIDEST), Accelerations::<L, false> { law, row, accelerations });
+        dispatch_to_four(limit, Accelerations::<L, false> { law, row, accelerations });
     }
 }
 

@@ -5,12 +5,11 @@
 //! gives from those of spacing and speeds up to the order `k` ([`math::series`]). An order costs a few sums of products;
 //! no stage is evaluated.
 
-use super::compiled::WIDEST;
 use super::{Flow, NOTHING};
 use crate::laws::Law;
 use math::lanes::Lanes;
 use math::series::{Block, Jet, Place, ROWS};
-use math::simd::{Kernel, dispatch, dispatch_up_to};
+use math::simd::{Kernel, Width, dispatch, dispatch_to_four};
 
 /// The coefficients of spacings and speeds of a ring, from their rows 0 and 1.
 #[derive(Debug)]
@@ -131,7 +130,7 @@ pub(super) fn compiled<L: Law>(law: L, operations: usize, motion: Motion<'_>, me
     if law.plain().is_some() {
         dispatch(Coefficients::<L, true> { law, operations, motion, memory });
     } else {
-        dispatch_up_to(WIDEST, Coefficients::<L, false> { law, operations, motion, memory });
+        dispatch_to_four(Width::Four, Coefficients::<L, false> { law, operations, motion, memory });
     }
 }
 
