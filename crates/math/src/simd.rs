@@ -66,6 +66,22 @@ pub fn dispatch_to_four<K: Kernel>(limit: Width, kernel: K) -> K::Output {
     baseline(kernel)
 }
 
+/// Runs the kernel with registers of four doubles. `None` on x86-64 without AVX2, for
+/// which there is no copy: for kernels that take long to compile, where something else gives
+/// the same bits. Other processors have one copy of everything.
+#[inline]
+pub fn dispatch_wide<K: Kernel>(kernel: K) -> Option<K::Output> {
+    #[cfg(target_arch = "x86_64")]
+    return if available() >= Width::Four {
+        // SAFETY: as above.
+        Some(unsafe { x86::four(kernel) })
+    } else {
+        None
+    };
+    #[cfg(not(target_arch = "x86_64"))]
+    Some(baseline(kernel))
+}
+
 /// Runs the kernel with the registers that every processor has. Not part of its callers,
 /// or it would be compiled for each of them.
 #[inline(never)]

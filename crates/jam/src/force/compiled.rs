@@ -11,7 +11,7 @@ use math::affine::Affine;
 use math::change::{Player, Recorder, Tape};
 use math::dual::Dual;
 use math::lanes::Lanes;
-use math::simd::{Kernel, Width, dispatch, dispatch_to_four, dispatch_up_to};
+use math::simd::{Kernel, Width, dispatch, dispatch_to_four, dispatch_up_to, dispatch_wide};
 use ode::Batch;
 use std::cell::{OnceCell, RefCell};
 use std::sync::Arc;
@@ -93,10 +93,9 @@ impl<L: Law> Force for Compiled<L> {
             *reference = Reference::new(&self.law, flow);
         }
         let (law, tape) = (self.law, &reference.tape);
-        if !dispatch(Deviations::<L, true> { law, tape, spacings, speeds, accelerations }) {
-            dispatch_to_four(Width::Four, Deviations::<L, false> { law, tape, spacings, speeds, accelerations });
-        }
-        reference.acceleration
+        let is_done = dispatch(Deviations::<L, true> { law, tape, spacings, speeds, accelerations })
+            || dispatch_wide(Deviations::<L, false> { law, tape, spacings, speeds, accelerations }).is_some();
+        if is_done { reference.acceleration } else { self.interpreted().deviations(flow, spacings, speeds, accelerations) }
     }
 
     fn effective_gaps(&self, net_gaps: &[f64], speeds: &[f64], gaps: &mut [f64]) {
@@ -132,12 +131,11 @@ impl<L: Law> Force for Compiled<L> {
         self.law.bend()
     }
 
-    fn series(&self, motion: Motion<'_>) {
-        if motion.along.is_some() {
-            return self.interpreted().series(motion);
-        }
+    fn series(&self, mut motion: Motion<'_>) {
         let operations = self.reference.borrow().tape.histories();
-        super::series::compiled(self.law, operations, motion, &mut self.memory.borrow_mut());
+        if !super::series::compiled(self.law, operations, &mut motion, &mut self.memory.borrow_mut()) {
+            self.interpreted().series(motion);
+        }
     }
 
     fn heun(&self, steps: Steps, cut: Option<Cut>, state: &mut [f64]) -> Batch {

@@ -190,13 +190,23 @@ impl<C: Along> Coefficients<'_, '_, C> {
                 continue;
             }
             let mut row = std::mem::take(&mut registers[instruction.into]);
+            let second = instruction.action.second();
+            // the result replaces the first operand: that itself if nobody needs it any more, else a copy
+            let is_spent = match instruction.spent {
+                Some(spent) if second != Some(instruction.of) => {
+                    std::mem::swap(&mut row, &mut registers[spent]);
+                    true
+                }
+                _ => false,
+            };
             let get = |source: Source| match source {
                 Source::Register(register) => &registers[register][..],
                 variable => &variables[place(self.variables, variable)][..],
             };
-            let x = get(instruction.of);
-            let y = instruction.action.second().map_or(x, get);
-            row.copy_from_slice(x);
+            let y = get(second.unwrap_or(instruction.of));
+            if !is_spent {
+                row.copy_from_slice(get(instruction.of));
+            }
             used += Next { histories: histories.of(used), row: &mut row, y }.act::<START>(instruction.action);
             registers[instruction.into] = row;
         }
