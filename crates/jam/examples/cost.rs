@@ -160,29 +160,30 @@ fn series(model: Model, pedestrians: usize) -> Work {
     })
 }
 
-/// A function of rows, on a copy of a row.
-struct Row<'a> {
-    function: fn(&mut [f64], &mut Scratch),
+/// A function of rows, on a copy of a row. Its type is its own: through a pointer it would be that of the narrow registers.
+struct Row<'a, F> {
+    function: F,
     x: &'a [f64],
     out: &'a mut [f64],
+    room: &'a mut Scratch,
 }
 
-impl Kernel for Row<'_> {
+impl<F: Fn(&mut [f64], &mut Scratch)> Kernel for Row<'_, F> {
     type Output = ();
 
     #[inline(always)]
     fn run(self) {
         self.out.copy_from_slice(self.x);
-        (self.function)(self.out, &mut Scratch::default());
+        (self.function)(self.out, self.room);
     }
 }
 
-fn lane(function: fn(&mut [f64], &mut Scratch)) -> Work {
+fn lane(function: impl Fn(&mut [f64], &mut Scratch) + Copy + 'static) -> Work {
     let x: Vec<f64> = (0..133).map(|n| f64::from(n) / 133.0).collect();
-    let mut out = vec![0.0; x.len()];
+    let (mut out, mut room) = (vec![0.0; x.len()], Scratch::default());
     Box::new(move |count| {
         for _ in 0..count {
-            dispatch(Row { function, x: black_box(&x), out: &mut out });
+            dispatch(Row { function, x: black_box(&x), out: &mut out, room: &mut room });
             black_box(&mut out);
         }
     })

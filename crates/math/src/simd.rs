@@ -44,15 +44,48 @@ pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
 #[inline]
 pub fn dispatch_up_to<K: Kernel>(limit: Width, kernel: K) -> K::Output {
     #[cfg(target_arch = "x86_64")]
-    match available().min(limit) {
+    if available().min(limit) == Width::Eight {
         // SAFETY: a function compiled for an instruction set must not be called without
         // it; `available` has asked the processor.
-        Width::Eight => return unsafe { x86::eight(kernel) },
+        return unsafe { x86::eight(kernel) };
+    }
+    dispatch_to_four(limit, kernel)
+}
+
+/// The same without a copy of the kernel for eight doubles: for kernels that take long
+/// to compile and run seldom. A limit alone does not spare the copy, which is compiled
+/// before it is seen that nobody calls it.
+#[inline]
+pub fn dispatch_to_four<K: Kernel>(limit: Width, kernel: K) -> K::Output {
+    #[cfg(target_arch = "x86_64")]
+    if available().min(limit) >= Width::Four {
         // SAFETY: as above.
-        Width::Four => return unsafe { x86::four(kernel) },
-        Width::Baseline => {}
+        return unsafe { x86::four(kernel) };
     }
     let _ = limit;
+    baseline(kernel)
+}
+
+/// Runs the kernel with registers of four doubles. `None` on x86-64 without AVX2, for
+/// which there is no copy: for kernels that take long to compile, where something else gives
+/// the same bits. Other processors have one copy of everything.
+#[inline]
+pub fn dispatch_wide<K: Kernel>(kernel: K) -> Option<K::Output> {
+    #[cfg(target_arch = "x86_64")]
+    return if available() >= Width::Four {
+        // SAFETY: as above.
+        Some(unsafe { x86::four(kernel) })
+    } else {
+        None
+    };
+    #[cfg(not(target_arch = "x86_64"))]
+    Some(baseline(kernel))
+}
+
+/// Runs the kernel with the registers that every processor has. Not part of its callers,
+/// or it would be compiled for each of them.
+#[inline(never)]
+fn baseline<K: Kernel>(kernel: K) -> K::Output {
     kernel.run()
 }
 

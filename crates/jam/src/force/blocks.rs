@@ -38,27 +38,47 @@ pub enum Pace {
 /// (on a ring, the first entry), which that row may also contain.
 #[inline(always)]
 pub fn along<B: Block>(block: &B, pace: Pace, first: &[f64], second: &[f64], closing: f64, result: &mut [f64]) {
-    let n = first.len();
-    let mut begin = 0;
+    let (n, all) = (first.len(), (first, second, closing));
+    let mut rest = Rest { first, second, result };
     match pace {
-        Pace::Single => return singly(block, first, second, closing, result),
+        Pace::Single => return singly(block, first, second, closing, rest.result),
         Pace::Narrow => {}
         Pace::Wide => {
-            while n - begin > WIDER || n - begin == WIDE && second.len() > n {
-                begin = inside::<WIDE, B>(block, begin, first, second, result);
+            while rest.first.len() > WIDER || rest.first.len() == WIDE && second.len() > n {
+                rest.take::<WIDE, B>(block);
             }
-            if begin == n {
-                return;
-            }
-            if n >= WIDER && n - begin > WIDE {
-                return last_of_many::<WIDER, B>(block, (first, second, closing), result);
+            match rest.first.len() {
+                0 => return,
+                left if n >= WIDER && left > WIDE => return last_of_many::<WIDER, B>(block, all, result),
+                _ => {}
             }
         }
     }
-    while n - begin > NARROW {
-        begin = inside::<NARROW, B>(block, begin, first, second, result);
+    while rest.first.len() > NARROW {
+        rest.take::<NARROW, B>(block);
     }
-    last::<NARROW, B>(block, begin, (first, second, closing), result);
+    last::<NARROW, B>(block, all, result);
+}
+
+/// What is left of the rows.
+struct Rest<'a> {
+    first: &'a [f64],
+    second: &'a [f64],
+    result: &'a mut [f64],
+}
+
+impl Rest<'_> {
+    /// A block whose neighbours ahead are in the row.
+    #[inline(always)]
+    fn take<const W: usize, B: Block>(&mut self, block: &B) {
+        // split off, not indexed: one comparison for each
+        let (first, rest_of_first) = self.first.split_at(W);
+        let ahead = Lanes::of(&self.second[1..]);
+        let (second, rest_of_second) = self.second.split_at(W);
+        let (result, rest_of_result) = std::mem::take(&mut self.result).split_at_mut(W);
+        result.copy_from_slice(&block.value(Lanes::of(first), Lanes::<W>::of(second), ahead).0);
+        *self = Rest { first: rest_of_first, second: rest_of_second, result: rest_of_result };
+    }
 }
 
 /// One after the other.
@@ -69,21 +89,6 @@ fn singly<B: Block>(block: &B, first: &[f64], second: &[f64], closing: f64, resu
         *result = block.value(Lanes([*first]), Lanes([*own]), Lanes([*ahead])).0[0];
     }
     result[last] = block.value(Lanes([first[last]]), Lanes([second[last]]), Lanes([closing])).0[0];
-}
-
-/// A block whose neighbours ahead are in the row; returns where it ends.
-#[inline(always)]
-fn inside<const W: usize, B: Block>(
-    block: &B,
-    begin: usize,
-    first: &[f64],
-    second: &[f64],
-    result: &mut [f64],
-) -> usize {
-    let end = begin + W;
-    let (own, ahead) = (Lanes::<W>::of(&second[begin..end]), Lanes::of(&second[begin + 1..end + 1]));
-    result[begin..end].copy_from_slice(&block.value(Lanes::of(&first[begin..end]), own, ahead).0);
-    end
 }
 
 /// The last block of a row that is longer. It begins earlier rather than be cut, since what is written twice is the same.
@@ -100,12 +105,11 @@ fn last_of_many<const W: usize, B: Block>(
     result[from..].copy_from_slice(&value.0);
 }
 
-/// The last block. It begins earlier rather than be cut, since what is written twice is the same; in a row of fewer it is
-/// filled up.
+/// The last block. It begins earlier rather than be cut, since what is written twice is the same; a row of fewer is filled
+/// up.
 #[inline(always)]
 fn last<const W: usize, B: Block>(
     block: &B,
-    begin: usize,
     (first, second, closing): (&[f64], &[f64], f64),
     result: &mut [f64],
 ) {
@@ -118,19 +122,18 @@ fn last<const W: usize, B: Block>(
         let from = n - W;
         own.copy_from_slice(&first[from..]);
         speeds.copy_from_slice(&second[from..n]);
-        ahead[..W - 1].copy_from_slice(&second[from + 1..first.len()]);
+        ahead[..W - 1].copy_from_slice(&second[from + 1..n]);
         ahead[W - 1] = closing;
     } else {
-        let rest = n - begin;
-        own[..rest].copy_from_slice(&first[begin..]);
-        speeds[..rest].copy_from_slice(&second[begin..n]);
-        ahead[..rest - 1].copy_from_slice(&second[begin + 1..n]);
-        ahead[rest - 1] = closing;
+        own[..n].copy_from_slice(first);
+        speeds[..n].copy_from_slice(&second[..n]);
+        ahead[..n - 1].copy_from_slice(&second[1..n]);
+        ahead[n - 1] = closing;
     }
     let value = block.value(Lanes(own), Lanes(speeds), Lanes(ahead));
     if is_whole {
         result[n - W..].copy_from_slice(&value.0);
     } else {
-        result[begin..].copy_from_slice(&value.0[..n - begin]);
+        result.copy_from_slice(&value.0[..n]);
     }
 }

@@ -11,7 +11,7 @@ use math::affine::Affine;
 use math::change::{Player, Recorder, Tape};
 use math::dual::Dual;
 use math::lanes::Lanes;
-use math::simd::{Kernel, Width, dispatch, dispatch_up_to};
+use math::simd::{Kernel, Width, dispatch, dispatch_to_four, dispatch_up_to, dispatch_wide};
 use ode::Batch;
 use std::cell::{OnceCell, RefCell};
 use std::sync::Arc;
@@ -93,10 +93,9 @@ impl<L: Law> Force for Compiled<L> {
             *reference = Reference::new(&self.law, flow);
         }
         let (law, tape) = (self.law, &reference.tape);
-        if !dispatch(Deviations::<L, true> { law, tape, spacings, speeds, accelerations }) {
-            dispatch_up_to(WIDEST, Deviations::<L, false> { law, tape, spacings, speeds, accelerations });
-        }
-        reference.acceleration
+        let is_done = dispatch(Deviations::<L, true> { law, tape, spacings, speeds, accelerations })
+            || dispatch_wide(Deviations::<L, false> { law, tape, spacings, speeds, accelerations }).is_some();
+        if is_done { reference.acceleration } else { self.interpreted().deviations(flow, spacings, speeds, accelerations) }
     }
 
     fn effective_gaps(&self, net_gaps: &[f64], speeds: &[f64], gaps: &mut [f64]) {
@@ -132,12 +131,11 @@ impl<L: Law> Force for Compiled<L> {
         self.law.bend()
     }
 
-    fn series(&self, motion: Motion<'_>) {
-        if motion.along.is_some() {
-            return self.interpreted().series(motion);
-        }
+    fn series(&self, mut motion: Motion<'_>) {
         let operations = self.reference.borrow().tape.histories();
-        super::series::compiled(self.law, operations, motion, &mut self.memory.borrow_mut());
+        if !super::series::compiled(self.law, operations, &mut motion, &mut self.memory.borrow_mut()) {
+            self.interpreted().series(motion);
+        }
     }
 
     fn heun(&self, steps: Steps, cut: Option<Cut>, state: &mut [f64]) -> Batch {
@@ -157,10 +155,6 @@ fn pace<L: Law>(law: &L) -> Pace {
     if law.is_long() { Pace::Wide } else { Pace::Narrow }
 }
 
-/// The widest registers for laws with terms that the runs of the paper do not have: another copy of each would take longer to
-/// compile than it saves.
-pub(super) const WIDEST: Width = Width::Four;
-
 /// Pedestrians each of whom follows the next; the last one follows a pedestrian with the given speed, which may also be
 /// stored after the others.
 #[derive(Clone, Copy)]
@@ -170,12 +164,14 @@ pub(super) struct Row<'a> {
     pub(super) ahead_of_last: f64,
 }
 
-/// Writes the accelerations of a row. A function of its own, compiled once for whoever needs them.
+/// Writes the accelerations of a row. A function of its own, compiled once for whoever needs them. Laws with terms that the
+/// runs of the paper do not have do without the widest registers: another copy of each would take longer to compile than it
+/// saves.
 pub(super) fn accelerations<L: Law>(law: L, limit: Width, row: Row<'_>, accelerations: &mut [f64]) {
     if law.plain().is_some() {
         dispatch_up_to(limit, Accelerations::<L, true> { law, row, accelerations });
     } else {
-        dispatch_up_to(limit.min(WIDEST), Accelerations::<L, false> { law, row, accelerations });
+        dispatch_to_four(limit, Accelerations::<L, false> { law, row, accelerations });
     }
 }
 

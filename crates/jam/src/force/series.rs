@@ -5,12 +5,11 @@
 //! gives from those of spacing and speeds up to the order `k` ([`math::series`]). An order costs a few sums of products;
 //! no stage is evaluated.
 
-use super::compiled::WIDEST;
 use super::{Flow, NOTHING};
 use crate::laws::Law;
 use math::lanes::Lanes;
 use math::series::{Block, Jet, Place, ROWS};
-use math::simd::{Kernel, dispatch, dispatch_up_to};
+use math::simd::{Kernel, dispatch, dispatch_wide};
 
 /// The coefficients of spacings and speeds of a ring, from their rows 0 and 1.
 #[derive(Debug)]
@@ -126,20 +125,25 @@ fn write(row: &mut [f64], from: usize, block: Lanes<W>) {
     }
 }
 
-/// The coefficients under a law, with the number of operations that store values.
-pub(super) fn compiled<L: Law>(law: L, operations: usize, motion: Motion<'_>, memory: &mut Memory) {
+/// The coefficients under a law, with the number of operations that store values. False, and nothing is done, where they
+/// are not compiled: along a uniform flow that changes, and for laws with terms that the runs of the paper do not have on a
+/// processor without wide registers.
+pub(super) fn compiled<L: Law>(law: L, operations: usize, motion: &mut Motion<'_>, memory: &mut Memory) -> bool {
+    if motion.along.is_some() {
+        return false;
+    }
     if law.plain().is_some() {
         dispatch(Coefficients::<L, true> { law, operations, motion, memory });
-    } else {
-        dispatch_up_to(WIDEST, Coefficients::<L, false> { law, operations, motion, memory });
+        return true;
     }
+    dispatch_wide(Coefficients::<L, false> { law, operations, motion, memory }).is_some()
 }
 
 /// Under the law in its [plain](Law::plain) form if `PLAIN`.
 struct Coefficients<'a, 'b, L, const PLAIN: bool> {
     law: L,
     operations: usize,
-    motion: Motion<'b>,
+    motion: &'a mut Motion<'b>,
     memory: &'a mut Memory,
 }
 
@@ -160,7 +164,8 @@ impl<L: Law, const PLAIN: bool> Kernel for Coefficients<'_, '_, L, PLAIN> {
 impl<L: Law, const PLAIN: bool> Coefficients<'_, '_, L, PLAIN> {
     #[inline(always)]
     fn of(self, law: &L) {
-        let Motion { flow, pedestrians: n, order, unit, dimension, coefficients, .. } = self.motion;
+        let Motion { flow, pedestrians: n, order, unit, dimension, .. } = *self.motion;
+        let coefficients = &mut *self.motion.coefficients;
         let (memory, blocks, size) = (self.memory, n.div_ceil(W), self.operations * ROWS * order);
         let (states, rates) = coefficients.split_at_mut(dimension);
         memory.reserve(n, size);

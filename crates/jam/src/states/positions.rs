@@ -4,7 +4,7 @@ use super::RingSystem;
 use crate::force::{Cut, Flow, Force, Steps};
 use crate::observe::speed_std;
 use crate::ring::{Ring, Start};
-use math::simd::Width;
+use math::simd::{Kernel, Width, dispatch};
 use ode::{Batch, Group, Measure, System};
 use std::cell::RefCell;
 use std::ops::Range;
@@ -24,19 +24,35 @@ impl Positions {
         Positions { force, ring, gaps: RefCell::new(vec![0.0; ring.pedestrians]) }
     }
 
-    /// Writes `x_{n+1} - x_n`; the last pedestrian follows the first, one length ahead.
-    fn write_gaps(&self, positions: &[f64], gaps: &mut [f64]) {
-        let last = positions.len() - 1;
-        for (gap, pair) in gaps.iter_mut().zip(positions.windows(2)) {
-            *gap = pair[1] - pair[0];
-        }
-        gaps[last] = positions[0] + self.ring.length - positions[last];
+    /// Writes `x_{n+1} - x_n` less a distance; the last pedestrian follows the first, one length ahead.
+    fn write_gaps(&self, positions: &[f64], less: f64, gaps: &mut [f64]) {
+        dispatch(Gaps { positions, closing: positions[0] + self.ring.length, less, gaps });
     }
 
     fn write_net_gaps(&self, positions: &[f64], gaps: &mut [f64]) {
-        self.write_gaps(positions, gaps);
-        let contact = self.force.contact();
-        gaps.iter_mut().for_each(|gap| *gap -= contact);
+        self.write_gaps(positions, self.force.contact(), gaps);
+    }
+}
+
+struct Gaps<'a> {
+    positions: &'a [f64],
+    /// Whom the last one follows.
+    closing: f64,
+    less: f64,
+    gaps: &'a mut [f64],
+}
+
+impl Kernel for Gaps<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Gaps { positions, closing, less, gaps } = self;
+        let last = positions.len() - 1;
+        for ((gap, own), ahead) in gaps.iter_mut().zip(positions).zip(&positions[1..]) {
+            *gap = ahead - own - less;
+        }
+        gaps[last] = closing - positions[last] - less;
     }
 }
 
@@ -78,7 +94,7 @@ impl System for Positions {
         let Some(bend) = self.force.bend() else { return };
         let n = self.ring.pedestrians;
         let mut gaps = self.gaps.borrow_mut();
-        self.write_gaps(&state[..n], &mut gaps);
+        self.write_gaps(&state[..n], 0.0, &mut gaps);
         bend.arguments(bend.offset - bend.clearance * self.force.contact(), &gaps, &state[n..], arguments);
         super::closing_rates(&rates[..n], &mut gaps);
         bend.arguments(0.0, &gaps, &rates[n..], slopes);
@@ -114,7 +130,7 @@ impl RingSystem for Positions {
 
     fn read(&self, state: &[f64], gaps: &mut [f64], speeds: &mut [f64]) {
         let n = self.ring.pedestrians;
-        self.write_gaps(&state[..n], gaps);
+        self.write_gaps(&state[..n], 0.0, gaps);
         speeds.copy_from_slice(&state[n..]);
     }
 

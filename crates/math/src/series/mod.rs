@@ -211,7 +211,14 @@ impl<C: Coefficient, const START: bool> Number for Jet<'_, C, START> {
             1 => self,
             -1 => self.recip(),
             // products, because the number may pass through 0
-            2.. => (1..n).fold(self, |product, _| product * self),
+            2.. => {
+                // a loop: a closure would be compiled for the narrow registers
+                let mut product = self;
+                for _ in 1..n {
+                    product = product * self;
+                }
+                product
+            }
             _ => self.with(next::whole_power::<C, START>(self.place.history(), self.coefficient, n)),
         }
     }

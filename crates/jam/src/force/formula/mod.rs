@@ -62,7 +62,7 @@ impl Prepared {
     fn series<C: Along>(&self, motion: Motion<'_>, memory: &mut series::Memory<C>) {
         let Prepared { program, variables, reach, operations, contact, .. } = self;
         let (reach, operations, contact) = (*reach, *operations, *contact);
-        dispatch(series::Coefficients { program, variables, reach, operations, contact, motion, memory });
+        series::Coefficients { program, variables, reach, operations, contact, motion, memory }.write();
     }
 
     /// How far it looks behind and ahead, in pedestrians.

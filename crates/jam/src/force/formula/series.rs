@@ -9,7 +9,7 @@ use math::change::Changed;
 use math::lanes::Lanes;
 use math::series::recurrences::{self as next, History};
 use math::series::{Block, Coefficient, ROWS};
-use math::simd::Kernel;
+use math::simd::{Kernel, Width, dispatch, dispatch_to_four};
 
 /// The most pedestrians of a block.
 pub const W: usize = 16;
@@ -24,6 +24,9 @@ pub trait Along: Coefficient {
 
     /// The coefficient of the uniform flow, if there is one, and the differences from it.
     fn parts(&self) -> (f64, &[f64]);
+
+    /// Runs a kernel on registers of a width that is worth it.
+    fn dispatch(kernel: impl Kernel<Output = ()>);
 }
 
 impl Along for Lanes<W> {
@@ -37,6 +40,10 @@ impl Along for Lanes<W> {
     #[inline(always)]
     fn parts(&self) -> (f64, &[f64]) {
         (0.0, &self.0)
+    }
+
+    fn dispatch(kernel: impl Kernel<Output = ()>) {
+        dispatch(kernel);
     }
 }
 
@@ -54,6 +61,11 @@ impl Along for WithFlow {
     #[inline(always)]
     fn parts(&self) -> (f64, &[f64]) {
         (self.value, &self.change.0)
+    }
+
+    // a uniform flow is soon steady: not worth another copy
+    fn dispatch(kernel: impl Kernel<Output = ()>) {
+        dispatch_to_four(Width::Four, kernel);
     }
 }
 
@@ -86,11 +98,9 @@ pub struct Coefficients<'a, 'b, C: Copy> {
     pub memory: &'a mut Memory<C>,
 }
 
-impl<C: Along> Kernel for Coefficients<'_, '_, C> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run(mut self) {
+impl<C: Along> Coefficients<'_, '_, C> {
+    /// Writes them.
+    pub fn write(mut self) {
         let Motion { pedestrians: n, order, unit, dimension, along, .. } = self.motion;
         let blocks = n.div_ceil(C::WIDTH);
         self.reserve(blocks);
@@ -124,7 +134,6 @@ impl<C: Along> Kernel for Coefficients<'_, '_, C> {
 }
 
 /// Where a variable stands.
-#[inline(always)]
 fn place(variables: &[Source], variable: Source) -> usize {
     variables.iter().position(|own| *own == variable).unwrap_or(0)
 }
@@ -144,7 +153,6 @@ impl<C: Along> Coefficients<'_, '_, C> {
     }
 
     /// Takes the variables of an order: at order 0 with the uniform flow, whose speed may have coefficients of other orders.
-    #[inline(always)]
     fn take<const START: bool>(&mut self, k: usize) {
         let Motion { flow, pedestrians: n, dimension, along, .. } = self.motion;
         let row = &self.motion.coefficients[k * dimension..(k + 1) * dimension];
@@ -171,7 +179,6 @@ impl<C: Along> Coefficients<'_, '_, C> {
     }
 
     /// Carries the program out for an order.
-    #[inline(always)]
     fn order<const START: bool>(&mut self, k: usize, blocks: usize) {
         let Memory { histories, registers, variables, .. } = &mut *self.memory;
         let histories = Histories { memory: histories, blocks, length: self.motion.order, order: k };
@@ -182,15 +189,26 @@ impl<C: Along> Coefficients<'_, '_, C> {
                 registers.swap(instruction.into, spent);
                 continue;
             }
-            let mut target = std::mem::take(&mut registers[instruction.into]);
+            let mut row = std::mem::take(&mut registers[instruction.into]);
+            let second = instruction.action.second();
+            // the result replaces the first operand: that itself if nobody needs it any more, else a copy
+            let is_spent = match instruction.spent {
+                Some(spent) if second != Some(instruction.of) => {
+                    std::mem::swap(&mut row, &mut registers[spent]);
+                    true
+                }
+                _ => false,
+            };
             let get = |source: Source| match source {
                 Source::Register(register) => &registers[register][..],
                 variable => &variables[place(self.variables, variable)][..],
             };
-            let x = get(instruction.of);
-            let y = instruction.action.second().map_or(x, get);
-            used += next_order::<C, START>(instruction.action, histories.of(used), x, y, &mut target);
-            registers[instruction.into] = target;
+            let y = get(second.unwrap_or(instruction.of));
+            if !is_spent {
+                row.copy_from_slice(get(instruction.of));
+            }
+            used += Next { histories: histories.of(used), row: &mut row, y }.act::<START>(instruction.action);
+            registers[instruction.into] = row;
         }
     }
 }
@@ -218,83 +236,179 @@ impl<'a, C: Coefficient> Histories<'a, C> {
     }
 }
 
-/// A loop over blocks, with their histories where needed.
-macro_rules! each {
-    ($target:ident, $x:ident => $value:expr) => {
-        for (target, $x) in $target.iter_mut().zip($x) {
-            let $x = *$x;
-            *target = $value;
+/// One instruction for an order: the operands, the first of which the result replaces.
+struct Next<'a, C: Copy> {
+    histories: Histories<'a, C>,
+    row: &'a mut [C],
+    y: &'a [C],
+}
+
+impl<C: Along> Next<'_, C> {
+    /// Carries it out; returns how many histories it used.
+    fn act<const START: bool>(mut self, action: Action) -> usize {
+        match action {
+            Action::Constant(_)
+            | Action::AddConstant(_)
+            | Action::MulConstant(_)
+            | Action::DivConstant(_)
+            | Action::Add(_)
+            | Action::Sub(_)
+            | Action::Unary(Unary::Neg) => {
+                dispatch_to_four(Width::Four, Linear { action, is_start: START, row: self.row, y: self.y });
+            }
+            Action::Mul(_) => self.step::<START>(Product),
+            Action::Div(_) => self.step::<START>(Quotient),
+            Action::Min(_) => self.step::<START>(Min),
+            Action::Max(_) => self.step::<START>(Max),
+            Action::Recip => self.step::<START>(Recip),
+            Action::Power(q) => self.step::<START>(Power(q)),
+            Action::Whole(n) if n < 0 => self.step::<START>(WholePower(n)),
+            Action::Whole(n) => {
+                // products, because the number may pass through 0
+                let x = self.row.to_vec();
+                for factor in 1..n as usize {
+                    Next { histories: self.histories.of(factor - 1), row: self.row, y: &x }.step::<START>(Product);
+                }
+            }
+            Action::Unary(Unary::Exp) => self.step::<START>(Exp),
+            Action::Unary(Unary::ExpM1) => self.step::<START>(ExpM1),
+            Action::Unary(Unary::Ln) => self.step::<START>(Ln),
+            Action::Unary(Unary::Ln1p) => self.step::<START>(Ln1p),
+            Action::Unary(Unary::Sqrt) => self.step::<START>(Sqrt),
+            Action::Unary(Unary::Tanh) => self.step::<START>(Tanh),
+            Action::Unary(Unary::Softplus) => self.step::<START>(Softplus),
+            Action::Unary(Unary::Abs) => self.step::<START>(Abs),
         }
-    };
-    ($target:ident, $x:ident, $y:ident => $value:expr) => {
-        for ((target, $x), $y) in $target.iter_mut().zip($x).zip($y) {
-            let ($x, $y) = (*$x, *$y);
-            *target = $value;
-        }
-    };
-    ($target:ident, $histories:ident, $h:ident, $x:ident => $value:expr) => {
-        for (block, (target, $x)) in $target.iter_mut().zip($x).enumerate() {
-            let ($h, $x) = ($histories.block(block), *$x);
-            *target = $value;
-        }
-    };
-    ($target:ident, $histories:ident, $h:ident, $x:ident, $y:ident => $value:expr) => {
-        for (block, ((target, $x), $y)) in $target.iter_mut().zip($x).zip($y).enumerate() {
-            let ($h, $x, $y) = ($histories.block(block), *$x, *$y);
-            *target = $value;
-        }
+        action.histories()
+    }
+
+    /// An operation that is not linear.
+    fn step<const START: bool>(&mut self, recurrence: impl Recurrence<C>) {
+        let Next { histories, row, y } = self;
+        C::dispatch(Each::<_, _, START> { recurrence, histories: histories.of(0), row, y });
+    }
+}
+
+/// The recurrence of an operation. A type, because each is a kernel of its own: one kernel of all took the compiler four
+/// times as long.
+trait Recurrence<C: Coefficient> {
+    /// The coefficient of this order from those of the operands.
+    fn next<const START: bool>(&self, history: History<'_, C>, x: C, y: C) -> C;
+}
+
+/// Recurrences of functions of one number.
+macro_rules! of_one {
+    ($($name:ident $next:ident)*) => {
+        $(
+            struct $name;
+
+            impl<C: Coefficient> Recurrence<C> for $name {
+                #[inline(always)]
+                fn next<const START: bool>(&self, history: History<'_, C>, x: C, _y: C) -> C {
+                    next::$next::<C, START>(history, x)
+                }
+            }
+        )*
     };
 }
 
-/// One instruction; returns how many histories it used.
-#[inline(always)]
-fn next_order<C: Along, const START: bool>(
-    action: Action,
-    hs: Histories<'_, C>,
-    x: &[C],
-    y: &[C],
-    row: &mut [C],
-) -> usize {
-    match action {
-        Action::Constant(c) => row.fill(if START { C::default() + c } else { C::default() }),
-        Action::AddConstant(c) if START => each!(row, x => x + c),
-        Action::AddConstant(_) => row.copy_from_slice(x),
-        Action::MulConstant(c) => each!(row, x => x * c),
-        Action::DivConstant(c) => each!(row, x => x / c),
-        Action::Add(_) => {
-            each!(row, x, y => x + y);
-        }
-        Action::Sub(_) => {
-            each!(row, x, y => x - y);
-        }
-        Action::Mul(_) => each!(row, hs, h, x, y => next::product::<C, START>(h, x, y)),
-        Action::Div(_) => each!(row, hs, h, x, y => next::quotient::<C, START>(h, x, y)),
-        Action::Min(_) => each!(row, hs, h, x, y => next::min::<C, START>(h, x, y)),
-        Action::Max(_) => each!(row, hs, h, x, y => next::max::<C, START>(h, x, y)),
-        Action::Recip => each!(row, hs, h, x => next::recip::<C, START>(h, x)),
-        Action::Power(q) => each!(row, hs, h, x => next::power::<C, START>(h, x, q)),
-        Action::Whole(n) if n < 0 => each!(row, hs, h, x => next::whole_power::<C, START>(h, x, n)),
-        Action::Whole(n) => {
-            // products, because the number may pass through 0
-            row.copy_from_slice(x);
-            for factor in 1..n as usize {
-                let hs = hs.of(factor - 1);
-                for (block, (row, x)) in row.iter_mut().zip(x).enumerate() {
-                    *row = next::product::<C, START>(hs.block(block), *row, *x);
+of_one! {
+    Recip recip
+    Exp exp
+    ExpM1 exp_m1
+    Ln ln
+    Ln1p ln_1p
+    Sqrt sqrt
+    Tanh tanh
+    Softplus softplus
+    Abs abs
+}
+
+/// Recurrences of functions of two numbers.
+macro_rules! of_two {
+    ($($name:ident $next:ident)*) => {
+        $(
+            struct $name;
+
+            impl<C: Coefficient> Recurrence<C> for $name {
+                #[inline(always)]
+                fn next<const START: bool>(&self, history: History<'_, C>, x: C, y: C) -> C {
+                    next::$next::<C, START>(history, x, y)
                 }
             }
-        }
-        Action::Unary(unary) => match unary {
-            Unary::Neg => each!(row, x => -x),
-            Unary::Exp => each!(row, hs, h, x => next::exp::<C, START>(h, x)),
-            Unary::ExpM1 => each!(row, hs, h, x => next::exp_m1::<C, START>(h, x)),
-            Unary::Ln => each!(row, hs, h, x => next::ln::<C, START>(h, x)),
-            Unary::Ln1p => each!(row, hs, h, x => next::ln_1p::<C, START>(h, x)),
-            Unary::Sqrt => each!(row, hs, h, x => next::sqrt::<C, START>(h, x)),
-            Unary::Tanh => each!(row, hs, h, x => next::tanh::<C, START>(h, x)),
-            Unary::Softplus => each!(row, hs, h, x => next::softplus::<C, START>(h, x)),
-            Unary::Abs => each!(row, hs, h, x => next::abs::<C, START>(h, x)),
-        },
+        )*
+    };
+}
+
+of_two! {
+    Product product
+    Quotient quotient
+    Min min
+    Max max
+}
+
+struct Power(f64);
+
+impl<C: Coefficient> Recurrence<C> for Power {
+    #[inline(always)]
+    fn next<const START: bool>(&self, history: History<'_, C>, x: C, _y: C) -> C {
+        next::power::<C, START>(history, x, self.0)
     }
-    action.histories()
+}
+
+/// With a negative exponent.
+struct WholePower(i32);
+
+impl<C: Coefficient> Recurrence<C> for WholePower {
+    #[inline(always)]
+    fn next<const START: bool>(&self, history: History<'_, C>, x: C, _y: C) -> C {
+        next::whole_power::<C, START>(history, x, self.0)
+    }
+}
+
+/// A recurrence for all blocks.
+struct Each<'a, R, C: Copy, const START: bool> {
+    recurrence: R,
+    histories: Histories<'a, C>,
+    row: &'a mut [C],
+    y: &'a [C],
+}
+
+impl<R: Recurrence<C>, C: Along, const START: bool> Kernel for Each<'_, R, C, START> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Each { recurrence, histories, row, y } = self;
+        for (block, (row, y)) in row.iter_mut().zip(y).enumerate() {
+            *row = recurrence.next::<START>(histories.block(block), *row, *y);
+        }
+    }
+}
+
+/// An operation that needs no history.
+struct Linear<'a, C> {
+    action: Action,
+    is_start: bool,
+    row: &'a mut [C],
+    y: &'a [C],
+}
+
+impl<C: Along> Kernel for Linear<'_, C> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Linear { action, is_start, row, y } = self;
+        match action {
+            Action::Constant(c) => row.fill(if is_start { C::default() + c } else { C::default() }),
+            Action::AddConstant(c) if is_start => row.iter_mut().for_each(|x| *x = *x + c),
+            Action::MulConstant(c) => row.iter_mut().for_each(|x| *x = *x * c),
+            Action::DivConstant(c) => row.iter_mut().for_each(|x| *x = *x / c),
+            Action::Add(_) => row.iter_mut().zip(y).for_each(|(x, y)| *x = *x + *y),
+            Action::Sub(_) => row.iter_mut().zip(y).for_each(|(x, y)| *x = *x - *y),
+            Action::Unary(_) => row.iter_mut().for_each(|x| *x = -*x),
+            _ => {}
+        }
+    }
 }

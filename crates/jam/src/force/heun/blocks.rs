@@ -55,14 +55,20 @@ pub(super) fn in_blocks<L: Law>(law: L, steps: Steps, cut: Cut, state: &mut [f64
 fn round<L: Law>(law: L, steps: Steps, cut: Cut, state: &mut [f64]) -> bool {
     let parts = parts(steps.count, cut.threads, state);
     if parts.len() == 1 {
-        return parts.into_iter().all(|part| dispatch_up_to(steps.limit, Blocks { law, steps, size: cut.block, part }));
+        return parts.into_iter().all(|part| in_part(law, steps, cut.block, part));
     }
     std::thread::scope(|scope| {
-        let work = |part| move || dispatch_up_to(steps.limit, Blocks { law, steps, size: cut.block, part });
+        let work = |part| move || in_part(law, steps, cut.block, part);
         let threads: Vec<_> = parts.into_iter().map(|part| scope.spawn(work(part))).collect();
         let quiet = threads.into_iter().map(|thread| thread.join().unwrap_or_else(|panic| resume_unwind(panic)));
         quiet.collect::<Vec<_>>().into_iter().all(|is_quiet| is_quiet)
     })
+}
+
+/// The steps of the blocks of a part. A function of its own, or it would be compiled once more for the threads.
+#[inline(never)]
+fn in_part<L: Law>(law: L, steps: Steps, size: usize, part: Part<'_>) -> bool {
+    dispatch_up_to(steps.limit, Blocks { law, steps, size, part })
 }
 
 /// The part of a ring that a thread works on.
