@@ -193,6 +193,12 @@ impl Stepper for Taylor {
         dispatch(Change::<true> { rows: &self.coefficients, n: self.dimension, from, h, result });
         0
     }
+
+    fn interpolate_both(&mut self, ends: &Ends<'_>, thetas: [f64; 2], from: usize, results: [&mut [f64]; 2]) -> bool {
+        let h = thetas.map(|theta| theta * (ends.h / self.unit));
+        dispatch(Both { rows: &self.coefficients, n: self.dimension, from, h, results });
+        true
+    }
 }
 
 /// The largest power of 2 that is not above a normal number.
@@ -267,6 +273,57 @@ impl<const WHOLE: bool> Kernel for Change<'_, WHOLE> {
         for from in (0..n).step_by(LANES) {
             // the last block begins earlier rather than be cut: what is written twice is the same
             self.lanes::<LANES>(from.min(n - LANES));
+        }
+    }
+}
+
+/// Writes `c_0 + c_1 h + c_2 h^2 + ...`, as [`Change`] does, for two lengths: a coefficient is loaded once for both, and
+/// while one sum waits for itself the other goes on.
+struct Both<'a> {
+    rows: &'a [f64],
+    /// Length of a row.
+    n: usize,
+    from: usize,
+    h: [f64; 2],
+    results: [&'a mut [f64]; 2],
+}
+
+impl Both<'_> {
+    #[inline(always)]
+    fn lanes<const LANES: usize>(&mut self, from: usize) {
+        let mut sums = [[0.0; LANES]; 2];
+        let (first, others) = self.rows.split_at(self.n);
+        for row in others.rchunks_exact(self.n) {
+            let row = &row[self.from + from..][..LANES];
+            for (sum, h) in sums.iter_mut().zip(self.h) {
+                for (sum, coefficient) in sum.iter_mut().zip(row) {
+                    *sum = (*sum + coefficient) * h;
+                }
+            }
+        }
+        for (sum, result) in sums.iter_mut().zip(&mut self.results) {
+            for (sum, before) in sum.iter_mut().zip(&first[self.from + from..][..LANES]) {
+                *sum += before;
+            }
+            result[from..][..LANES].copy_from_slice(sum);
+        }
+    }
+}
+
+impl Kernel for Both<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(mut self) {
+        let n = self.results[0].len();
+        if n < FEWER {
+            for from in 0..n {
+                self.lanes::<1>(from);
+            }
+            return;
+        }
+        for from in (0..n).step_by(FEWER) {
+            self.lanes::<FEWER>(from.min(n - FEWER));
         }
     }
 }
@@ -361,3 +418,5 @@ pub(crate) fn forced(system: &dyn System) -> Vec<Range<usize>> {
 const LANES: usize = 16;
 /// Components per iteration of a sum over all orders.
 const WIDE: usize = 40;
+/// Components per iteration of two such sums.
+const FEWER: usize = 24;
