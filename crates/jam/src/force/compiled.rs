@@ -55,6 +55,11 @@ impl<L: Law> Compiled<L> {
         Compiled { law, speed_slopes, reference, memory: RefCell::default(), interpreted: OnceCell::new() }
     }
 
+    /// Whether the law has kinks. The arguments of these are known where it is carried out as a list of operations.
+    fn has_kinks(&self) -> bool {
+        self.reference.borrow().tape.has_kinks()
+    }
+
     fn interpreted(&self) -> &Interpreted {
         self.interpreted.get_or_init(|| interpreted(&self.law))
     }
@@ -133,11 +138,19 @@ impl<L: Law> Force for Compiled<L> {
     }
 
     fn series(&self, motion: Motion<'_>) {
-        if motion.along.is_some() {
+        if motion.along.is_some() || self.has_kinks() {
             return self.interpreted().series(motion);
         }
         let operations = self.reference.borrow().tape.histories();
         super::series::compiled(self.law, operations, motion, &mut self.memory.borrow_mut());
+    }
+
+    fn kinks(&self) -> usize {
+        if self.has_kinks() { self.interpreted().kinks() } else { 0 }
+    }
+
+    fn kink_arguments(&self, pedestrians: usize, order: usize, arguments: &mut [f64]) {
+        self.interpreted().kink_arguments(pedestrians, order, arguments);
     }
 
     fn heun(&self, steps: Steps, cut: Option<Cut>, state: &mut [f64]) -> Batch {
