@@ -105,7 +105,7 @@ pub fn of(scene: &Scene, outcome: &Outcome, propagated: &Propagated) -> (Option<
 /// A run's difference from a second one by the same code, by extrapolation (`dop853` if it is that) at a
 /// tenth of the tolerance, or with half the step; and the roundings that both have in common.
 fn difference(scene: &Scene, outcome: &Outcome) -> Stated {
-    let end = outcome.statistics.time;
+    let end = outcome.last_step;
     let mut other = Scene { t_end: end, ..scene.clone() };
     let factor = match scene.control {
         Control::Adaptive { tolerance } => {
@@ -126,7 +126,7 @@ fn difference(scene: &Scene, outcome: &Outcome) -> Stated {
         Ok(other) => other,
         Err(broken) => *broken.outcome,
     };
-    let is_whole = other.statistics.time == end;
+    let is_whole = if outcome.ends_at_event() { other.ends_at_event() } else { other.statistics.time == end };
     let apart = |a: &[f64], b: &[f64]| {
         if a.len() > b.len() { f64::INFINITY } else { factor * largest(a.iter().zip(b).map(|(a, b)| a - b)) }
     };

@@ -97,7 +97,7 @@ pub fn errors(run: &Run, outcome: &Outcome) -> Errors {
 
 /// Whether the law has bends of no width.
 pub(crate) fn has_kinks(model: &Model) -> bool {
-    model.may_have_kinks()
+    model.has_kinks()
 }
 
 /// Fixed steps may be too long for their error to be that of their order.

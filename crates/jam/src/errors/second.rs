@@ -76,7 +76,8 @@ impl Second {
         let gathered = gathered(run, outcome);
         let ends_alike = outcome.stop().map(|stop| stop.kind) == other.stop().map(|stop| stop.kind);
         let times = [outcome, other].map(|outcome| outcome.statistics.time);
-        let is_same_time = (times[0] - times[1]).abs() <= SAME_TIME * times[0];
+        let is_at_event = outcome.ends_at_event() && other.ends_at_event();
+        let is_same_time = is_at_event || (times[0] - times[1]).abs() <= SAME_TIME * times[0];
         let is_through_wall = is_through_wall(run, outcome);
         let is_shift_lost = loses_shift(run) && self.form != StateVariables::Deviations;
         let has_std = ends_alike && confirmed::reaches(outcome, other) && !is_shift_lost;
@@ -168,10 +169,10 @@ fn again(run: &Run, outcome: &Outcome) -> Run {
     Run { t_end: end(run, outcome), form, ..run.clone() }
 }
 
-/// A run ends with the step in which it finds its last event; a blow-up is not a suitable end.
+/// A run ends at its last event, which the second one has to find as well; a blow-up is not a suitable end.
 fn end(run: &Run, outcome: &Outcome) -> f64 {
     let is_blow_up = outcome.events.iter().any(|happening| happening.kind == EventKind::BlowUp);
-    if is_blow_up { run.t_end } else { outcome.statistics.time }
+    if is_blow_up { run.t_end } else { outcome.last_step }
 }
 
 /// The order that the errors of fixed steps show.

@@ -55,6 +55,11 @@ impl<L: Law> Compiled<L> {
         Compiled { law, speed_slopes, reference, memory: RefCell::default(), interpreted: OnceCell::new() }
     }
 
+    /// Whether the law has kinks. The arguments of these are known where it is carried out as a list of operations.
+    fn has_kinks(&self) -> bool {
+        self.reference.borrow().tape.has_kinks()
+    }
+
     fn interpreted(&self) -> &Interpreted {
         self.interpreted.get_or_init(|| interpreted(&self.law))
     }
@@ -95,7 +100,11 @@ impl<L: Law> Force for Compiled<L> {
         let (law, tape) = (self.law, &reference.tape);
         let is_done = dispatch(Deviations::<L, true> { law, tape, spacings, speeds, accelerations })
             || dispatch_wide(Deviations::<L, false> { law, tape, spacings, speeds, accelerations }).is_some();
-        if is_done { reference.acceleration } else { self.interpreted().deviations(flow, spacings, speeds, accelerations) }
+        if is_done {
+            reference.acceleration
+        } else {
+            self.interpreted().deviations(flow, spacings, speeds, accelerations)
+        }
     }
 
     fn effective_gaps(&self, net_gaps: &[f64], speeds: &[f64], gaps: &mut [f64]) {
@@ -133,9 +142,19 @@ impl<L: Law> Force for Compiled<L> {
 
     fn series(&self, mut motion: Motion<'_>) {
         let operations = self.reference.borrow().tape.histories();
-        if !super::series::compiled(self.law, operations, &mut motion, &mut self.memory.borrow_mut()) {
+        let is_done = !self.has_kinks()
+            && super::series::compiled(self.law, operations, &mut motion, &mut self.memory.borrow_mut());
+        if !is_done {
             self.interpreted().series(motion);
         }
+    }
+
+    fn kinks(&self) -> usize {
+        if self.has_kinks() { self.interpreted().kinks() } else { 0 }
+    }
+
+    fn kink_arguments(&self, pedestrians: usize, order: usize, arguments: &mut [f64]) {
+        self.interpreted().kink_arguments(pedestrians, order, arguments);
     }
 
     fn heun(&self, steps: Steps, cut: Option<Cut>, state: &mut [f64]) -> Batch {

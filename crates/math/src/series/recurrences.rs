@@ -45,6 +45,11 @@ impl<'t, C: Coefficient> History<'t, C> {
         self.row(index)[0].get()
     }
 
+    /// The coefficients of the argument of a kink, if it is the memory of one.
+    pub fn argument(self) -> impl Iterator<Item = C> {
+        self.row(ARGUMENT).iter().map(Block::get)
+    }
+
     /// `a_1 b_{k-1} + ... + a_{k-1} b_1`: the coefficient of this order of a product, less its ends. To be called before the
     /// coefficient of this order is written to row `a`, where the sum of the next order waits meanwhile.
     ///
@@ -299,11 +304,15 @@ pub fn max<C: Coefficient, const START: bool>(h: History<'_, C>, a: C, b: C) -> 
     C::choose(side::<C, START>(h, a - b), a, b)
 }
 
+/// The row of a kink in which its argument stands: that of `abs`, and what `min` and `max` compare.
+const ARGUMENT: usize = 1;
+
 /// The sign of a series for small times: that of its first coefficient which does not vanish, 0 before there is one.
 #[inline(always)]
 fn side<C: Coefficient, const START: bool>(h: History<'_, C>, a: C) -> C {
     let known = if START { C::default() } else { h.first(0) };
     let sign = C::sign(known, a);
     h.row(0)[0].set(sign);
+    h.write(ARGUMENT, a);
     sign
 }

@@ -156,6 +156,18 @@ impl Program {
         program
     }
 
+    /// The operations with kinks: how many histories the ones before take.
+    pub fn kinks(&self) -> Vec<usize> {
+        let (mut kinks, mut used) = (Vec::new(), 0);
+        for Instruction { action, .. } in &self.instructions {
+            if matches!(action, Action::Unary(Unary::Abs) | Action::Min(_) | Action::Max(_)) {
+                kinks.push(used);
+            }
+            used += action.histories();
+        }
+        kinks
+    }
+
     /// The variables that occur.
     pub fn variables(&self) -> Vec<Source> {
         let operands = self.instructions.iter().flat_map(|instruction| {
