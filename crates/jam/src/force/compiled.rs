@@ -11,7 +11,7 @@ use math::affine::Affine;
 use math::change::{Player, Recorder, Tape};
 use math::dual::Dual;
 use math::lanes::Lanes;
-use math::simd::{Kernel, Width, dispatch, dispatch_to_four, dispatch_up_to, dispatch_wide};
+use math::simd::{Kernel, Width, dispatch, dispatch_up_to, dispatch_wide};
 use ode::Batch;
 use std::cell::{OnceCell, RefCell};
 use std::sync::Arc;
@@ -183,14 +183,18 @@ pub(super) struct Row<'a> {
     pub(super) ahead_of_last: f64,
 }
 
-/// Writes the accelerations of a row. A function of its own, compiled once for whoever needs them. Laws with terms that the
-/// runs of the paper do not have do without the widest registers: another copy of each would take longer to compile than it
-/// saves.
+/// Writes the accelerations of a row, with registers no wider than this limit. A function of its own, compiled once for
+/// whoever needs them. Laws with terms that the runs of the paper do not have are compiled for registers of one width, since
+/// copies would take longer to compile than they save; where there are none, pedestrians are done one after the other.
 pub(super) fn accelerations<L: Law>(law: L, limit: Width, row: Row<'_>, accelerations: &mut [f64]) {
     if law.plain().is_some() {
-        dispatch_up_to(limit, Accelerations::<L, true> { law, row, accelerations });
-    } else {
-        dispatch_to_four(limit, Accelerations::<L, false> { law, row, accelerations });
+        return dispatch_up_to(limit, Accelerations::<L, true> { law, row, accelerations });
+    }
+    let is_done = limit >= Width::Four
+        && dispatch_wide(Accelerations::<L, false> { law, row, accelerations: &mut *accelerations }).is_some();
+    if !is_done {
+        let Row { net_gaps, speeds, ahead_of_last } = row;
+        along(&Values(law), Pace::Single, net_gaps, speeds, ahead_of_last, accelerations);
     }
 }
 

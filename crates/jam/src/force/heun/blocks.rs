@@ -8,7 +8,7 @@
 use super::segment::{Scheme, Segment};
 use crate::force::Steps;
 use crate::laws::Law;
-use math::simd::{Kernel, Width, dispatch_up_to};
+use math::simd::{Kernel, Width, dispatch_to_four};
 use std::ops::Range;
 use std::panic::resume_unwind;
 
@@ -65,10 +65,11 @@ fn round<L: Law>(law: L, steps: Steps, cut: Cut, state: &mut [f64]) -> bool {
     })
 }
 
-/// The steps of the blocks of a part. A function of its own, or it would be compiled once more for the threads.
+/// The steps of the blocks of a part. A function of its own, or it would be compiled once more for the threads. Without a copy
+/// for the widest registers: the rows of large rings wait for the second-level cache.
 #[inline(never)]
 fn in_part<L: Law>(law: L, steps: Steps, size: usize, part: Part<'_>) -> bool {
-    dispatch_up_to(steps.limit, Blocks { law, steps, size, part })
+    dispatch_to_four(steps.limit, Blocks { law, steps, size, part })
 }
 
 /// The part of a ring that a thread works on.
@@ -115,11 +116,8 @@ impl<L: Law> Kernel for Blocks<'_, L> {
     fn run(self) -> bool {
         let law = self.law;
         match law.plain() {
-            Some(plain) => {
-                let in_rows = plain.is_long().then_some(self.steps.limit);
-                self.all(&plain, in_rows)
-            }
-            None => {
+            Some(plain) if !plain.is_long() => self.all(&plain, None),
+            _ => {
                 let in_rows = Some(self.steps.limit);
                 self.all(&law, in_rows)
             }

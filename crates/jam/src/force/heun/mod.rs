@@ -66,11 +66,8 @@ impl<L: Law> Kernel for InOne<'_, L> {
     fn run(self) -> bool {
         let law = self.law;
         match law.plain() {
-            Some(plain) => {
-                let in_rows = plain.is_long().then_some(self.steps.limit);
-                self.steps(&plain, in_rows)
-            }
-            None => {
+            Some(plain) if !plain.is_long() => self.steps(&plain, None),
+            _ => {
                 let in_rows = Some(self.steps.limit);
                 self.steps(&law, in_rows)
             }
