@@ -65,8 +65,10 @@ impl<'t, C: Coefficient> History<'t, C> {
         if order % 2 == 1 {
             let (mut sum, row) = (row[order].get(), &row[..order]);
             // both ends; in a loop, since the compiler would tear two products to pieces
-            for i in (1..order).step_by(order - 2) {
+            let mut i = 1;
+            while i < order {
                 sum = sum + row[i].get() * others[order - i].get();
+                i += order - 2;
             }
             return sum;
         }
@@ -266,13 +268,13 @@ pub fn softplus<C: Coefficient, const START: bool>(h: History<'_, C>, y: C) -> C
     const REST_RATE: usize = 2;
     const INVERSE: usize = 3;
     if START {
-        let decay = (-y.abs()).exp();
+        let [softplus, decay] = y.softplus_and_decay();
         h.write(DECAY, decay);
         // at order 0 there is no rate: the sign of the exponent stands there
         let one = C::default() + 1.0;
         h.write(EXPONENT_RATE, C::choose(-y, one, -one));
         h.write(INVERSE, (decay + 1.0).recip());
-        return y.softplus();
+        return softplus;
     }
     let (k, sign) = (h.k(), h.first(EXPONENT_RATE));
     let y_rate = y * k;
