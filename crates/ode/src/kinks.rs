@@ -140,6 +140,16 @@ fn first_crossing<'a>(
     slack: f64,
 ) -> Option<f64> {
     let first = coefficients.clone().find(|coefficient| **coefficient != 0.0)?;
+    // a kink found before has made the step shorter
+    let (mut change, mut power) = (0.0, 1.0);
+    for coefficient in coefficients.clone().skip(1) {
+        power *= end / unit;
+        change += coefficient.abs() * power;
+    }
+    let start = coefficients.clone().next().map_or(0.0, |start| start.abs());
+    if (change - start) * end <= slack {
+        return None;
+    }
     // `slack + t |f(t)|` on the side where the step starts, as a polynomial of the part of the step
     let mut polynomial = Polynomial { coefficients: [0.0; HIGHEST + 1], degree: 0 };
     polynomial.coefficients[0] = slack;

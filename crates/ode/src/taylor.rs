@@ -233,7 +233,7 @@ const LEAST: f64 = 1e-300;
 const MOST: f64 = 1e300;
 
 /// A kink is passed by so much of the tolerance, and at least by so many roundings.
-const SLACK: f64 = 0.01;
+const SLACK: f64 = 0.1;
 const ROUNDINGS: f64 = 4.0;
 
 /// A step that a kink ends is the measure for the next one if it is no shorter than this, in units of the last one.

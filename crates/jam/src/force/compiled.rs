@@ -153,6 +153,10 @@ impl<L: Law> Force for Compiled<L> {
         if self.has_kinks() { self.interpreted().kinks() } else { 0 }
     }
 
+    fn has_soft_kinks(&self) -> bool {
+        self.has_kinks() && self.interpreted().has_soft_kinks()
+    }
+
     fn kink_arguments(&self, pedestrians: usize, order: usize, arguments: &mut [f64]) {
         self.interpreted().kink_arguments(pedestrians, order, arguments);
     }

@@ -71,6 +71,11 @@ pub trait Force: std::fmt::Debug + Send {
         0
     }
 
+    /// Whether some of them are kinks of higher derivatives only.
+    fn has_soft_kinks(&self) -> bool {
+        false
+    }
+
     /// Writes the arguments of the kinks in the series written last: `order` rows of one number for each kink of each of so
     /// many pedestrians.
     fn kink_arguments(&self, _pedestrians: usize, _order: usize, _arguments: &mut [f64]) {}

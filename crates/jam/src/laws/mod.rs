@@ -354,6 +354,11 @@ impl Model {
         }
     }
 
+    /// Whether some of its kinks are of higher derivatives only, as that of `max(0, x)^2`.
+    pub fn has_soft_kinks(&self) -> bool {
+        self.has_kinks() && self.force().has_soft_kinks()
+    }
+
     /// Whether the acceleration may have no value at some places with open gaps.
     pub fn may_be_undefined(&self) -> bool {
         matches!(self, Model::Formula(_) | Model::Own(_))

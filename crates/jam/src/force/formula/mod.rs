@@ -224,6 +224,10 @@ impl Force for Interpreted {
         self.prepared.kinks.len()
     }
 
+    fn has_soft_kinks(&self) -> bool {
+        self.prepared.program.has_soft_kinks()
+    }
+
     fn kink_arguments(&self, pedestrians: usize, order: usize, arguments: &mut [f64]) {
         let Scratch { memory, memory_along, is_along, .. } = &*self.scratch.borrow();
         let kinks = &self.prepared.kinks;
