@@ -81,12 +81,8 @@ pub(crate) const FINEST: f64 = 1e-17;
 /// What a run states, and the run up to there if its check does not confirm all of it; of the table of trajectories, of which
 /// it states nothing, what [`difference`] finds.
 pub fn of(scene: &Scene, outcome: &Outcome, propagated: &Propagated) -> (Option<Broken>, Stated) {
-    let errors = errors::errors_of(scene, outcome, Some(propagated), &mut ());
+    let (errors, refused) = errors::checked(scene, outcome, Some(propagated), &mut (), &mut ());
     let cost = errors.cost;
-    let (refused, errors) = match errors::refused(scene, outcome, &errors, &mut ()) {
-        Some((broken, errors)) => (Some(broken), errors),
-        None => (None, errors),
-    };
     let outcome = refused.as_ref().map_or(outcome, |broken| &*broken.outcome);
     let or_none = |error: Option<f64>| error.unwrap_or(f64::INFINITY);
     let end = [or_none(errors.positions), or_none(errors.speeds)];

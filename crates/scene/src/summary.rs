@@ -28,15 +28,13 @@ impl Ended {
     /// The errors of its numbers. Samples that the check does not confirm are left out, and the run then counts as one that
     /// broke there. `onlooker` sees a second run, if there is one, and `again` the run up to where it is confirmed.
     pub fn checked(&mut self, scene: &Scene, onlooker: &mut dyn RunObserver, again: &mut dyn RunObserver) -> Errors {
-        let errors = errors::errors_of(scene, &self.outcome, self.propagated.as_ref(), onlooker);
-        match errors::refused(scene, &self.outcome, &errors, again) {
-            Some((broken, errors)) => {
-                self.outcome = *broken.outcome.clone();
-                self.broken = Some(broken);
-                errors
-            }
-            None => errors,
+        let propagated = self.propagated.as_ref();
+        let (errors, refused) = errors::checked(scene, &self.outcome, propagated, onlooker, again);
+        if let Some(broken) = refused {
+            self.outcome = *broken.outcome.clone();
+            self.broken = Some(broken);
         }
+        errors
     }
 }
 

@@ -293,7 +293,8 @@ impl Observer for Recorder<'_> {
     }
 
     fn next_sample(&self) -> f64 {
-        let (sample, next) = (self.sampler.next(), self.record.followed + FOLLOWED_EVERY);
+        let sample = math::smaller(self.sampler.next(), self.observer.next_instant());
+        let next = self.record.followed + FOLLOWED_EVERY;
         if self.run.keeps_trajectories && next < sample { next } else { sample }
     }
 
