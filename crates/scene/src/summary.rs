@@ -39,7 +39,7 @@ impl Ended {
 }
 
 /// The contents of `summary.json` for a run.
-pub fn of_run(scene: &Scene, ended: &Ended, flow: Option<Stability>, errors: Option<&Errors>) -> Value {
+pub fn of_run(scene: &Scene, ended: &Ended, flow: Option<&Stability>, errors: Option<&Errors>) -> Value {
     let Ended { outcome, broken, seconds, resumed_steps, .. } = ended;
     let control = match scene.control {
         Control::Fixed { step } => json!({ "dt": step }),
@@ -129,13 +129,14 @@ fn jams(outcome: &Outcome) -> Value {
 }
 
 /// The uniform flow; null if there is none, or none with a linear response.
-pub fn of_flow(flow: Option<Stability>) -> Value {
+pub fn of_flow(flow: Option<&Stability>) -> Value {
     flow.map_or(Value::Null, |flow| {
         json!({
-            "stable": flow.growing.is_none(),
+            "stable": flow.margin < 0.0,
             "margin": flow.margin,
             "margin_on_ring": flow.margin_on_ring,
-            "growing_k": flow.growing.map(|(least, largest)| [least, largest]),
+            "growing_k": flow.growing.first().zip(flow.growing.last()).map(|((least, _), (_, largest))| [least, largest]),
+            "growing_bands": flow.growing,
             "growth_rate": flow.growth_rate,
             "waves": flow.waves,
         })
