@@ -98,6 +98,20 @@ fn a_formula_that_loses_its_value_ends_by_name() {
     assert!((event.time - 3.0).abs() < 0.1, "{event:?}");
 }
 
+/// The end lies between two neighbouring numbers: the state stays on the nearer one, and a series of Taylor's would be
+/// tried there without end.
+#[test]
+fn steps_do_not_creep_towards_an_end_without_reaching_it() {
+    let text = "[law]\nkind = \"formula\"\nacceleration = \"3*ln(s - 1.3) - v - 0.5\"\nbody = 0.5\n[ring]\npedestrians = 20\n\
+        length = 40.0\n[start]\nshift = 0.6\n[run]\nt_end = 30.0\nsample = 1.0\n";
+    for method in ["taylor", "dop853"] {
+        let end = outcome(&format!("{text}method = \"{method}\"\n"));
+        let event = end.events.iter().find(|event| event.kind == EventKind::Undefined).expect("an end");
+        assert!((event.time - 2.460_440_871_3).abs() < 1e-9, "{event:?}");
+        assert!(end.statistics.steps + end.statistics.rejected < 3000, "{:?}", end.statistics);
+    }
+}
+
 #[test]
 fn a_gap_of_its_own_tells_the_overlap() {
     // from rest everybody but the first gains V(2) (1 - exp(-t)); the gap 2 - 1.1 * 2 v closes at v = 1/1.1
