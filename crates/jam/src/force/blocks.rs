@@ -108,11 +108,7 @@ fn last_of_many<const W: usize, B: Block>(
 /// The last block. It begins earlier rather than be cut, since what is written twice is the same; a row of fewer is filled
 /// up.
 #[inline(always)]
-fn last<const W: usize, B: Block>(
-    block: &B,
-    (first, second, closing): (&[f64], &[f64], f64),
-    result: &mut [f64],
-) {
+fn last<const W: usize, B: Block>(block: &B, (first, second, closing): (&[f64], &[f64], f64), result: &mut [f64]) {
     let n = first.len();
     let [filler, speed] = B::FILLER;
     let (mut own, mut speeds, mut ahead) = ([filler; W], [speed; W], [speed; W]);

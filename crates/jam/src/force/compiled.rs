@@ -95,7 +95,11 @@ impl<L: Law> Force for Compiled<L> {
         let (law, tape) = (self.law, &reference.tape);
         let is_done = dispatch(Deviations::<L, true> { law, tape, spacings, speeds, accelerations })
             || dispatch_wide(Deviations::<L, false> { law, tape, spacings, speeds, accelerations }).is_some();
-        if is_done { reference.acceleration } else { self.interpreted().deviations(flow, spacings, speeds, accelerations) }
+        if is_done {
+            reference.acceleration
+        } else {
+            self.interpreted().deviations(flow, spacings, speeds, accelerations)
+        }
     }
 
     fn effective_gaps(&self, net_gaps: &[f64], speeds: &[f64], gaps: &mut [f64]) {
