@@ -82,8 +82,10 @@ fn points(parsed: &SceneFile, arguments: &Arguments) -> Result<(), Failure> {
     for panel in parsed.panels.iter().filter(|panel| panel.kind == Kind::Run) {
         let scene = scene::run::read_unrun(&parsed.file, &panel.tables)?;
         let (speed, flow) = (scene.steady_speed, stability(&scene));
-        summaries.push(json!({ "panel": panel.name, "steady_speed": speed, "uniform_flow": summary::of_flow(flow) }));
-        words.push(format!("{}: {}", panel.name, uniform::in_words(flow, scene.ring.pedestrians)));
+        summaries.push(
+            json!({ "panel": panel.name, "steady_speed": speed, "uniform_flow": summary::of_flow(flow.as_ref()) }),
+        );
+        words.push(format!("{}: {}", panel.name, uniform::in_words(flow.as_ref(), scene.ring.pedestrians)));
     }
     if words.is_empty() {
         return Err(Failure::input(format!("{}: has neither [map] nor [run]", parsed.file)));

@@ -94,7 +94,7 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     let errors = is_checked.then(|| ended.checked(&scene, &mut (), &mut arguments.care.judging()));
     let errors = errors.as_ref();
     let flow = stability(&scene);
-    let summary = summary::of_run(&scene, &ended, flow, errors);
+    let summary = summary::of_run(&scene, &ended, flow.as_ref(), errors);
     let Ended { outcome, broken, seconds, .. } = ended;
     let mut files = Vec::new();
     if let Some(folder) = &arguments.out {
@@ -108,7 +108,8 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     files.extend(arguments.state.iter().map(|file| (file.clone(), state(&outcome).to_csv())));
     atomic_all(&files)?;
     arguments.care.remove()?;
-    let words = if arguments.json { summary.to_string() } else { in_words(&scene, &outcome, flow, errors, seconds) };
+    let words =
+        if arguments.json { summary.to_string() } else { in_words(&scene, &outcome, flow.as_ref(), errors, seconds) };
     print(&words)?;
     broken.map_or(Ok(()), |broken| Err(Failure::work(broken)))
 }
@@ -243,7 +244,7 @@ fn rounded(time: f64) -> f64 {
 fn in_words(
     scene: &Scene,
     outcome: &Outcome,
-    flow: Option<Stability>,
+    flow: Option<&Stability>,
     errors: Option<&Errors>,
     seconds: f64,
 ) -> String {

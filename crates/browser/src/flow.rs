@@ -21,7 +21,7 @@ pub fn of(text: &str, count: usize) -> Result<Value, Value> {
     let flow = stability(&scene);
     let rates =
         rates(&scene, count).unwrap_or_else(|| json!({ "k": null, "rate": null, "waves": null, "error": null }));
-    let mut told = json!({ "speed": scene.steady_speed, "uniform_flow": summary::of_flow(flow) });
+    let mut told = json!({ "speed": scene.steady_speed, "uniform_flow": summary::of_flow(flow.as_ref()) });
     if let (Value::Object(told), Value::Object(rates)) = (&mut told, rates) {
         told.extend(rates);
     }

@@ -43,7 +43,7 @@ pub fn run_kept(text: &str, hearer: &mut dyn Hearer) -> Result<(Value, Ran), Val
     let mut ended = end(&scene, &mut watch);
     watch.hearer.checking();
     let errors = ended.checked(&scene, &mut (), &mut Judging::Along);
-    let mut told = summary::of_run(&scene, &ended, stability(&scene), Some(&errors));
+    let mut told = summary::of_run(&scene, &ended, stability(&scene).as_ref(), Some(&errors));
     let mut sums = json!({ "std.csv": sha256(&tables::std(&ended.outcome.samples).to_csv()) });
     if scene.keeps_trajectories {
         sums["trajectories.csv"] = json!(sha256(&tables::trajectories(&ended.outcome.samples).to_csv()));

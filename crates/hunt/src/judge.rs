@@ -5,7 +5,7 @@ use crate::bound::Bound;
 use crate::question;
 use crate::stated::{self, Stated};
 use files::scene_file;
-use jam::errors::run_propagated;
+use jam::errors::{loses_shift, run_propagated};
 use jam::events::{Event, EventKind};
 use jam::run::{Broken, Outcome};
 use jam::states::StateVariables;
@@ -233,8 +233,12 @@ fn reason(verdict: &mut Verdict, scene: &Scene, broken: &Broken, answer: &Answer
     let is_own = match broken.failure {
         ode::Failure::TooManySteps { .. } => true,
         ode::Failure::NotFinite { .. } => scene.is_fixed(),
-        // spacings that lose the shift show a uniform flow, whatever the steps; the run then advises another form
-        ode::Failure::NotConfirmed { .. } => scene.is_fixed() || broken.to_string().contains("state = \"deviations\""),
+        // spacings that lose the shift show a uniform flow, whatever the steps; a loose tolerance leads out of the domain of a
+        // formula that the solution does not leave
+        ode::Failure::NotConfirmed { .. } => {
+            let is_lost_by_error = scene.model.may_be_undefined() && solution.end == End::Reached;
+            scene.is_fixed() || loses_shift(scene) || is_lost_by_error
+        }
         _ => false,
     };
     let ends_there = matches!(solution.end, End::Singular | End::BlownUp) && solution.time <= time;

@@ -81,12 +81,8 @@ pub(crate) const FINEST: f64 = 1e-17;
 /// What a run states, and the run up to there if its check does not confirm all of it; of the table of trajectories, of which
 /// it states nothing, what [`difference`] finds.
 pub fn of(scene: &Scene, outcome: &Outcome, propagated: &Propagated) -> (Option<Broken>, Stated) {
-    let errors = errors::errors_of(scene, outcome, Some(propagated), &mut ());
+    let (errors, refused) = errors::checked(scene, outcome, Some(propagated), &mut (), &mut ());
     let cost = errors.cost;
-    let (refused, errors) = match errors::refused(scene, outcome, &errors, &mut ()) {
-        Some((broken, errors)) => (Some(broken), errors),
-        None => (None, errors),
-    };
     let outcome = refused.as_ref().map_or(outcome, |broken| &*broken.outcome);
     let or_none = |error: Option<f64>| error.unwrap_or(f64::INFINITY);
     let end = [or_none(errors.positions), or_none(errors.speeds)];
@@ -105,7 +101,7 @@ pub fn of(scene: &Scene, outcome: &Outcome, propagated: &Propagated) -> (Option<
 /// A run's difference from a second one by the same code, by extrapolation (`dop853` if it is that) at a
 /// tenth of the tolerance, or with half the step; and the roundings that both have in common.
 fn difference(scene: &Scene, outcome: &Outcome) -> Stated {
-    let end = outcome.statistics.time;
+    let end = outcome.last_step;
     let mut other = Scene { t_end: end, ..scene.clone() };
     let factor = match scene.control {
         Control::Adaptive { tolerance } => {
@@ -126,7 +122,7 @@ fn difference(scene: &Scene, outcome: &Outcome) -> Stated {
         Ok(other) => other,
         Err(broken) => *broken.outcome,
     };
-    let is_whole = other.statistics.time == end;
+    let is_whole = if outcome.ends_at_event() { other.ends_at_event() } else { other.statistics.time == end };
     let apart = |a: &[f64], b: &[f64]| {
         if a.len() > b.len() { f64::INFINITY } else { factor * largest(a.iter().zip(b).map(|(a, b)| a - b)) }
     };

@@ -42,50 +42,63 @@ impl<const SCALED: bool> Kernel for Std<'_, SCALED> {
     #[inline(always)]
     fn run(self) -> f64 {
         let Std { values, scale } = self;
-        let count = values.len() as f64;
-        let lanes = InLanes::new(values);
-        let mean = lanes.sum(|value| value) / count;
-        let squares = lanes.sum(|value| {
+        let (whole, rest) = values.as_chunks::<LANES>();
+        let (count, last) = (values.len() as f64, filled_up(values));
+        let counts = &COUNTS[LANES - rest.len()..][..LANES];
+        let mut sums = [0.0; LANES];
+        for chunk in whole {
+            for lane in 0..LANES {
+                sums[lane] += chunk[lane];
+            }
+        }
+        for lane in 0..LANES {
+            sums[lane] += f64::from_bits(last[lane].to_bits() & counts[lane]);
+        }
+        let mean = in_pairs(sums) / count;
+        let square = |value: f64| {
             let rest = if SCALED { scale * (value - mean) } else { value - mean };
             rest * rest
-        });
-        let spread = (squares / count).sqrt();
+        };
+        let mut sums = [0.0; LANES];
+        for chunk in whole {
+            for lane in 0..LANES {
+                sums[lane] += square(chunk[lane]);
+            }
+        }
+        for lane in 0..LANES {
+            sums[lane] += f64::from_bits(square(last[lane]).to_bits() & counts[lane]);
+        }
+        let spread = (in_pairs(sums) / count).sqrt();
         if SCALED { spread / scale } else { spread }
     }
 }
 
-/// Numbers in eight lanes.
-struct InLanes<'a> {
-    whole: std::slice::ChunksExact<'a, f64>,
-    /// What is left of them, filled up.
-    last: [f64; LANES],
-    /// How many are left.
-    left: usize,
+/// From its place `LANES - n` on, all bits for `n` lanes and none for the others. A sum that begins at 0 is never -0: to add
+/// 0 to it changes nothing.
+const COUNTS: [u64; 2 * LANES] = {
+    let mut counts = [0; 2 * LANES];
+    let mut lane = 0;
+    while lane < LANES {
+        counts[lane] = u64::MAX;
+        lane += 1;
+    }
+    counts
+};
+
+/// What is left behind whole chunks; then the last value, so that no length is unknown.
+#[inline(always)]
+fn filled_up(values: &[f64]) -> [f64; LANES] {
+    let (end, whole) = (values.len() - 1, values.len() / LANES * LANES);
+    let mut last = [0.0; LANES];
+    for (lane, place) in last.iter_mut().enumerate() {
+        let index = whole + lane;
+        *place = values[if index < end { index } else { end }];
+    }
+    last
 }
 
-impl InLanes<'_> {
-    #[inline(always)]
-    fn new(values: &[f64]) -> InLanes<'_> {
-        let (whole, mut last) = (values.chunks_exact(LANES), [0.0; LANES]);
-        let left = whole.remainder().len();
-        last[..left].copy_from_slice(whole.remainder());
-        InLanes { whole, last, left }
-    }
-
-    /// The sum of `map` over them.
-    #[inline(always)]
-    fn sum(&self, map: impl Fn(f64) -> f64) -> f64 {
-        let mut sums = [0.0; LANES];
-        for chunk in self.whole.clone() {
-            for (sum, value) in sums.iter_mut().zip(chunk) {
-                *sum += map(*value);
-            }
-        }
-        for (lane, (sum, value)) in sums.iter_mut().zip(self.last).enumerate() {
-            let next = *sum + map(value);
-            *sum = if lane < self.left { next } else { *sum };
-        }
-        let [a, b, c, d, e, f, g, h] = sums;
-        ((a + b) + (c + d)) + ((e + f) + (g + h))
-    }
+/// The sum of all lanes.
+#[inline(always)]
+fn in_pairs([a, b, c, d, e, f, g, h]: [f64; LANES]) -> f64 {
+    ((a + b) + (c + d)) + ((e + f) + (g + h))
 }

@@ -215,33 +215,49 @@ impl Response {
         self.spacings.iter().all(|(j, _)| *j == 0) && self.speeds.iter().all(|(j, _)| *j == 0 || *j == 1)
     }
 
-    /// The waves that grow, of all `k` in (0, pi]: the least and the largest of them (0: the limit of long waves). `None` where
-    /// none does. Between the two, a wide stencil may have waves that decay.
+    /// The least and the largest wave number that grows, of all `k` in (0, pi] (0: the limit of long waves). `None` where none
+    /// does. Between the two, a wide stencil may have waves that decay: see [`Response::growing_bands`].
     pub fn growing(&self) -> Option<(f64, f64)> {
-        let step = PI / self.grid(4) as f64;
-        let grows = |k: f64| self.margin_of(k) > 0.0;
-        let grid: Vec<f64> = (1..=self.grid(4)).map(|i| step * i as f64).collect();
-        let (first, last) = (grid.iter().position(|k| grows(*k)), grid.iter().rposition(|k| grows(*k)));
-        let (Some(first), Some(last)) = (first, last) else {
-            // a band that lies between two of the grid, or the limit alone
-            let (margin, k) = self.margin(Waves::All);
-            return (margin > 0.0).then_some((k, k));
-        };
-        let between = |decaying: f64, growing: f64| {
-            let (mut decaying, mut growing) = (decaying, growing);
-            for _ in 0..60 {
-                let middle = 0.5 * (decaying + growing);
-                if grows(middle) { growing = middle } else { decaying = middle }
+        let bands = self.growing_bands();
+        Some((bands.first()?.0, bands.last()?.1))
+    }
+
+    /// The bands of wave numbers that grow, in ascending order: the least and the largest `k` of each (0: the limit of long
+    /// waves). A stencil of several neighbours may have more than one.
+    pub fn growing_bands(&self) -> Vec<(f64, f64)> {
+        let count = self.grid(4);
+        let step = PI / count as f64;
+        let mut waves: Vec<(f64, bool)> = vec![(0.0, self.long_wave_margin() > 0.0)];
+        waves.extend((1..=count).map(|i| step * i as f64).map(|k| (k, self.margin_of(k) > 0.0)));
+        // a band that lies between two of the grid
+        let (margin, k) = self.margin(Waves::All);
+        let next = waves.partition_point(|(other, _)| *other < k);
+        if margin > 0.0 && next > 0 && next < waves.len() && !waves[next - 1].1 && !waves[next].1 {
+            waves.insert(next, (k, true));
+        }
+        let mut bands = Vec::new();
+        let mut least = waves[0].1.then_some(0.0);
+        for pair in waves.windows(2) {
+            let [(left, grows_left), (right, grows_right)] = [pair[0], pair[1]];
+            match (grows_left, grows_right) {
+                // where the limit itself does not grow, rounding decides about the longest waves
+                (false, true) => least = Some(self.edge(if left == 0.0 { 1e-9 } else { left }, right)),
+                (true, false) => bands.extend(least.take().map(|least| (least, self.edge(right, left)))),
+                _ => {}
             }
-            growing
-        };
-        let least = match first {
-            0 if self.long_wave_margin() > 0.0 => 0.0,
-            0 => between(1e-9, grid[0]),
-            _ => between(grid[first - 1], grid[first]),
-        };
-        let largest = if last + 1 == grid.len() { grid[last] } else { between(grid[last + 1], grid[last]) };
-        Some((least, largest))
+        }
+        bands.extend(least.map(|least| (least, PI)));
+        bands
+    }
+
+    /// Where growth begins, between a wave that decays and one that grows, by bisection.
+    fn edge(&self, decaying: f64, growing: f64) -> f64 {
+        let (mut decaying, mut growing) = (decaying, growing);
+        for _ in 0..60 {
+            let middle = 0.5 * (decaying + growing);
+            if self.margin_of(middle) > 0.0 { growing = middle } else { decaying = middle }
+        }
+        growing
     }
 
     /// The largest growth rate among the waves of a ring, `k = 2 pi l / N` for `l = 1 .. N/2`, and its `l`.

@@ -89,6 +89,28 @@ fn baseline<K: Kernel>(kernel: K) -> K::Output {
     kernel.run()
 }
 
+/// Runs the one of two kernels that suits the widest registers of the processor: `eight` where these hold eight
+/// doubles, else `fewer`. For computations whose blocks fill the registers of one width and not those of another: each
+/// kernel is compiled for its own widths alone. Both are made of the same arguments.
+#[inline]
+pub fn dispatch_either<A, F: Kernel, E: Kernel<Output = F::Output>>(
+    arguments: A,
+    fewer: impl FnOnce(A) -> F,
+    eight: impl FnOnce(A) -> E,
+) -> F::Output {
+    #[cfg(target_arch = "x86_64")]
+    match available() {
+        // SAFETY: as in `dispatch_up_to`.
+        Width::Eight => return unsafe { x86::eight(eight(arguments)) },
+        // SAFETY: as above.
+        Width::Four => return unsafe { x86::four(fewer(arguments)) },
+        Width::Baseline => {}
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = eight;
+    baseline(fewer(arguments))
+}
+
 /// The widest registers of this processor, which is asked once.
 #[inline]
 pub fn available() -> Width {

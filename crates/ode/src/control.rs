@@ -44,6 +44,12 @@ impl Norm {
         }
     }
 
+    /// This part of the error that a component is allowed, but no less than so many roundings of its group.
+    pub(crate) fn scale(&self, component: usize, part: f64, roundings: f64) -> f64 {
+        let group = self.groups.iter().position(|group| group.range.contains(&component)).unwrap_or(0);
+        self.scales[group] * (part + roundings * f64::EPSILON / self.tolerance)
+    }
+
     /// The largest error over the groups; 1 is just allowed. NaN when an error is.
     pub(crate) fn of(&self, errors: &[f64]) -> f64 {
         let mut worst = 0.0;

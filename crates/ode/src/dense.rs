@@ -78,6 +78,18 @@ pub(crate) trait Stepper {
 
     /// Writes components of the solution at the fraction `theta` of the accepted step; returns the evaluations this took.
     fn interpolate(&mut self, system: &dyn System, ends: &Ends<'_>, theta: f64, part: Part<'_>) -> u64;
+
+    /// Does so at two fractions inside the step, for the components from `from` on, and returns true if the method has a
+    /// way that is quicker than one after the other and takes no evaluations.
+    fn interpolate_both(
+        &mut self,
+        _ends: &Ends<'_>,
+        _thetas: [f64; 2],
+        _from: usize,
+        _results: [&mut [f64]; 2],
+    ) -> bool {
+        false
+    }
 }
 
 /// A contiguous part of a state, for writing.
@@ -109,6 +121,10 @@ pub struct Step<'a> {
 
 /// Closer than this fraction of a step to one of its ends, a place is taken for that end.
 const SAME: f64 = 1e-13;
+
+fn is_same(theta: f64, end: f64) -> bool {
+    (theta - end).abs() < SAME
+}
 
 /// How near to an end of a step of this length a time is taken for that end: a few roundings of it, but a small part of a
 /// step that is hardly longer than these.
@@ -158,6 +174,21 @@ impl Step<'_> {
         self.part_at(t, Part { from: range.start, values: &mut state[range] });
     }
 
+    /// [`Step::components_at`] at two times, which some methods compute together.
+    pub(crate) fn components_at_both(&mut self, times: [f64; 2], range: Range<usize>, states: [&mut [f64]; 2]) {
+        let thetas = times.map(|t| self.fraction(t));
+        let [one, other] = states.map(|state| &mut state[range.clone()]);
+        let is_inside = |theta: &f64| !is_same(*theta, 0.0) && !is_same(*theta, 1.0);
+        if thetas.iter().all(is_inside)
+            && self.stepper.interpolate_both(&self.ends, thetas, range.start, [&mut *one, &mut *other])
+        {
+            return;
+        }
+        for (theta, values) in thetas.into_iter().zip([one, other]) {
+            self.part_at_fraction(theta, Part { from: range.start, values });
+        }
+    }
+
     fn part_at(&mut self, t: f64, part: Part<'_>) {
         self.part_at_fraction(self.fraction(t), part);
     }
@@ -185,9 +216,9 @@ impl Step<'_> {
     }
 
     fn part_at_fraction(&mut self, theta: f64, part: Part<'_>) {
-        if theta.abs() < SAME {
+        if is_same(theta, 0.0) {
             part.values.copy_from_slice(&self.ends.before[part.range()]);
-        } else if (theta - 1.0).abs() < SAME {
+        } else if is_same(theta, 1.0) {
             part.values.copy_from_slice(&self.ends.after[part.range()]);
         } else {
             let (from, values) = (part.from, part.values);

@@ -11,6 +11,7 @@ mod dense;
 mod extrapolation;
 mod failure;
 mod integrate;
+mod kinks;
 mod linear;
 pub mod methods;
 mod observe;

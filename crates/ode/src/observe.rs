@@ -82,13 +82,14 @@ impl<F: FnMut(&mut Step<'_>) -> ControlFlow<()>> Observer for F {
 pub struct Sampler {
     interval: f64,
     next: u64,
-    state: Vec<f64>,
+    /// Room for two samples.
+    states: [Vec<f64>; 2],
 }
 
 impl Sampler {
     /// Samples every `interval` (> 0), the first after time 0, of a system of `dimension` components.
     pub fn new(interval: f64, dimension: usize) -> Sampler {
-        Sampler { interval, next: 1, state: vec![0.0; dimension] }
+        Sampler { interval, next: 1, states: [(); 2].map(|()| vec![0.0; dimension]) }
     }
 
     /// Goes on where a sampler stood whose next sample is at `next` intervals.
@@ -98,12 +99,16 @@ impl Sampler {
 
     /// Goes on with a system of another number of components.
     pub fn change_dimension(&mut self, dimension: usize) {
-        self.state.resize(dimension, 0.0);
+        self.states.iter_mut().for_each(|state| state.resize(dimension, 0.0));
     }
 
     /// The time of the next sample.
     pub fn next(&self) -> f64 {
-        self.next as f64 * self.interval
+        self.time(self.next)
+    }
+
+    fn time(&self, index: u64) -> f64 {
+        index as f64 * self.interval
     }
 
     /// The times of the first and of the last sample that [`Sampler::within`] would take.
@@ -121,7 +126,7 @@ impl Sampler {
 
     /// Calls `take(t, state)` for every sample time within the step that is not after `until`.
     pub fn within(&mut self, step: &mut Step<'_>, until: f64, take: &mut dyn FnMut(f64, &[f64])) {
-        let all = 0..self.state.len();
+        let all = 0..self.states[0].len();
         self.components_within(step, until, all, take);
     }
 
@@ -135,13 +140,22 @@ impl Sampler {
     ) {
         let end = last_moment(step, until);
         loop {
-            let t = self.next();
-            if t > end {
+            let times = [self.next(), self.time(self.next + 1)];
+            if times[0] > end {
                 return;
             }
-            step.components_at(t, range.clone(), &mut self.state);
-            take(t, &self.state);
-            self.next += 1;
+            if times[1] > end {
+                step.components_at(times[0], range.clone(), &mut self.states[0]);
+                take(times[0], &self.states[0]);
+                self.next += 1;
+                return;
+            }
+            let [one, other] = &mut self.states;
+            step.components_at_both(times, range.clone(), [one, other]);
+            for (t, state) in times.into_iter().zip(&self.states) {
+                take(t, state);
+            }
+            self.next += 2;
         }
     }
 }

@@ -65,6 +65,15 @@ pub trait System {
     /// step over.
     fn bend_arguments(&self, _state: &[f64], _rates: &[f64], _arguments: &mut [f64], _slopes: &mut [f64]) {}
 
+    /// How many arguments with kinks at 0 the rates have, as those of `abs`, and what `min` and `max` compare.
+    fn kinks(&self) -> usize {
+        0
+    }
+
+    /// Writes the coefficients of these arguments in the series that [`System::series`] wrote last: `order` rows of
+    /// [`System::kinks`] numbers. The steps of Taylor's method end where one of them passes through 0.
+    fn kink_arguments(&self, _order: usize, _arguments: &mut [f64]) {}
+
     /// All rates: [`System::kinematics`] and [`System::dynamics`].
     fn rates(&self, state: &[f64], rates: &mut [f64]) {
         self.kinematics(state, rates);

@@ -7,6 +7,7 @@
 
 use crate::control::{Control, Norm};
 use crate::dense::{Ends, Part, Stepper, Trial};
+use crate::kinks::Kinks;
 use crate::system::System;
 use math::lane;
 use math::simd::{Kernel, dispatch};
@@ -20,6 +21,10 @@ pub(crate) struct Taylor {
     unit: f64,
     /// That of the next expansion.
     next_unit: f64,
+    /// The step that was proposed last.
+    proposed: f64,
+    /// The kinks on which steps end, if the system has any.
+    kinks: Option<Kinks>,
     /// Rows of coefficients, that of order 0 first.
     coefficients: Vec<f64>,
     /// The size of the row of the last order, in units of the tolerance.
@@ -65,6 +70,8 @@ impl Taylor {
             dimension,
             unit: 1.0,
             next_unit: 1.0,
+            proposed: 1.0,
+            kinks: Kinks::new(system, order),
             coefficients,
             last_size: 0.0,
             forced: forced(system),
@@ -97,7 +104,7 @@ impl Stepper for Taylor {
         }
         // a step may end far earlier than its series allows, which of a polynomial is never: in that unit the coefficients of
         // the next expansion would overflow
-        if from.h < self.next_unit {
+        if from.h < self.proposed {
             self.next_unit = power_of_two(from.h);
         }
         let h = from.h / self.unit;
@@ -111,8 +118,14 @@ impl Stepper for Taylor {
         let last = growth(self.last_size, self.order)?;
         let before = growth(norm.of(self.row(self.order - 1)), self.order - 1)?;
         let step = SAFETY * self.unit * lane::exp(-if last > before { last } else { before });
-        self.next_unit = power_of_two(step);
-        Some(step)
+        self.proposed = self.kinks.as_mut().map_or(step, |kinks| {
+            let slack = norm.scale(self.forced.first().map_or(0, |range| range.start), SLACK, ROUNDINGS);
+            kinks.end(system, step, self.unit, slack)
+        });
+        // a short step to a kink tells nothing of the steps behind it
+        let is_telling = self.proposed == step || self.proposed > TELLING * self.unit;
+        self.next_unit = if is_telling { power_of_two(self.proposed) } else { self.unit };
+        Some(self.proposed)
     }
 
     fn unit(&self) -> f64 {
@@ -193,6 +206,12 @@ impl Stepper for Taylor {
         dispatch(Change::<true> { rows: &self.coefficients, n: self.dimension, from, h, result });
         0
     }
+
+    fn interpolate_both(&mut self, ends: &Ends<'_>, thetas: [f64; 2], from: usize, results: [&mut [f64]; 2]) -> bool {
+        let h = thetas.map(|theta| theta * (ends.h / self.unit));
+        dispatch(Both { rows: &self.coefficients, n: self.dimension, from, h, results });
+        true
+    }
 }
 
 /// The largest power of 2 that is not above a normal number.
@@ -212,6 +231,13 @@ fn growth(coefficient: f64, k: usize) -> Option<f64> {
 const LEAST: f64 = 1e-300;
 /// Larger ones for this one: the step is rejected then.
 const MOST: f64 = 1e300;
+
+/// A kink is passed by so much of the tolerance, and at least by so many roundings.
+const SLACK: f64 = 0.1;
+const ROUNDINGS: f64 = 4.0;
+
+/// A step that a kink ends is the measure for the next one if it is no shorter than this, in units of the last one.
+const TELLING: f64 = 1e-4;
 
 /// The step is so much shorter than that at which the last term meets the tolerance.
 const SAFETY: f64 = 0.95;
@@ -267,6 +293,57 @@ impl<const WHOLE: bool> Kernel for Change<'_, WHOLE> {
         for from in (0..n).step_by(LANES) {
             // the last block begins earlier rather than be cut: what is written twice is the same
             self.lanes::<LANES>(from.min(n - LANES));
+        }
+    }
+}
+
+/// Writes `c_0 + c_1 h + c_2 h^2 + ...`, as [`Change`] does, for two lengths: a coefficient is loaded once for both, and
+/// while one sum waits for itself the other goes on.
+struct Both<'a> {
+    rows: &'a [f64],
+    /// Length of a row.
+    n: usize,
+    from: usize,
+    h: [f64; 2],
+    results: [&'a mut [f64]; 2],
+}
+
+impl Both<'_> {
+    #[inline(always)]
+    fn lanes<const LANES: usize>(&mut self, from: usize) {
+        let mut sums = [[0.0; LANES]; 2];
+        let (first, others) = self.rows.split_at(self.n);
+        for row in others.rchunks_exact(self.n) {
+            let row = &row[self.from + from..][..LANES];
+            for (sum, h) in sums.iter_mut().zip(self.h) {
+                for (sum, coefficient) in sum.iter_mut().zip(row) {
+                    *sum = (*sum + coefficient) * h;
+                }
+            }
+        }
+        for (sum, result) in sums.iter_mut().zip(&mut self.results) {
+            for (sum, before) in sum.iter_mut().zip(&first[self.from + from..][..LANES]) {
+                *sum += before;
+            }
+            result[from..][..LANES].copy_from_slice(sum);
+        }
+    }
+}
+
+impl Kernel for Both<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(mut self) {
+        let n = self.results[0].len();
+        if n < FEWER {
+            for from in 0..n {
+                self.lanes::<1>(from);
+            }
+            return;
+        }
+        for from in (0..n).step_by(FEWER) {
+            self.lanes::<FEWER>(from.min(n - FEWER));
         }
     }
 }
@@ -361,3 +438,5 @@ pub(crate) fn forced(system: &dyn System) -> Vec<Range<usize>> {
 const LANES: usize = 16;
 /// Components per iteration of a sum over all orders.
 const WIDE: usize = 40;
+/// Components per iteration of two such sums.
+const FEWER: usize = 24;

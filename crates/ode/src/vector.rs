@@ -33,7 +33,7 @@ pub(crate) fn add_nested(theta: f64, nested: &[f64], n: usize, first: usize, res
 /// The largest absolute value; NaN if there is one.
 pub fn largest(values: &[f64]) -> f64 {
     // of a few, a call would take longer than the work
-    if values.len() < LANES { Largest(values).run() } else { dispatch(Largest(values)) }
+    if values.len() < WIDE { Largest(values).run() } else { dispatch(Largest(values)) }
 }
 
 /// The smallest absolute value.
@@ -194,34 +194,21 @@ struct Largest<'a>(&'a [f64]);
 impl Kernel for Largest<'_> {
     type Output = f64;
 
+    /// Sizes are compared as whole numbers, which their bits are in the same order, NaN above infinity: no other pass looks
+    /// for NaN, and the compiler may compare in any order.
     #[inline(always)]
     fn run(self) -> f64 {
-        let (mut largest, mut sum) = ([0.0; LANES], [0.0; LANES]);
-        let chunks = self.0.chunks_exact(LANES);
-        let rest = chunks.remainder();
-        let mut take = |lane: usize, value: f64| {
-            let size = value.abs();
-            largest[lane] = if size > largest[lane] { size } else { largest[lane] };
-            sum[lane] += size;
-        };
-        for chunk in chunks {
-            for (lane, value) in chunk.iter().enumerate() {
-                take(lane, *value);
-            }
+        let mut most = 0;
+        for value in self.0 {
+            let size = value.abs().to_bits() as i64;
+            most = if size > most { size } else { most };
         }
-        for (lane, value) in rest.iter().enumerate() {
-            take(lane, *value);
-        }
-        // a sum shows NaN, which no comparison finds
-        let [a, b, c, d, e, f, g, h] = sum;
-        if (((a + b) + (c + d)) + ((e + f) + (g + h))).is_nan() {
-            return f64::NAN;
-        }
-        largest.iter().fold(0.0, |most, &size| if size > most { size } else { most })
+        let largest = f64::from_bits(most as u64);
+        if largest.is_nan() { f64::NAN } else { largest }
     }
 }
 
-/// Components per iteration where sums over stages stay in registers.
+/// Components per iteration where sums stay in registers.
 const WIDE: usize = 16;
 
 /// Components per iteration where several numbers are gathered.

@@ -54,7 +54,7 @@ pub fn simulate<'py>(
         watch.tell(1.0);
         (ended, stability(&scene), errors)
     })?;
-    let summary = summary::of_run(&scene, &ended, flow, errors.as_ref()).to_string();
+    let summary = summary::of_run(&scene, &ended, flow.as_ref(), errors.as_ref()).to_string();
     let Ended { outcome, broken, .. } = ended;
     let made = PyDict::new(py);
     made.set_item("title", chosen.title)?;

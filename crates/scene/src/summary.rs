@@ -28,20 +28,18 @@ impl Ended {
     /// The errors of its numbers. Samples that the check does not confirm are left out, and the run then counts as one that
     /// broke there. `onlooker` sees a second run, if there is one, and `again` the run up to where it is confirmed.
     pub fn checked(&mut self, scene: &Scene, onlooker: &mut dyn RunObserver, again: &mut dyn RunObserver) -> Errors {
-        let errors = errors::errors_of(scene, &self.outcome, self.propagated.as_ref(), onlooker);
-        match errors::refused(scene, &self.outcome, &errors, again) {
-            Some((broken, errors)) => {
-                self.outcome = *broken.outcome.clone();
-                self.broken = Some(broken);
-                errors
-            }
-            None => errors,
+        let propagated = self.propagated.as_ref();
+        let (errors, refused) = errors::checked(scene, &self.outcome, propagated, onlooker, again);
+        if let Some(broken) = refused {
+            self.outcome = *broken.outcome.clone();
+            self.broken = Some(broken);
         }
+        errors
     }
 }
 
 /// The contents of `summary.json` for a run.
-pub fn of_run(scene: &Scene, ended: &Ended, flow: Option<Stability>, errors: Option<&Errors>) -> Value {
+pub fn of_run(scene: &Scene, ended: &Ended, flow: Option<&Stability>, errors: Option<&Errors>) -> Value {
     let Ended { outcome, broken, seconds, resumed_steps, .. } = ended;
     let control = match scene.control {
         Control::Fixed { step } => json!({ "dt": step }),
@@ -131,13 +129,14 @@ fn jams(outcome: &Outcome) -> Value {
 }
 
 /// The uniform flow; null if there is none, or none with a linear response.
-pub fn of_flow(flow: Option<Stability>) -> Value {
+pub fn of_flow(flow: Option<&Stability>) -> Value {
     flow.map_or(Value::Null, |flow| {
         json!({
-            "stable": flow.growing.is_none(),
+            "stable": flow.margin < 0.0,
             "margin": flow.margin,
             "margin_on_ring": flow.margin_on_ring,
-            "growing_k": flow.growing.map(|(least, largest)| [least, largest]),
+            "growing_k": flow.growing.first().zip(flow.growing.last()).map(|((least, _), (_, largest))| [least, largest]),
+            "growing_bands": flow.growing,
             "growth_rate": flow.growth_rate,
             "waves": flow.waves,
         })

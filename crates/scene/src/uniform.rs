@@ -4,7 +4,7 @@ use crate::run::Scene;
 use jam::stability::Waves;
 
 /// The uniform flow of a scene, and small waves on it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Stability {
     /// Its speed.
     pub speed: f64,
@@ -12,8 +12,8 @@ pub struct Stability {
     pub margin: f64,
     /// The same over the waves of the ring.
     pub margin_on_ring: f64,
-    /// The least and the largest wave number that grows, of all; 0 is the limit of long waves.
-    pub growing: Option<(f64, f64)>,
+    /// The bands of wave numbers that grow, in ascending order, each from its least to its largest; 0 is the limit of long waves.
+    pub growing: Vec<(f64, f64)>,
     /// The growth rate of the fastest wave of the ring.
     pub growth_rate: f64,
     /// How often this wave goes into the ring.
@@ -30,7 +30,7 @@ pub fn stability(scene: &Scene) -> Option<Stability> {
         speed,
         margin: response.margin(Waves::All).0,
         margin_on_ring: response.margin(Waves::Ring(count)).0,
-        growing: response.growing(),
+        growing: response.growing_bands(),
         growth_rate,
         waves,
     })

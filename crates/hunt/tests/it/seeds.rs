@@ -1,6 +1,9 @@
 //! Random scenes by their seeds.
 
+use hunt::draw;
 use hunt::draw::FORMULAS;
+use hunt::judge;
+use hunt::judge::Verdict;
 use hunt::report::{Hunted, hunt, table};
 
 /// Runs that the second integration may leave undecided: chaotic ones, and steep ones that take too much work.
@@ -33,6 +36,41 @@ fn judged(of_the_paper: u64, formulas: u64) {
 #[test]
 fn three_hundred_random_scenes_are_right_or_say_why_not() {
     judged(200, 100);
+}
+
+fn of(seed: u64) -> Vec<Verdict> {
+    judge::scene(&draw::scene(seed))
+}
+
+/// Runs whose true errors were 7 to 80 times the stated ones.
+#[test]
+fn errors_of_runs_that_were_found_are_stated() {
+    for seed in [600_874, 1_600_582, 1_600_241, 301_796, 300_245, 1_050_169] {
+        for verdict in of(seed) {
+            assert!(verdict.findings.is_empty(), "{seed}: {verdict:#?}");
+            let wrong = verdict.stated.iter().find(|ratio| ratio.value() > 10.0);
+            assert!(wrong.is_none(), "{seed}: {wrong:?} in {verdict:#?}");
+        }
+    }
+    let events = of(600_874).into_iter().flat_map(|verdict| verdict.stated).filter(|ratio| ratio.what == "events");
+    assert!(events.into_iter().any(|ratio| ratio.error > 1e-13 && ratio.allowed.is_finite()), "an error is stated");
+}
+
+/// Steps of fixed length that end where the state is no longer finite are too long before that, too.
+#[test]
+fn nothing_is_stated_of_the_end_of_steps_that_break_off() {
+    for seed in [300_410, 300_781] {
+        let all = of(seed);
+        assert!(all.iter().any(|verdict| verdict.ending.starts_with("failed: not_finite")), "{seed}: {all:#?}");
+        assert!(all.iter().all(|verdict| verdict.findings.is_empty()), "{seed}: {all:#?}");
+    }
+}
+
+#[test]
+fn a_formula_without_value_is_no_end_where_the_second_run_goes_on() {
+    let all = of(1_000_186);
+    assert!(all.iter().all(|verdict| verdict.ending.starts_with("failed: not_confirmed")), "{all:#?}");
+    assert!(all.iter().all(|verdict| verdict.findings.is_empty() && verdict.undecided.is_empty()), "{all:#?}");
 }
 
 #[test]

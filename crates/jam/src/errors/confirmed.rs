@@ -4,13 +4,14 @@
 
 use super::second::{SAME_TIME, Second};
 use super::{Errors, ROUNDINGS, errors_of, largest, loses_shift, run_propagated};
+use crate::events::{Event, EventKind};
 use crate::run::{Broken, Outcome, Run, RunObserver, advice, untried};
 use math::larger;
 use ode::{Control, Failure};
 
 /// The run up to the last sample that the second run confirms, with its errors; `None` if all samples are confirmed.
 /// Observers see the run again, up to that sample.
-pub fn refused(
+pub(super) fn refused(
     run: &Run,
     outcome: &Outcome,
     errors: &Errors,
@@ -65,17 +66,25 @@ pub(super) fn until(run: &Run, outcome: &Outcome, second: &Second) -> Option<f64
     let is_before_end = |time: &f64| *time < (1.0 - SAME_TIME) * outcome.statistics.time;
     let end = match (outcome.stop(), other.stop()) {
         (None, Some(stop)) => Some(stop.time),
+        (Some(stop), None) if is_refuted(stop, other) => Some(stop.time),
         // of a shift that the run has lost the other one alone tells anything
         (None, None) if loses_shift(run) => Some(other.statistics.time),
         _ => None,
     };
-    let end = end.filter(is_before_end);
+    let is_refuted = outcome.stop().is_some_and(|stop| is_refuted(stop, other));
+    let end = end.filter(|time| is_refuted || is_before_end(time));
     let difference = match run.control {
         Control::Fixed { .. } => first_unlike(outcome, second),
+        Control::Adaptive { .. } if is_refuted => first_unlike(outcome, second),
         Control::Adaptive { .. } => None,
     };
     let first = [end, difference].into_iter().flatten().reduce(math::smaller)?;
     Some(last_before(outcome, first))
+}
+
+/// Whether the run left the domain of its formula by its own error: the other one, at a smaller tolerance, goes on.
+fn is_refuted(stop: &Event, other: &Outcome) -> bool {
+    stop.kind == EventKind::Undefined && other.stop().is_none() && other.statistics.time > (1.0 + NEAR) * stop.time
 }
 
 /// The time of the last sample before this one.

@@ -11,7 +11,6 @@ mod propagated;
 mod recent;
 mod second;
 
-pub use confirmed::refused;
 pub use propagated::Propagated;
 
 use crate::laws::Model;
@@ -33,7 +32,7 @@ pub struct Errors {
     pub events: Vec<Option<f64>>,
     /// What they cost: the right-hand sides of the check over those of the run.
     pub cost: f64,
-    /// The time of the last sample that the check confirms, if it does not confirm all of them; see [`refused`].
+    /// The time of the last sample that the check confirms, if it does not confirm all of them; see [`checked`].
     pub confirmed_until: Option<f64>,
 }
 
@@ -61,10 +60,25 @@ pub(crate) const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 pub fn stated(run: &Run) -> Result<(Outcome, Errors), Broken> {
     let (made, propagated) = run_propagated(run, &mut ());
     let outcome = made?;
-    let errors = errors_of(run, &outcome, Some(&propagated), &mut ());
-    match refused(run, &outcome, &errors, &mut ()) {
-        Some((broken, _)) => Err(broken),
-        None => Ok((outcome, errors)),
+    match checked(run, &outcome, Some(&propagated), &mut (), &mut ()) {
+        (_, Some(broken)) => Err(broken),
+        (errors, None) => Ok((outcome, errors)),
+    }
+}
+
+/// The errors of a run; or, if the check does not confirm all of its samples, the run up to the last one that it confirms,
+/// with the errors of that. `onlooker` sees a second run, if one is made, and `again` the run up to that sample.
+pub fn checked(
+    run: &Run,
+    outcome: &Outcome,
+    propagated: Option<&Propagated>,
+    onlooker: &mut dyn RunObserver,
+    again: &mut dyn RunObserver,
+) -> (Errors, Option<Broken>) {
+    let errors = errors_of(run, outcome, propagated, onlooker);
+    match confirmed::refused(run, outcome, &errors, again) {
+        Some((broken, errors)) => (errors, Some(broken)),
+        None => (errors, None),
     }
 }
 
@@ -85,19 +99,19 @@ pub fn errors_of(
 ) -> Errors {
     let told = propagated.and_then(|propagated| propagated.errors(run, outcome));
     told.unwrap_or_else(|| {
-        let instants = propagated.map_or(Vec::new(), |propagated| propagated.instants(run));
-        Second::new(run, outcome, &instants, onlooker).errors(run, outcome, &instants)
+        let seen = propagated.map(Propagated::recent);
+        Second::new(run, outcome, seen, onlooker).errors(run, outcome)
     })
 }
 
 /// Runs the scene once more and compares.
 pub fn errors(run: &Run, outcome: &Outcome) -> Errors {
-    Second::new(run, outcome, &[], &mut ()).errors(run, outcome, &[])
+    Second::new(run, outcome, None, &mut ()).errors(run, outcome)
 }
 
 /// Whether the law has bends of no width.
 pub(crate) fn has_kinks(model: &Model) -> bool {
-    model.may_have_kinks()
+    model.has_kinks()
 }
 
 /// Fixed steps may be too long for their error to be that of their order.
@@ -128,7 +142,7 @@ pub(crate) fn unseen(run: &Run, outcome: &Outcome) -> Option<f64> {
 }
 
 /// Whether spacings lose the shift of the start to the last digit.
-pub(crate) fn loses_shift(run: &Run) -> bool {
+pub fn loses_shift(run: &Run) -> bool {
     let (clearance, shift) = (run.ring.headway() - run.model.contact(), run.start.shift);
     run.form == StateVariables::Spacings
         && shift != 0.0

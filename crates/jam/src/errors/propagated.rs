@@ -7,12 +7,12 @@
 //! from a checkpoint, which does not store the errors before it.
 
 use super::confirmed::last_before;
-use super::recent::{Instant, Recent};
+use super::recent::Recent;
 use super::{Errors, ROUNDINGS, has_kinks, largest, largest_std, loses_shift, of_headway, unseen};
 use crate::events::{Event, EventKind};
 use crate::run::{Outcome, Run, RunObserver, Sight};
 use crate::states::StateVariables;
-use ode::{Control, Shadow, Step};
+use ode::{Shadow, Step};
 
 /// Observes a run from its start, and returns the errors at its end if the steps estimate theirs.
 #[derive(Clone, Debug)]
@@ -24,6 +24,8 @@ pub struct Propagated {
     headway: f64,
     /// The size of the desired speed.
     desired: f64,
+    /// The part of its size by which what falls through 0 in an event is rounded.
+    rounding: f64,
     /// Whether the force has walls.
     is_singular: bool,
     /// Whether spacings lose the shift.
@@ -84,6 +86,7 @@ const UNSEEN: f64 = 1e-6;
 
 impl RunObserver for Propagated {
     fn seen(&mut self, step: &mut Step<'_>, sight: &mut Sight<'_, '_>) {
+        self.recent.push_events(step, sight);
         if self.is_blind || !self.follow(step) {
             self.is_blind = true;
             self.recent.push(step);
@@ -116,8 +119,12 @@ impl RunObserver for Propagated {
                 |direction: &[f64]| sight.watch.change(event.kind, event.pedestrian, &state, direction).abs();
             let (by_error, rate) = (change(&error), change(&rates));
             // what falls through 0 is a difference of larger numbers
-            let size = if event.kind == EventKind::NegativeSpeed { self.desired } else { self.headway };
-            self.events.push((by_error + f64::EPSILON * size) / rate);
+            let n = self.pedestrians;
+            let (size, errors) = match event.kind {
+                EventKind::NegativeSpeed => (self.desired, &error[n..2 * n]),
+                _ => (self.headway, &error[..n]),
+            };
+            self.events.push((by_error + UNSURE * ode::largest(errors) + self.rounding * size) / rate);
         }
     }
 }
@@ -157,6 +164,7 @@ impl Propagated {
             clearance,
             shift: run.start.shift,
             headway: run.ring.headway(),
+            rounding: f64::EPSILON + of_headway(run),
             is_singular: run.model.is_singular(),
             desired: run.model.desired_speed().abs(),
             loses_shift: loses_shift(run),
@@ -266,10 +274,9 @@ impl Propagated {
         error
     }
 
-    /// The run at the ends of its last steps, if these gave no error estimates.
-    pub(super) fn instants(&self, run: &Run) -> Vec<Instant> {
-        let is_adaptive = matches!(run.control, Control::Adaptive { .. });
-        if is_adaptive { self.recent.instants(run) } else { Vec::new() }
+    /// The run at the instants at which a second one is compared with it.
+    pub(super) fn recent(&self) -> &Recent {
+        &self.recent
     }
 
     /// The errors of the run that it has seen; `None` where the steps gave no estimate, or none for an event.
@@ -359,7 +366,7 @@ fn in_gaps(error: &[f64], n: usize) -> Vec<f64> {
 /// By how much the standard deviation of speeds is off: the difference from that of the speeds less their errors, and what
 /// is not sure of these errors. They may all but cancel in the sum, what is not sure of them does not. Scaled: speeds of
 /// 1e-200 have squares.
-fn std_error(speeds: &[f64], errors: &[f64]) -> f64 {
+pub(super) fn std_error(speeds: &[f64], errors: &[f64]) -> f64 {
     let (count, scale) = (speeds.len() as f64, math::larger(largest(speeds), largest(errors)));
     if scale < SMALLEST || !scale.is_finite() {
         // numbers without digits, or none: none is off by more than all of it
@@ -388,7 +395,7 @@ const RELAXATION: f64 = 1.0;
 
 /// The part of the errors of steps that is not sure: orders that follow the first that is left out are smaller by about this
 /// factor each, since the steps are as long as the series allow.
-const UNSURE: f64 = 0.2;
+pub(super) const UNSURE: f64 = 0.2;
 
 #[cfg(test)]
 mod tests {

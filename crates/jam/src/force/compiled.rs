@@ -55,6 +55,11 @@ impl<L: Law> Compiled<L> {
         Compiled { law, speed_slopes, reference, memory: RefCell::default(), interpreted: OnceCell::new() }
     }
 
+    /// Whether the law has kinks. The arguments of these are known where it is carried out as a list of operations.
+    fn has_kinks(&self) -> bool {
+        self.reference.borrow().tape.has_kinks()
+    }
+
     fn interpreted(&self) -> &Interpreted {
         self.interpreted.get_or_init(|| interpreted(&self.law))
     }
@@ -137,9 +142,23 @@ impl<L: Law> Force for Compiled<L> {
 
     fn series(&self, mut motion: Motion<'_>) {
         let operations = self.reference.borrow().tape.histories();
-        if !super::series::compiled(self.law, operations, &mut motion, &mut self.memory.borrow_mut()) {
+        let is_done = !self.has_kinks()
+            && super::series::compiled(self.law, operations, &mut motion, &mut self.memory.borrow_mut());
+        if !is_done {
             self.interpreted().series(motion);
         }
+    }
+
+    fn kinks(&self) -> usize {
+        if self.has_kinks() { self.interpreted().kinks() } else { 0 }
+    }
+
+    fn has_soft_kinks(&self) -> bool {
+        self.has_kinks() && self.interpreted().has_soft_kinks()
+    }
+
+    fn kink_arguments(&self, pedestrians: usize, order: usize, arguments: &mut [f64]) {
+        self.interpreted().kink_arguments(pedestrians, order, arguments);
     }
 
     fn heun(&self, steps: Steps, cut: Option<Cut>, state: &mut [f64]) -> Batch {

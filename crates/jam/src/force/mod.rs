@@ -66,6 +66,20 @@ pub trait Force: std::fmt::Debug + Send {
     /// Writes the Taylor coefficients of a motion.
     fn series(&self, motion: Motion<'_>);
 
+    /// How many operations of the force have kinks, if their arguments have series.
+    fn kinks(&self) -> usize {
+        0
+    }
+
+    /// Whether some of them are kinks of higher derivatives only.
+    fn has_soft_kinks(&self) -> bool {
+        false
+    }
+
+    /// Writes the arguments of the kinks in the series written last: `order` rows of one number for each kink of each of so
+    /// many pedestrians.
+    fn kink_arguments(&self, _pedestrians: usize, _order: usize, _arguments: &mut [f64]) {}
+
     /// Makes steps of Heun's scheme of the state `[x_0 .. x_{N-1}, v_0 .. v_{N-1}]`, in one piece or cut. A batch in which
     /// something happens leaves the state untouched.
     fn heun(&self, steps: Steps, cut: Option<Cut>, state: &mut [f64]) -> Batch;

@@ -9,7 +9,7 @@ use super::{Flow, NOTHING};
 use crate::laws::Law;
 use math::lanes::Lanes;
 use math::series::{Block, Jet, Place, ROWS};
-use math::simd::{Kernel, dispatch, dispatch_wide};
+use math::simd::{Kernel, dispatch_either, dispatch_wide};
 
 /// The coefficients of spacings and speeds of a ring, from their rows 0 and 1.
 #[derive(Debug)]
@@ -31,13 +31,23 @@ pub struct Motion<'a> {
     pub coefficients: &'a mut [f64],
 }
 
-/// Pedestrians per iteration.
-const W: usize = 24;
+/// Pedestrians per iteration where registers hold eight doubles: two sums over the orders and what they are made of
+/// stay in registers.
+const WIDE: usize = 24;
+/// Where they hold fewer.
+const NARROW: usize = 16;
 
 /// Memory that is kept from step to step. Behind the last pedestrian the first follows, as the neighbour ahead; in a ring
 /// of less than a block, then numbers without meaning that nothing reads but others of their kind.
 #[derive(Clone, Debug, Default)]
 pub struct Memory {
+    narrow: InBlocks<NARROW>,
+    wide: InBlocks<WIDE>,
+}
+
+/// For blocks of `W` pedestrians.
+#[derive(Clone, Debug, Default)]
+struct InBlocks<const W: usize> {
     /// What the operations keep, one block of pedestrians after another.
     histories: Vec<Block<Lanes<W>>>,
     /// Coefficients of one order.
@@ -53,23 +63,29 @@ struct Row {
 }
 
 impl Row {
-    fn reserve(&mut self, n: usize) {
-        let length = n.max(W);
+    fn reserve(&mut self, length: usize) {
         self.spacings.resize(length, 0.0);
         // one more, for the neighbour ahead of the last lane
         self.speeds.resize(length + 1, 0.0);
     }
+
+    /// Spacings, speeds and speeds ahead of a block.
+    #[inline(always)]
+    fn block<const W: usize>(&self, from: usize) -> [Lanes<W>; 3] {
+        let speeds = &self.speeds[from..][..W + 1];
+        [Lanes::of(&self.spacings[from..]), Lanes::of(speeds), Lanes::of(&speeds[1..])]
+    }
 }
 
-impl Memory {
+impl<const W: usize> InBlocks<W> {
     /// Allocates histories of this size for each block of `n` pedestrians.
     fn reserve(&mut self, n: usize, size: usize) {
         let needed = n.div_ceil(W) * size;
         if self.histories.len() < needed {
             self.histories.resize(needed, Block::default());
         }
-        self.now.reserve(n);
-        self.next.reserve(n);
+        self.now.reserve(n.max(W));
+        self.next.reserve(n.max(W));
     }
 
     /// Takes a row of the coefficients, to which something is added; behind the last pedestrian, once more the last.
@@ -88,20 +104,6 @@ impl Memory {
         own_speeds[n..].fill(speeds[0] + flow.speed);
     }
 
-    /// Spacings, speeds and speeds ahead of a block.
-    #[inline(always)]
-    fn variables(&self, from: usize) -> [Lanes<W>; 3] {
-        let Row { spacings, speeds } = &self.now;
-        [&spacings[from..], &speeds[from..], &speeds[from + 1..]].map(Lanes::of)
-    }
-
-    /// Computes the next order of a block.
-    #[inline(always)]
-    fn put(&mut self, from: usize, spacings: Lanes<W>, speeds: Lanes<W>) {
-        self.next.spacings[from..from + W].copy_from_slice(&spacings.0);
-        self.next.speeds[from..from + W].copy_from_slice(&speeds.0);
-    }
-
     /// Advances to the next order, which is known, of a ring of `n` pedestrians.
     #[inline(always)]
     fn advance(&mut self, n: usize) {
@@ -112,14 +114,14 @@ impl Memory {
 
 /// The first pedestrian of a block. The last block begins earlier instead of being cut short: values computed twice are equal.
 #[inline(always)]
-fn begin(block: usize, n: usize) -> usize {
+fn begin<const W: usize>(block: usize, n: usize) -> usize {
     let (from, last) = (block * W, n.saturating_sub(W));
     if from < last { from } else { last }
 }
 
 /// Writes a block to a row, if it is as long as that.
 #[inline(always)]
-fn write(row: &mut [f64], from: usize, block: Lanes<W>) {
+fn write<const W: usize>(row: &mut [f64], from: usize, block: Lanes<W>) {
     if let Some(part) = row[from..].first_chunk_mut::<W>() {
         *part = block.0;
     }
@@ -132,22 +134,33 @@ pub(super) fn compiled<L: Law>(law: L, operations: usize, motion: &mut Motion<'_
     if motion.along.is_some() {
         return false;
     }
-    if law.plain().is_some() {
-        dispatch(Coefficients::<L, true> { law, operations, motion, memory });
-        return true;
+    if law.plain().is_none() {
+        let memory = &mut memory.narrow;
+        return dispatch_wide(Coefficients::<L, false, NARROW> { law, operations, motion, memory }).is_some();
     }
-    dispatch_wide(Coefficients::<L, false> { law, operations, motion, memory }).is_some()
+    dispatch_either(
+        (motion, memory),
+        |(motion, memory)| {
+            let memory = &mut memory.narrow;
+            Coefficients::<L, true, NARROW> { law, operations, motion, memory }
+        },
+        |(motion, memory)| {
+            let memory = &mut memory.wide;
+            Coefficients::<L, true, WIDE> { law, operations, motion, memory }
+        },
+    );
+    true
 }
 
 /// Under the law in its [plain](Law::plain) form if `PLAIN`.
-struct Coefficients<'a, 'b, L, const PLAIN: bool> {
+struct Coefficients<'a, 'b, L, const PLAIN: bool, const W: usize> {
     law: L,
     operations: usize,
     motion: &'a mut Motion<'b>,
-    memory: &'a mut Memory,
+    memory: &'a mut InBlocks<W>,
 }
 
-impl<L: Law, const PLAIN: bool> Kernel for Coefficients<'_, '_, L, PLAIN> {
+impl<L: Law, const PLAIN: bool, const W: usize> Kernel for Coefficients<'_, '_, L, PLAIN, W> {
     type Output = ();
 
     #[inline(always)]
@@ -161,7 +174,7 @@ impl<L: Law, const PLAIN: bool> Kernel for Coefficients<'_, '_, L, PLAIN> {
     }
 }
 
-impl<L: Law, const PLAIN: bool> Coefficients<'_, '_, L, PLAIN> {
+impl<L: Law, const PLAIN: bool, const W: usize> Coefficients<'_, '_, L, PLAIN, W> {
     #[inline(always)]
     fn of(self, law: &L) {
         let Motion { flow, pedestrians: n, order, unit, dimension, .. } = *self.motion;
@@ -172,23 +185,27 @@ impl<L: Law, const PLAIN: bool> Coefficients<'_, '_, L, PLAIN> {
         memory.take(&states[..n], &states[n..2 * n], flow);
         for block in 0..blocks {
             let place = Place::new(&memory.histories[block * size..(block + 1) * size], order, 0);
-            let [s, v, w] = memory.variables(begin(block, n));
+            let [s, v, w] = memory.now.block::<W>(begin::<W>(block, n));
             law.acceleration::<Jet<Lanes<W>, true>>(place.variable(s), place.variable(v), place.variable(w));
         }
         memory.take(&rates[..n], &rates[n..2 * n], NOTHING);
         for (k, row) in (1..order).zip(coefficients.chunks_exact_mut(dimension).skip(2)) {
             let share = unit / (k + 1) as f64;
             let (spacings, speeds) = row[..2 * n].split_at_mut(n);
+            let InBlocks { histories, now, next } = &mut *memory;
+            let mut left = &histories[..];
             for block in 0..blocks {
-                let from = begin(block, n);
-                let place = Place::new(&memory.histories[block * size..(block + 1) * size], order, k);
-                let [s, v, w] = memory.variables(from);
+                let (own, others) = left.split_at(size);
+                left = others;
+                let (from, place) = (begin::<W>(block, n), Place::new(own, order, k));
+                let [s, v, w] = now.block::<W>(from);
                 let next_spacings = (w - v) * share;
                 let (s, v, w) = (place.variable::<false>(s), place.variable(v), place.variable(w));
                 let next_speeds = law.acceleration(s, v, w).coefficient() * share;
                 write(spacings, from, next_spacings);
                 write(speeds, from, next_speeds);
-                memory.put(from, next_spacings, next_speeds);
+                write(&mut next.spacings, from, next_spacings);
+                write(&mut next.speeds, from, next_speeds);
             }
             memory.advance(n);
             if n < W {

@@ -345,13 +345,18 @@ impl Model {
         each!(self, law => law.effective_gap(0.0, 1.0, 0.0) == 0.0, _formula => false, own => own.has_plain_gap())
     }
 
-    /// Whether the acceleration has kinks, at which its derivatives jump; a law of your own is assumed to have kinks.
-    pub fn may_have_kinks(&self) -> bool {
+    /// Whether the acceleration has kinks, at which its derivatives jump: those of `abs`, `min` and `max`.
+    pub fn has_kinks(&self) -> bool {
         match self {
             Model::Algebraic(_) | Model::Exponential(_) | Model::Logarithmic(_) => false,
             Model::Formula(formula) => formula.has_kinks(),
-            Model::Own(_) => true,
+            Model::Own(own) => own.has_kinks(),
         }
+    }
+
+    /// Whether some of its kinks are of higher derivatives only, as that of `max(0, x)^2`.
+    pub fn has_soft_kinks(&self) -> bool {
+        self.has_kinks() && self.force().has_soft_kinks()
     }
 
     /// Whether the acceleration may have no value at some places with open gaps.

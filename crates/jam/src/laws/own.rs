@@ -52,6 +52,11 @@ impl Own {
         self.0.force_on_ring()
     }
 
+    /// Whether its formula has kinks.
+    pub(super) fn has_kinks(&self) -> bool {
+        self.force().kinks() > 0
+    }
+
     pub(super) fn contact(&self) -> f64 {
         self.0.contact_spacing()
     }

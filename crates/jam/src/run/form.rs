@@ -19,16 +19,11 @@ pub fn fitting(wanted: Option<StateVariables>, model: &Model, ring: Ring, speed:
     }
 }
 
-/// The default method of a run: Taylor's, or `dop853` in positions, which have no series, and where a series would have
-/// to end on kinks, as for formulas with kinks and for a law of your own that depends on speeds, whose kinks are
-/// unknown.
+/// The default method of a run: Taylor's, the steps of which end on [kinks](Model::has_kinks); or `dop853` in positions,
+/// which have no series, and for laws with [soft kinks](Model::has_soft_kinks), which its steps pass at less cost than
+/// there are kinks in a ring.
 pub fn usual_method(form: StateVariables, model: &Model) -> Method {
-    let has_series = form != StateVariables::Positions;
-    let may_meet_kinks = match model {
-        Model::Formula(law) => law.has_kinks(),
-        model => model.may_have_kinks() && model.force().uses_speeds(),
-    };
-    if has_series && !may_meet_kinks { Method::Taylor } else { Method::Dop853 }
+    if form == StateVariables::Positions || model.has_soft_kinks() { Method::Dop853 } else { Method::Taylor }
 }
 
 /// Whether a ring has a uniform flow that its state can deviate from.

@@ -18,6 +18,11 @@ pub trait RunObserver {
     /// Sees the run every few thousand steps.
     fn between(&mut self, _underway: &PartialRun<'_>) {}
 
+    /// The next time that it has to see the step of, fixed or not. By default there is none.
+    fn next_instant(&self) -> f64 {
+        f64::INFINITY
+    }
+
     /// Whether the run should end after the last step seen. By default it continues.
     fn is_done(&self) -> bool {
         false
@@ -83,6 +88,10 @@ impl<A: RunObserver, B: RunObserver> RunObserver for (A, B) {
         self.1.between(underway);
     }
 
+    fn next_instant(&self) -> f64 {
+        math::smaller(self.0.next_instant(), self.1.next_instant())
+    }
+
     /// As soon as one of them wants it.
     fn is_done(&self) -> bool {
         self.0.is_done() || self.1.is_done()
@@ -110,6 +119,10 @@ impl<A: RunObserver + ?Sized> RunObserver for &mut A {
 
     fn between(&mut self, underway: &PartialRun<'_>) {
         (**self).between(underway);
+    }
+
+    fn next_instant(&self) -> f64 {
+        (**self).next_instant()
     }
 
     fn is_done(&self) -> bool {

@@ -15,6 +15,8 @@ pub struct Outcome {
     pub events: Vec<Event>,
     /// What it cost, and how far it came.
     pub statistics: Statistics,
+    /// The end of the last step: of a run that an event ends a little behind that, else the time reached.
+    pub last_step: f64,
     /// Positions at the time reached, unwrapped.
     pub positions: Vec<f64>,
     /// Speeds at the time reached.
@@ -32,6 +34,11 @@ impl Outcome {
     pub fn stop(&self) -> Option<&Event> {
         self.events.iter().find(|event| stops(event.kind, self.at_overlap))
     }
+
+    /// Whether the time reached is that of an event, after which there was nothing more to find.
+    pub fn ends_at_event(&self) -> bool {
+        self.last_step > self.statistics.time
+    }
 }
 
 /// What a run cost, and how far it came.
@@ -43,7 +50,7 @@ pub struct Statistics {
     pub rejected: u64,
     /// Evaluations of the right-hand side, those for samples and events included.
     pub evaluations: u64,
-    /// The time reached.
+    /// The time reached: that of the event that ends the run, if one does.
     pub time: f64,
 }
 

@@ -87,6 +87,8 @@ pub(super) struct Recorder<'a> {
     /// What the leg before took.
     earlier: Statistics,
     reached: ode::Statistics,
+    /// The time of the event that ended the run, and the state then.
+    at_event: Option<(f64, Vec<f64>)>,
     pub narrowest: Option<Narrowest>,
 }
 
@@ -105,6 +107,7 @@ impl<'a> Recorder<'a> {
             is_near_walls: false,
             earlier: Statistics::default(),
             reached: ode::Statistics::default(),
+            at_event: None,
             narrowest: None,
         }
     }
@@ -179,6 +182,7 @@ impl<'a> Recorder<'a> {
         statistics.rejected += self.earlier.rejected;
         statistics.evaluations += self.earlier.evaluations;
         let Made { statistics: ode::Statistics { time, mut state, .. }, failure } = made;
+        let last_step = time;
         if state.is_empty() {
             // no step was tried
             state = self.run.initial(self.record.form);
@@ -189,11 +193,14 @@ impl<'a> Recorder<'a> {
         let broken = failure
             .filter(|failure| !self.is_at_wall(failure, time, &state))
             .filter(|_| !self.is_undefined(time, &state));
+        let (events, at_overlap) = (self.watch.found().to_vec(), self.run.at_overlap);
+        let verdict = self.judge.map(|judge| judge.end(last_step, &events));
+        if let Some(at_event) = self.at_event {
+            (statistics.time, state) = at_event;
+        }
         self.record.read(&state);
         let Record { samples, positions, speeds, drift, .. } = self.record;
-        let (events, at_overlap) = (self.watch.found().to_vec(), self.run.at_overlap);
-        let verdict = self.judge.map(|judge| judge.end(time, &events));
-        let outcome = Outcome { samples, events, statistics, positions, speeds, drift, at_overlap, verdict };
+        let outcome = Outcome { samples, events, statistics, last_step, positions, speeds, drift, at_overlap, verdict };
         match broken {
             None => Ok(outcome),
             Some(failure) => {
@@ -230,13 +237,26 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Whether no further event can be found: after a blow-up, after a stop from which no run continues, or after all
-    /// events that can follow it.
-    fn is_over(&self) -> bool {
-        let happened = |kind: EventKind| self.watch.found().iter().any(|event| event.kind == kind);
-        let continues = !self.run.model.is_singular();
-        happened(EventKind::BlowUp)
-            || self.is_stopped && (!continues || happened(EventKind::NegativeSpeed) && happened(EventKind::Exchange))
+    /// The time from which on no further event can be found: that of a blow-up, of a stop from which no run continues, or of
+    /// the last of all events that can follow it.
+    fn over_since(&self) -> Option<f64> {
+        let first = |is_wanted: &dyn Fn(EventKind) -> bool| {
+            self.watch.found().iter().find(|event| is_wanted(event.kind)).map(|event| event.time)
+        };
+        let of = |kind: EventKind| first(&|found| found == kind);
+        let stop = first(&|kind| self.run.stops(kind)).filter(|_| self.is_stopped);
+        let others = of(EventKind::NegativeSpeed).zip(of(EventKind::Exchange));
+        let last = |stop: f64| others.map(|(turn, pass)| math::larger(stop, math::larger(turn, pass)));
+        let stop = if self.run.model.is_singular() { stop } else { stop.and_then(last) };
+        [of(EventKind::BlowUp), stop].into_iter().flatten().reduce(math::smaller)
+    }
+
+    /// Ends the run at an event in this step, or in one before.
+    fn end_at(&mut self, time: f64, step: &mut Step<'_>) {
+        let mut state = vec![0.0; step.before().len()];
+        let time = math::larger(time, step.start);
+        step.at(time, &mut state);
+        self.at_event = Some((time, state));
     }
 }
 
@@ -265,11 +285,16 @@ impl Observer for Recorder<'_> {
             self.record.begin = step.end;
             return ControlFlow::Break(());
         }
-        if self.is_over() || self.observer.is_done() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if let Some(time) = self.over_since() {
+            self.end_at(time, step);
+            return ControlFlow::Break(());
+        }
+        if self.observer.is_done() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
     fn next_sample(&self) -> f64 {
-        let (sample, next) = (self.sampler.next(), self.record.followed + FOLLOWED_EVERY);
+        let sample = math::smaller(self.sampler.next(), self.observer.next_instant());
+        let next = self.record.followed + FOLLOWED_EVERY;
         if self.run.keeps_trajectories && next < sample { next } else { sample }
     }
 

@@ -148,6 +148,14 @@ impl System for Deviations {
         bend.arguments(sum * rates[speed], &rates[..n], &rates[n..2 * n], slopes);
     }
 
+    fn kinks(&self) -> usize {
+        self.force.kinks() * self.pedestrians
+    }
+
+    fn kink_arguments(&self, order: usize, arguments: &mut [f64]) {
+        self.force.kink_arguments(self.pedestrians, order, arguments);
+    }
+
     fn in_domain(&self, state: &[f64]) -> bool {
         let n = self.pedestrians;
         self.force.is_open(self.flow(state), &state[..n], &state[n..2 * n])

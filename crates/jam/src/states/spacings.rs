@@ -107,6 +107,14 @@ impl System for Spacings {
         bend.arguments(0.0, &rates[..n], &rates[n..2 * n], slopes);
     }
 
+    fn kinks(&self) -> usize {
+        self.force.kinks() * self.pedestrians
+    }
+
+    fn kink_arguments(&self, order: usize, arguments: &mut [f64]) {
+        self.force.kink_arguments(self.pedestrians, order, arguments);
+    }
+
     fn in_domain(&self, state: &[f64]) -> bool {
         let n = self.pedestrians;
         let (gaps, speeds) = (&state[..n], &state[n..2 * n]);

@@ -2,6 +2,7 @@
 
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
 use jam::ring::Ring;
+use jam::stability::Response;
 use jam::states::StateVariables;
 use jam::uniform::steady_speed;
 use jam::waves;
@@ -97,4 +98,31 @@ fn waves_grow_and_travel_as_the_linear_theory_says() {
     println!("largest relative errors: growth {:e}, frequency {:e}", worst.0, worst.1);
     println!("{growing} growing, {decaying} decaying waves");
     assert!(growing > 15 && decaying > 15);
+}
+
+#[test]
+fn a_band_of_growing_waves_narrower_than_the_grid_is_found() {
+    // kappa (V(s) - v) with V' = 1: waves with kappa < 2 cos^2(k / 2) grow
+    for kappa in [1.0, 1.9, 1.999_99, 1.999_999_9] {
+        let response = Response { spacings: vec![(0, kappa)], speeds: vec![(0, -kappa)] };
+        let edge = 2.0 * (0.5 * kappa).sqrt().acos();
+        let [(least, largest)] = response.growing_bands()[..] else {
+            panic!("{kappa}: {:?}", response.growing_bands())
+        };
+        assert!(least == 0.0 && (largest / edge - 1.0).abs() < 1e-6, "{kappa}: {least} {largest}, not {edge}");
+    }
+}
+
+#[test]
+fn two_bands_of_growing_waves_are_two() {
+    // 1.9 (V(s) - v) + 0.6 (v_2 - 2 v_1 + v), V' = 1
+    let response = Response { spacings: vec![(0, 1.9)], speeds: vec![(0, -1.3), (1, -1.2), (2, 0.6)] };
+    let bands = response.growing_bands();
+    let [(0.0, long), (short, std::f64::consts::PI)] = bands[..] else { panic!("{bands:?}") };
+    assert!(long < short, "{bands:?}");
+    for (edge, outward) in [(long, 1e-6), (short, -1e-6)] {
+        let [decays, grows] = [edge + outward, edge - outward].map(|k| response.growth_rate(k));
+        assert!(decays < 0.0 && grows > 0.0, "{edge}: {decays} {grows}");
+    }
+    assert_eq!(response.growing(), Some((0.0, std::f64::consts::PI)));
 }

@@ -13,6 +13,7 @@ mod formula;
 mod growth;
 mod heun;
 mod jams;
+mod kinks;
 mod linear;
 mod own;
 mod precise;

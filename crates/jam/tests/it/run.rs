@@ -2,8 +2,9 @@
 //! run.
 
 use crate::own::pair;
+use jam::errors::stated;
 use jam::events::EventKind;
-use jam::laws::{Formula, Model};
+use jam::laws::{Exponential, Formula, Model};
 use jam::outcome::{Class, Decision};
 use jam::ring::{Ring, Start};
 use jam::run::{Judging, Run, RunObserver, Sample, run, run_from};
@@ -122,4 +123,32 @@ fn events_of_a_private_law_end_its_samples() {
     let stop = own.stop().expect("an overlap");
     assert_eq!(stop.kind, EventKind::Overlap);
     assert!(own.samples.times.last().is_some_and(|last| *last <= stop.time));
+}
+
+/// The end was that of the step in which the last event was found, so it depended on the method.
+#[test]
+fn a_run_ends_at_its_last_event_by_every_method() {
+    let model = Model::Exponential(Exponential { a: 3.0, b: 1.5, c: 0.0, a_v: 0.0, epsilon: 0.1, v0: 3.0 });
+    let set = Run::new(model, ring(57, 200.0), Start { shift: 0.1 }, 2000.0).expect("a run");
+    let ends = [Method::Taylor, Method::Dop853, Method::Verner98].map(|method| {
+        let control = Control::Adaptive { tolerance: 1e-12 };
+        let (outcome, errors) = stated(&Run { method, control, ..set.clone() }).expect("it runs");
+        let [.., last] = &outcome.events[..] else { panic!("no events") };
+        assert_eq!((last.kind, last.time), (EventKind::Exchange, outcome.statistics.time), "{:?}", outcome.events);
+        assert!(outcome.ends_at_event() && outcome.last_step > last.time);
+        // one has reached the other
+        let (n, x) = (last.pedestrian, &outcome.positions);
+        let spacing = if n == 56 { x[0] + 200.0 - x[n] } else { x[n + 1] - x[n] };
+        assert!(spacing.abs() < 1e-11, "{method:?}: {spacing:e}");
+        let [of_x, of_v] = [errors.positions, errors.speeds].map(|error| error.expect("an error of the state"));
+        assert!(of_x < 1e-6 && of_v < 1e-6, "{method:?}: {of_x:e}, {of_v:e}");
+        (outcome, of_x, of_v)
+    });
+    let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0, |most, (a, b)| math::larger(most, (a - b).abs()));
+    let (first, of_x, of_v) = &ends[0];
+    for (other, other_x, other_v) in &ends[1..] {
+        let (x, v) = (apart(&first.positions, &other.positions), apart(&first.speeds, &other.speeds));
+        assert!(x < of_x + other_x && v < of_v + other_v, "{x:e}, {v:e}: stated {of_x:e}, {of_v:e}");
+        assert!(first.last_step != other.last_step);
+    }
 }

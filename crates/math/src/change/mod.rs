@@ -26,11 +26,13 @@ pub struct Tape {
     length: usize,
     /// Products of which a power consists, less one for each operation.
     more: usize,
+    /// Operations with a kink.
+    kinks: usize,
 }
 
 impl Default for Tape {
     fn default() -> Tape {
-        Tape { kept: [Kept::default(); CAPACITY], length: 0, more: 0 }
+        Tape { kept: [Kept::default(); CAPACITY], length: 0, more: 0, kinks: 0 }
     }
 }
 
@@ -38,6 +40,11 @@ impl Tape {
     /// As many operations keep something for a [series](crate::series) of the formula, at most.
     pub fn histories(&self) -> usize {
         self.length + self.more
+    }
+
+    /// Whether the formula has kinks: `abs`, `min` or `max`.
+    pub fn has_kinks(&self) -> bool {
+        self.kinks > 0
     }
 }
 
@@ -96,6 +103,12 @@ impl Reference<'_> {
     fn map(self, kept: Kept, value: f64) -> Self {
         self.tape.keep(kept);
         Reference { value, ..self }
+    }
+
+    /// Of an operation with a kink.
+    fn with_kink(self, kept: Kept, value: f64) -> Self {
+        self.tape.0.borrow_mut().kinks += 1;
+        self.map(kept, value)
     }
 }
 
@@ -287,11 +300,15 @@ macro_rules! functions {
             }
 
             fn min(self, other: Self) -> Self {
-                self.map(Kept::of_pair(self.value, other.value), Number::min(self.value, other.value))
+                self.with_kink(Kept::of_pair(self.value, other.value), Number::min(self.value, other.value))
             }
 
             fn max(self, other: Self) -> Self {
-                self.map(Kept::of_pair(self.value, other.value), Number::max(self.value, other.value))
+                self.with_kink(Kept::of_pair(self.value, other.value), Number::max(self.value, other.value))
+            }
+
+            fn abs(self) -> Self {
+                self.with_kink(Kept::of_abs(self.value), Number::abs(self.value))
             }
         }
 
@@ -350,6 +367,11 @@ macro_rules! functions {
             fn max(self, other: Self) -> Self {
                 changed!(self, kept, a, b of other => rules::max(&kept, a, b))
             }
+
+            #[inline(always)]
+            fn abs(self) -> Self {
+                changed!(self, kept, a => rules::abs(&kept, a))
+            }
         }
     };
 }
@@ -361,5 +383,4 @@ functions! {
     recip, of_recip, recip;
     sqrt, of_sqrt, sqrt;
     tanh, of_tanh, tanh;
-    abs, of_abs, abs;
 }

@@ -23,5 +23,5 @@ pub(crate) mod tanh;
 pub use exponential::{exp, exp_m1};
 pub use logarithm::{ln, ln_1p};
 pub use power::{pow, pow_m1};
-pub use softplus::{SoftplusBase, sigmoid, softplus, softplus_difference};
+pub use softplus::{SoftplusBase, sigmoid, softplus, softplus_and_decay, softplus_difference};
 pub use tanh::tanh;

@@ -6,6 +6,7 @@
 
 pub mod recurrences;
 
+use crate::lane;
 use crate::lanes::{Lanes, lane_by_lane};
 use crate::number::Number;
 use recurrences as next;
@@ -19,6 +20,12 @@ pub trait Coefficient: Number + Default {
 
     /// The sign that is known, 1 or -1; where it is 0, that of a number.
     fn sign(known: Self, number: Self) -> Self;
+
+    /// ln(1 + e^x), and e^-|x|, from which it can be made.
+    #[inline(always)]
+    fn softplus_and_decay(self) -> [Self; 2] {
+        [self.softplus(), (-self.abs()).exp()]
+    }
 }
 
 /// 1, -1 or 0.
@@ -41,6 +48,15 @@ impl<const W: usize> Coefficient for Lanes<W> {
     #[inline(always)]
     fn sign(known: Self, number: Self) -> Self {
         lane_by_lane!(known of known, a of number => if known == 0.0 { sign_of(a) } else { known })
+    }
+
+    #[inline(always)]
+    fn softplus_and_decay(self) -> [Self; 2] {
+        let (mut softplus, mut decay) = (self.0, self.0);
+        for (softplus, decay) in softplus.iter_mut().zip(&mut decay) {
+            [*softplus, *decay] = lane::softplus_and_decay(*softplus);
+        }
+        [Lanes(softplus), Lanes(decay)]
     }
 }
 

@@ -45,6 +45,11 @@ impl<'t, C: Coefficient> History<'t, C> {
         self.row(index)[0].get()
     }
 
+    /// The coefficients of the argument of a kink, if it is the memory of one.
+    pub fn argument(self) -> impl Iterator<Item = C> {
+        self.row(ARGUMENT).iter().map(Block::get)
+    }
+
     /// `a_1 b_{k-1} + ... + a_{k-1} b_1`: the coefficient of this order of a product, less its ends. To be called before the
     /// coefficient of this order is written to row `a`, where the sum of the next order waits meanwhile.
     ///
@@ -60,8 +65,10 @@ impl<'t, C: Coefficient> History<'t, C> {
         if order % 2 == 1 {
             let (mut sum, row) = (row[order].get(), &row[..order]);
             // both ends; in a loop, since the compiler would tear two products to pieces
-            for i in (1..order).step_by(order - 2) {
+            let mut i = 1;
+            while i < order {
                 sum = sum + row[i].get() * others[order - i].get();
+                i += order - 2;
             }
             return sum;
         }
@@ -261,13 +268,13 @@ pub fn softplus<C: Coefficient, const START: bool>(h: History<'_, C>, y: C) -> C
     const REST_RATE: usize = 2;
     const INVERSE: usize = 3;
     if START {
-        let decay = (-y.abs()).exp();
+        let [softplus, decay] = y.softplus_and_decay();
         h.write(DECAY, decay);
         // at order 0 there is no rate: the sign of the exponent stands there
         let one = C::default() + 1.0;
         h.write(EXPONENT_RATE, C::choose(-y, one, -one));
         h.write(INVERSE, (decay + 1.0).recip());
-        return y.softplus();
+        return softplus;
     }
     let (k, sign) = (h.k(), h.first(EXPONENT_RATE));
     let y_rate = y * k;
@@ -299,11 +306,15 @@ pub fn max<C: Coefficient, const START: bool>(h: History<'_, C>, a: C, b: C) -> 
     C::choose(side::<C, START>(h, a - b), a, b)
 }
 
+/// The row of a kink in which its argument stands: that of `abs`, and what `min` and `max` compare.
+const ARGUMENT: usize = 1;
+
 /// The sign of a series for small times: that of its first coefficient which does not vanish, 0 before there is one.
 #[inline(always)]
 fn side<C: Coefficient, const START: bool>(h: History<'_, C>, a: C) -> C {
     let known = if START { C::default() } else { h.first(0) };
     let sign = C::sign(known, a);
     h.row(0)[0].set(sign);
+    h.write(ARGUMENT, a);
     sign
 }

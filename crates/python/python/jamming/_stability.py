@@ -38,7 +38,8 @@ class Stability:
     margin_error: float | None
     """The difference from the margin computed in double-double arithmetic on a finer grid of waves."""
     growing: tuple[float, float] | None
-    """The least and the largest wave number k that grows (0: the limit of long waves); None where none does."""
+    """The least and the largest wave number k that grows (0: the limit of long waves); None where none does. Between the two,
+    a law with several neighbours may have waves that decay: `growth_rate(k)` shows them."""
 
     def __init__(self, headway: float, response: _native.Response) -> None:
         self.headway, self.speed, self._response = headway, response.speed, response
@@ -53,8 +54,8 @@ class Stability:
 
     @property
     def stable(self) -> bool | None:
-        """Whether no wave of any length grows; None where the flow lies on a kink of the law."""
-        return None if self.margin is None else self.growing is None
+        """Whether waves of all lengths decay; None where the flow lies on a kink of the law."""
+        return None if self.margin is None else self.margin < 0.0
 
     def growth_rate(self, k: ArrayLike) -> NDArray[np.float64]:
         """Re z of the faster root, in units of 1/tau, for wave numbers k in (0, pi] of any shape; NaN on a kink of the law."""

@@ -28,6 +28,8 @@ pub struct Prepared {
     reach: Reach,
     /// How many operations keep something of earlier orders of a series.
     operations: usize,
+    /// Where those of the operations with kinks begin among them.
+    kinks: Vec<usize>,
     uses_speeds: bool,
 }
 
@@ -37,9 +39,10 @@ impl Prepared {
         let program = Program::new(bound, root, contact);
         let reach = Reach::of(&program);
         let operations = program.instructions.iter().map(|instruction| instruction.action.histories()).sum();
+        let kinks = program.kinks();
         let uses_speeds = !relaxes_only(&program);
         let variables = program.variables();
-        Prepared { contact, program, variables, reach, operations, uses_speeds }
+        Prepared { contact, program, variables, reach, operations, kinks, uses_speeds }
     }
 
     /// The instructions.
@@ -113,6 +116,8 @@ struct Scratch {
     memory: series::Memory<Lanes<{ series::W }>>,
     /// For series of differences from a uniform flow that changes.
     memory_along: series::Memory<series::WithFlow>,
+    /// Whether the series written last are such.
+    is_along: bool,
 }
 
 impl Interpreted {
@@ -207,10 +212,29 @@ impl Force for Interpreted {
     }
 
     fn series(&self, motion: Motion<'_>) {
-        let Scratch { memory, memory_along, .. } = &mut *self.scratch.borrow_mut();
+        let Scratch { memory, memory_along, is_along, .. } = &mut *self.scratch.borrow_mut();
+        *is_along = motion.along.is_some();
         match motion.along {
             None => self.prepared.series(motion, memory),
             Some(_) => self.prepared.series(motion, memory_along),
+        }
+    }
+
+    fn kinks(&self) -> usize {
+        self.prepared.kinks.len()
+    }
+
+    fn has_soft_kinks(&self) -> bool {
+        self.prepared.program.has_soft_kinks()
+    }
+
+    fn kink_arguments(&self, pedestrians: usize, order: usize, arguments: &mut [f64]) {
+        let Scratch { memory, memory_along, is_along, .. } = &*self.scratch.borrow();
+        let kinks = &self.prepared.kinks;
+        if *is_along {
+            memory_along.arguments(kinks, pedestrians, order, arguments);
+        } else {
+            memory.arguments(kinks, pedestrians, order, arguments);
         }
     }
 

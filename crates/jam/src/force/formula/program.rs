@@ -156,6 +156,45 @@ impl Program {
         program
     }
 
+    /// The operations with kinks: how many histories the ones before take.
+    pub fn kinks(&self) -> Vec<usize> {
+        let (mut kinks, mut used) = (Vec::new(), 0);
+        for instruction in &self.instructions {
+            if instruction.has_kink() {
+                kinks.push(used);
+            }
+            used += instruction.action.histories();
+        }
+        kinks
+    }
+
+    /// Whether there are kinks of higher derivatives only, as that of `max(0, x)^2`: those whose result goes into powers
+    /// above 1 and nowhere else.
+    pub fn has_soft_kinks(&self) -> bool {
+        (0..self.instructions.len()).any(|index| self.instructions[index].has_kink() && self.is_raised(index))
+    }
+
+    /// Whether the result of an instruction goes into powers above 1 and nowhere else.
+    fn is_raised(&self, index: usize) -> bool {
+        let result = Source::Register(self.instructions[index].into);
+        for Instruction { action, of, into, .. } in &self.instructions[index + 1..] {
+            let (is_first, is_second) = (*of == result, action.second() == Some(result));
+            let is_power = match *action {
+                Action::Whole(n) => n > 1,
+                Action::Power(q) => q > 1.0,
+                Action::Mul(_) => is_first && is_second,
+                _ => false,
+            };
+            if (is_first && !matches!(action, Action::Constant(_)) || is_second) && !is_power {
+                return false;
+            }
+            if Source::Register(*into) == result {
+                return true;
+            }
+        }
+        self.result != result
+    }
+
     /// The variables that occur.
     pub fn variables(&self) -> Vec<Source> {
         let operands = self.instructions.iter().flat_map(|instruction| {
@@ -219,6 +258,13 @@ impl Program {
             self.result = Source::Register(place[own]);
         }
         self.registers = count;
+    }
+}
+
+impl Instruction {
+    /// Whether it has a kink.
+    fn has_kink(&self) -> bool {
+        matches!(self.action, Action::Unary(Unary::Abs) | Action::Min(_) | Action::Max(_))
     }
 }
 

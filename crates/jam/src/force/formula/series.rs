@@ -80,6 +80,29 @@ pub struct Memory<C: Copy> {
     neighbours: Neighbours,
 }
 
+impl<C: Along> Memory<C> {
+    /// Writes the arguments of the operations with kinks, which begin at these histories: `order` rows, in each for each of them
+    /// one number for each pedestrian.
+    pub fn arguments(&self, kinks: &[usize], pedestrians: usize, order: usize, arguments: &mut [f64]) {
+        let (blocks, count) = (pedestrians.div_ceil(C::WIDTH), kinks.len() * pedestrians);
+        let histories = Histories { memory: &self.histories, blocks, length: order, order: 0 };
+        for (kink, &operation) in kinks.iter().enumerate() {
+            let histories = histories.of(operation);
+            for block in 0..blocks {
+                let from = block * C::WIDTH;
+                let own = kink * pedestrians + from;
+                let size = C::WIDTH.min(pedestrians - from);
+                for (row, coefficient) in arguments.chunks_exact_mut(count).zip(histories.block(block).argument()) {
+                    let (flow, differences) = coefficient.parts();
+                    for (to, difference) in row[own..own + size].iter_mut().zip(differences) {
+                        *to = flow + difference;
+                    }
+                }
+            }
+        }
+    }
+}
+
 /// The coefficients of a motion under a program.
 pub struct Coefficients<'a, 'b, C: Copy> {
     /// The program.

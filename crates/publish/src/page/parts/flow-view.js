@@ -36,11 +36,10 @@ class FlowView {
     else this.chart = new Chart(this.rates, spec);
   }
 
-  static all({ growing_k: growing, margin }) {
-    if (growing) {
-      const [least, largest] = growing.map((k) => words(k, 4));
-      const range = growing[0] === 0 ? `k < ${largest}` : `${least} < k < ${largest}`;
-      return `unstable (margin ${words(margin, 4)}): waves with ${range} grow`;
+  static all({ growing_bands: bands, margin }) {
+    if (bands.length) {
+      const range = ([least, largest]) => `${least === 0 ? '' : `${words(least, 4)} < `}k < ${words(largest, 4)}`;
+      return `unstable (margin ${words(margin, 4)}): waves with ${bands.map(range).join(' or ')} grow`;
     }
     if (margin === 0) return 'neutral (margin 0): no wave grows, but not all decay';
     return `stable (margin ${words(margin, 4)}): waves of all lengths decay`;
@@ -49,6 +48,7 @@ class FlowView {
   static onRing({ margin_on_ring: margin, waves, growth_rate: rate }, pedestrians) {
     const wave = `the wave with ${waves} period${waves === 1 ? '' : 's'}`;
     if (margin > 0) return `on this ring of ${pedestrians} ${wave} grows fastest, at rate ${words(rate, 4)}`;
+    if (margin === 0) return `on this ring of ${pedestrians} no wave grows, but not all decay`;
     return `on this ring of ${pedestrians} every wave decays, ${wave} most slowly, at rate ${words(rate, 4)}`;
   }
 }
