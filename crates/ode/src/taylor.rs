@@ -84,10 +84,8 @@ impl Taylor {
     fn expand(&mut self, system: &dyn System, state: &[f64], rates: &[f64]) {
         let n = self.dimension;
         self.unit = self.next_unit;
-        self.coefficients[..n].copy_from_slice(state);
-        for (coefficient, rate) in self.coefficients[n..2 * n].iter_mut().zip(rates) {
-            *coefficient = self.unit * rate;
-        }
+        let (states, others) = self.coefficients.split_at_mut(n);
+        dispatch(Begin { state, rates, unit: self.unit, first: [states, &mut others[..n]] });
         system.series(self.order, self.unit, &mut self.coefficients);
     }
 
@@ -241,6 +239,27 @@ const TELLING: f64 = 1e-4;
 
 /// The step is so much shorter than that at which the last term meets the tolerance.
 const SAFETY: f64 = 0.95;
+
+/// Writes the first two rows of coefficients.
+struct Begin<'a> {
+    state: &'a [f64],
+    rates: &'a [f64],
+    unit: f64,
+    first: [&'a mut [f64]; 2],
+}
+
+impl Kernel for Begin<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let [states, rates] = self.first;
+        let known = self.state.iter().zip(self.rates);
+        for ((state, rate), known) in states.iter_mut().zip(rates).zip(known) {
+            (*state, *rate) = (*known.0, self.unit * known.1);
+        }
+    }
+}
 
 /// Writes `c_1 h + c_2 h^2 + ...` (Horner) of the components from `from` on, to which `WHOLE` adds `c_0`.
 pub(crate) struct Change<'a, const WHOLE: bool> {
