@@ -235,8 +235,8 @@ impl Part {
     fn halves(&self, degree: usize) -> [Part; 2] {
         let width = 0.5 * self.width;
         let (mut left, mut right) = (self.points, self.points);
-        for k in 0..=degree {
-            left[k] = right[0];
+        for (k, point) in left.iter_mut().take(degree + 1).enumerate() {
+            *point = right[0];
             for i in 0..degree - k {
                 right[i] = 0.5 * (right[i] + right[i + 1]);
             }
@@ -284,7 +284,7 @@ mod tests {
         ] {
             let first = zeros.iter().copied().filter(|zero| *zero > 0.0).reduce(math::smaller).expect("a zero");
             let found = with_zeros(&zeros).first_zero().expect("it is found");
-            assert!((found - first).abs() < 1e-9 * first.max(1e-3), "{zeros:?}: {found}");
+            assert!((found - first).abs() < 1e-9 * math::larger(first, 1e-3), "{zeros:?}: {found}");
         }
     }
 

@@ -2,6 +2,7 @@
 
 use crate::problems::oscillator;
 use ode::{Control, Failure, Group, Measure, Method, Problem, Statistics, Step, System, integrate};
+use std::cell::RefCell;
 use std::ops::{ControlFlow, Range};
 
 /// `dy/dt = y (1 - y)` for every component: `1 / (1 + exp(-t))` from 1/2; nearest singularities at `t = +- i pi`.
@@ -133,4 +134,86 @@ fn a_system_without_series_is_refused() {
         Problem { system: &system, start: &[1.0, 0.0], begin: 0.0, end: 1.0, method: Method::Taylor, control };
     let outcome = integrate(&problem, &mut |_: &mut Step<'_>| ControlFlow::Continue(()));
     assert_eq!(outcome, Err(Failure::NoSeries));
+}
+
+/// `x'' = -x` and `z' = |x|` from `(1, 0, 0)`: kinks where `x` is 0.
+#[derive(Default)]
+struct Rectified {
+    series: RefCell<Vec<f64>>,
+    /// Whether it tells where its kinks are.
+    tells: bool,
+}
+
+impl System for Rectified {
+    fn dimension(&self) -> usize {
+        3
+    }
+
+    fn kinematics(&self, _state: &[f64], _rates: &mut [f64]) {}
+
+    fn dynamics(&self, state: &[f64], rates: &mut [f64]) {
+        rates.copy_from_slice(&[state[1], -state[0], state[0].abs()]);
+    }
+
+    fn positions(&self) -> Vec<Range<usize>> {
+        Vec::new()
+    }
+
+    fn groups(&self) -> Vec<Group> {
+        vec![Group { range: 0..3, measure: Measure::Largest, floor: 1.0 }]
+    }
+
+    fn has_series(&self) -> bool {
+        true
+    }
+
+    fn series(&self, order: usize, unit: f64, c: &mut [f64]) {
+        let mut side = 0.0;
+        for k in 0..order {
+            let (x, v) = (c[3 * k], c[3 * k + 1]);
+            side = if side == 0.0 && x != 0.0 { x.signum() } else { side };
+            if k > 0 {
+                let share = unit / (k + 1) as f64;
+                c[3 * k + 3..3 * k + 6].copy_from_slice(&[share * v, -share * x, share * side * x]);
+            }
+        }
+        *self.series.borrow_mut() = c.to_vec();
+    }
+
+    fn kinks(&self) -> usize {
+        usize::from(self.tells)
+    }
+
+    fn kink_arguments(&self, order: usize, arguments: &mut [f64]) {
+        for (argument, row) in arguments[..order].iter_mut().zip(self.series.borrow().chunks(3)) {
+            *argument = row[0];
+        }
+    }
+}
+
+#[test]
+fn steps_end_on_kinks() {
+    let made = |tells| {
+        let system = Rectified { tells, ..Rectified::default() };
+        let control = Control::Adaptive { tolerance: 1e-12 };
+        let start = [1.0, 0.0, 0.0];
+        let problem =
+            Problem { system: &system, start: &start, begin: 0.0, end: 20.0, method: Method::Taylor, control };
+        let mut ends = Vec::new();
+        let mut look = |step: &mut Step<'_>| {
+            ends.push(step.end);
+            ControlFlow::Continue(())
+        };
+        (integrate(&problem, &mut look).expect("nothing stands in the way"), ends)
+    };
+    let ((located, ends), (halved, _)) = (made(true), made(false));
+    // 1 up to the first zero, 2 for each of five arcs, and 1 + sin(20) since the last zero
+    let exact = 12.0 + math::sin(20.0);
+    assert!((located.state[2] - exact).abs() < 1e-10, "{} {exact}", located.state[2]);
+    for zero in 0..6 {
+        let time = (f64::from(zero) + 0.5) * std::f64::consts::PI;
+        assert!(ends.iter().any(|end| (end - time).abs() < 1e-9), "{time}: {ends:?}");
+    }
+    assert_eq!(located.rejected, 0);
+    assert!(halved.rejected > 100 && halved.evaluations > 3 * located.evaluations, "{halved:?} {located:?}");
 }

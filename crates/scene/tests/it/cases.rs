@@ -177,6 +177,7 @@ fn an_unstable_run_ends_by_name_where_no_double_follows() {
         assert_eq!((stop.kind, stop.pedestrian), (EventKind::BlowUp, 1), "{method}");
         assert!((stop.time - 52.373_982_875).abs() < 2e-8, "{method}: {}", stop.time);
         assert_eq!(run.samples.len(), 53, "samples up to there");
+        assert_eq!(run.statistics.time, stop.time, "it ends there");
     }
 }
 
