@@ -6,6 +6,7 @@ use crate::dense::Step;
 use crate::system::{System, Tangent};
 use crate::taylor::{Change, forced};
 use crate::vector::largest;
+use math::lane;
 use math::simd::{Kernel, dispatch};
 use std::cell::RefCell;
 use std::ops::Range;
@@ -33,13 +34,16 @@ pub(crate) struct Linear {
     forced: Vec<Range<usize>>,
     /// Scratch for states and rates.
     state: RefCell<[Vec<f64>; 2]>,
+    /// What fading leaves over a piece, and its logarithm.
+    left: f64,
+    fading: f64,
     /// How many numbers the rows of a piece are.
     length: usize,
     pieces: usize,
 }
 
-/// Terms of a series from the first that is smaller than this part are left out.
-const REST: f64 = 1e-2;
+/// Terms of a series from the first that is smaller than this part are left out: an error is asked to a factor of 3.
+const REST: f64 = 2e-2;
 
 /// A piece is at most so long, in units of the time in which differences move: terms of longer ones would cancel.
 const LONGEST: f64 = 10.0;
@@ -68,6 +72,8 @@ impl Linear {
             late: 0.0,
             forced: forced(system),
             state: RefCell::new([vec![0.0; system.dimension()], vec![0.0; system.dimension()]]),
+            left: 1.0,
+            fading: 0.0,
             length: 0,
             pieces: 0,
         })
@@ -83,7 +89,10 @@ impl Linear {
         }
         self.pieces = if pieces > 1.0 { pieces as usize } else { 1 };
         let share = 1.0 / self.pieces as f64;
-        let (order, unit, dimension) = (order(turns * share), step.length() * share, error.len());
+        let (unit, dimension) = (step.length() * share, error.len());
+        self.fading = step.system.fading() * unit;
+        self.left = lane::exp(self.fading);
+        let order = order(turns * share, REST / self.left);
         self.length = (order + 1) * dimension;
         if self.rows.len() < self.pieces * self.length {
             self.rows.resize(self.pieces * self.length, 0.0);
@@ -100,6 +109,7 @@ impl Linear {
             let rows = &mut rest[..self.length];
             if piece > 0 {
                 whole(&done[done.len() - self.length..], dimension, 1.0, &mut rows[..dimension]);
+                rows[..dimension].iter_mut().for_each(|difference| *difference *= self.left);
                 if !self.is_steady {
                     self.start.iter_mut().zip(&self.growth).for_each(|(start, growth)| *start += growth);
                 }
@@ -131,8 +141,8 @@ impl Linear {
 
     /// Writes the difference at the end of the step, of what was there at its start, and what the step has added.
     pub(crate) fn end(&self, step: &Step<'_>, added: &[f64], result: &mut [f64]) {
-        self.rest(1.0, result);
-        dispatch(Shifted { late: self.late, rates: step.rates_after(), added, result });
+        let left = self.rest(1.0, result);
+        dispatch(Shifted { left, late: self.late, rates: step.rates_after(), added, result });
     }
 
     /// The same at the fraction `theta` of the step.
@@ -140,14 +150,17 @@ impl Linear {
         let [state, rates] = &mut *self.state.borrow_mut();
         step.at_fraction(theta, state);
         step.rates_of(state, rates);
-        self.rest(theta, result);
-        result.iter_mut().zip(rates).for_each(|(result, rate)| *result += self.late * *rate);
+        let left = self.rest(theta, result);
+        result.iter_mut().zip(rates).for_each(|(result, rate)| *result = *result * left + self.late * *rate);
     }
 
-    fn rest(&self, theta: f64, result: &mut [f64]) {
+    /// Writes the series there; returns what fading leaves of it.
+    fn rest(&self, theta: f64, result: &mut [f64]) -> f64 {
         let place = theta * self.pieces as f64;
         let piece = (place as usize).min(self.pieces - 1);
-        whole(&self.rows[piece * self.length..][..self.length], result.len(), place - piece as f64, result);
+        let within = place - piece as f64;
+        whole(&self.rows[piece * self.length..][..self.length], result.len(), within, result);
+        if within == 1.0 { self.left } else { lane::exp(self.fading * within) }
     }
 }
 
@@ -211,8 +224,9 @@ impl Kernel for Unshifted<'_> {
     }
 }
 
-/// Adds `late * rates + added`.
+/// Takes what is left of a difference and adds `late * rates + added`.
 struct Shifted<'a> {
+    left: f64,
     late: f64,
     rates: &'a [f64],
     added: &'a [f64],
@@ -225,7 +239,7 @@ impl Kernel for Shifted<'_> {
     #[inline(always)]
     fn run(self) {
         for (result, (rate, added)) in self.result.iter_mut().zip(self.rates.iter().zip(self.added)) {
-            *result = (*result + self.late * rate) + added;
+            *result = (self.left * *result + self.late * rate) + added;
         }
     }
 }
@@ -235,10 +249,10 @@ fn whole(rows: &[f64], n: usize, h: f64, result: &mut [f64]) {
     dispatch(Change::<true> { rows, n, from: 0, h, result });
 }
 
-/// The last order whose term counts, where each is `turns / k` times the one before.
-fn order(turns: f64) -> usize {
+/// The last order whose term is above `rest`, where each is `turns / k` times the one before; terms grow at first.
+fn order(turns: f64, rest: f64) -> usize {
     let (mut order, mut term) = (1, turns);
-    while term > REST {
+    while term > rest || (order as f64) < turns {
         order += 1;
         term *= turns / order as f64;
     }

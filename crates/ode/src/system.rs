@@ -46,13 +46,21 @@ pub trait System {
         0
     }
 
-    /// Writes them, and returns about how fast the fastest difference moves.
+    /// The rate, at most 0, at which all small differences fade on top of what distinguishes them: the middle of the
+    /// eigenvalues of the linearised equations.
+    fn fading(&self) -> f64 {
+        0.0
+    }
+
+    /// Writes them, and returns about how fast the fastest difference moves besides fading: the largest distance of an
+    /// eigenvalue from their middle.
     fn tangent(&self, _state: &[f64], _tangent: &mut [f64]) -> f64 {
         0.0
     }
 
-    /// Writes the Taylor series of a small difference from a solution near which they change linearly with time, in the form
-    /// of [`System::series`]; the first row is given.
+    /// Writes the Taylor series of a small difference from a solution near which they change linearly with time, but for
+    /// their fading: the series of `exp(-fading t)` times the difference, in the form of [`System::series`]. The first row
+    /// is given. Such a series needs fewer orders.
     fn difference(&self, _tangent: Tangent<'_>, _order: usize, _unit: f64, _coefficients: &mut [f64]) {}
 
     /// In how many places the rates can bend sharply, as a smooth ramp does.

@@ -24,8 +24,8 @@ const TIGHTEST: f64 = 3e-15;
 pub(super) const SAME_TIME: f64 = 1e-9;
 
 /// Factor on the difference, since errors of two methods may have the same sign: it is right where that of the second run
-/// is half as large, and too cautious by this factor where it is none.
-const AGREEMENT: f64 = 2.0;
+/// is a third as large, and too cautious by this factor where it is none.
+const AGREEMENT: f64 = 1.5;
 
 /// Highest order that is visible in an error; beyond it kinks and rounding dominate.
 const HIGHEST_SEEN: usize = 8;

@@ -4,7 +4,7 @@
 //! distance `X` and speed `V` of the uniform flow, `dX/dt = V`, `dV/dt = f(V, V, Delta y)`. A perturbation of any size
 //! keeps all its digits, and an error is one of the perturbation, not of the state.
 
-use super::tangent::{fastest, series};
+use super::tangent::{FADING, fastest, series};
 use super::{FlowAlong, LEAST_SIZE, RingSystem, closing_rates, displace};
 use crate::force::{Flow, Force, Motion};
 use crate::observe::speed_std;
@@ -99,6 +99,10 @@ impl System for Deviations {
         if self.force.has_slopes() { self.pedestrians } else { 0 }
     }
 
+    fn fading(&self) -> f64 {
+        FADING
+    }
+
     fn tangent(&self, state: &[f64], tangent: &mut [f64]) -> f64 {
         self.force.slopes(self.net_gap, &state[..self.pedestrians], tangent);
         fastest(tangent)
@@ -110,13 +114,14 @@ impl System for Deviations {
         let (first, distance, speed) = self.extras();
         let mut rows = coefficients.chunks_exact_mut(dimension);
         let Some(start) = rows.next() else { return };
-        let mut before = [start[n], start[speed]];
+        let mut before = [n, first, distance, speed].map(|i| start[i]);
         for (k, row) in rows.take(order).enumerate() {
             let share = unit / (k + 1) as f64;
-            row[first] = before[0] * share;
-            row[distance] = before[1] * share;
-            row[speed] = -before[1] * share;
-            before = [row[n], row[speed]];
+            let [own, moved, walked, flow] = before;
+            row[first] = (own - FADING * moved) * share;
+            row[distance] = (flow - FADING * walked) * share;
+            row[speed] = (-1.0 - FADING) * flow * share;
+            before = [n, first, distance, speed].map(|i| row[i]);
         }
     }
 

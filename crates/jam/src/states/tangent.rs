@@ -4,14 +4,17 @@
 use math::simd::{Kernel, dispatch};
 use ode::Tangent;
 
-/// About how fast such a difference moves at most: by its relaxation, or, for the steepest slope `phi`, by its shortest waves,
-/// for which `z^2 + z + 2 phi = 0`. Waves of other lengths are faster by a tenth at most.
+/// The middle of the eigenvalues: for equal slopes, those of a wave add up to -1.
+pub(super) const FADING: f64 = -0.5;
+
+/// About how far from their middle eigenvalues `z` lie at most: that of the relaxation, or, for the steepest slope `phi`,
+/// those of its shortest waves, for which `(z + 1/2)^2 = 1/4 - 2 phi`. Slopes are not equal; a tenth is added for that.
 pub(super) fn fastest(slopes: &[f64]) -> f64 {
-    let shortest = (2.0 * ode::largest(slopes)).sqrt();
-    1.1 * math::larger(shortest, 1.0)
+    let shortest = 2.0 * ode::largest(slopes) - FADING * FADING;
+    1.1 * math::larger(shortest, FADING * FADING).sqrt()
 }
 
-/// Writes the rows of spacings and of speeds, which stand first in each.
+/// Writes the rows of spacings and of speeds, which stand first in each, without their fading.
 pub(super) fn series(tangent: Tangent<'_>, order: usize, unit: f64, coefficients: &mut [f64]) {
     dispatch(Series { tangent, order, unit, coefficients });
 }
@@ -37,19 +40,20 @@ impl Kernel for Series<'_> {
             let (done, next) = coefficients.split_at_mut((k + 1) * dimension);
             let (before, now) = done.split_at(k * dimension);
             let (spacings, speeds, ahead) = (&now[..n], &now[n..2 * n], &now[n + 1..2 * n]);
+            let relaxation = -1.0 - FADING;
             let (next_spacings, next_speeds) = next[..2 * n].split_at_mut(n);
             for i in 0..last {
-                next_spacings[i] = (ahead[i] - speeds[i]) * share;
+                next_spacings[i] = ((ahead[i] - speeds[i]) - FADING * spacings[i]) * share;
             }
-            next_spacings[last] = (speeds[0] - speeds[last]) * share;
+            next_spacings[last] = ((speeds[0] - speeds[last]) - FADING * spacings[last]) * share;
             if k == 0 || growth.is_empty() {
                 for i in 0..n {
-                    next_speeds[i] = (start[i] * spacings[i] - speeds[i]) * share;
+                    next_speeds[i] = (start[i] * spacings[i] + relaxation * speeds[i]) * share;
                 }
             } else {
                 let earlier = &before[(k - 1) * dimension..][..n];
                 for i in 0..n {
-                    next_speeds[i] = (start[i] * spacings[i] + growth[i] * earlier[i] - speeds[i]) * share;
+                    next_speeds[i] = (start[i] * spacings[i] + growth[i] * earlier[i] + relaxation * speeds[i]) * share;
                 }
             }
         }
