@@ -219,7 +219,6 @@ impl<'a> Run<'a> {
             }
         };
         let most_steps = observer.most_steps();
-        let mut creep = Creep::default();
         let mut bends = Bends::new(self.system, &self.state, &self.rates);
         let between_marks = (WORK_BETWEEN_MARKS / self.state.len() as u64).max(1);
         while time[0] < problem.end {
@@ -265,9 +264,6 @@ impl<'a> Run<'a> {
             }
             norm.start(&self.state);
             h = self.propose(&norm).unwrap_or_else(|| length * controller.accept(error));
-            if creep.is_without_end(time[0] > start[0], h) {
-                return Err(Failure::StepTooSmall { time: time[0], step: h });
-            }
             if self.statistics.steps.is_multiple_of(between_marks) {
                 let (error, unit) = (controller.previous, self.stepper.unit());
                 let time = [time[0], time_carry[0]];
@@ -355,33 +351,6 @@ const LONGEST_BURST: u64 = 4096;
 
 /// As many components are brought on by adaptive steps between two marks.
 const WORK_BETWEEN_MARKS: u64 = 1 << 18;
-
-/// Steps that the time does not see. Towards a singular end they shrink in proportion to what is left of it, and reach
-/// [`SHORTEST`]. Where the end lies between two neighbouring numbers, the state stays on the nearer one, and steps of
-/// one length would follow each other for ever.
-#[derive(Default)]
-struct Creep {
-    steps: u32,
-    first: f64,
-}
-
-impl Creep {
-    /// Whether so many steps that the time does not see were made that the next, of length `h`, should be far shorter.
-    fn is_without_end(&mut self, is_seen: bool, h: f64) -> bool {
-        if is_seen {
-            self.steps = 0;
-            return false;
-        }
-        if self.steps.is_multiple_of(CREEPING) {
-            self.first = h;
-        }
-        self.steps += 1;
-        self.steps.is_multiple_of(CREEPING) && h > 0.5 * self.first
-    }
-}
-
-/// Steps after which one that shrinks by a tenth each time has an eighth of its length.
-const CREEPING: u32 = 20;
 
 /// Lower limit of adaptive steps. The equations are autonomous and the time is summed with compensation, so a step may
 /// be far below the rounding of the time: near a wall of the force it is as short as the gap is small.
