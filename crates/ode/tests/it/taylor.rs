@@ -1,7 +1,7 @@
 //! Taylor's method on a system that provides its series.
 
 use crate::problems::oscillator;
-use ode::{Control, Failure, Group, Measure, Method, Problem, Statistics, Step, System, integrate};
+use ode::{Control, Failure, Group, Measure, Method, Problem, Sampler, Statistics, Step, System, integrate};
 use std::ops::{ControlFlow, Range};
 
 /// `dy/dt = y (1 - y)` for every component: `1 / (1 + exp(-t))` from 1/2; nearest singularities at `t = +- i pi`.
@@ -133,4 +133,41 @@ fn a_system_without_series_is_refused() {
         Problem { system: &system, start: &[1.0, 0.0], begin: 0.0, end: 1.0, method: Method::Taylor, control };
     let outcome = integrate(&problem, &mut |_: &mut Step<'_>| ControlFlow::Continue(()));
     assert_eq!(outcome, Err(Failure::NoSeries));
+}
+
+#[test]
+fn samples_of_one_step_have_the_bits_of_each_alone() {
+    for dimension in [1, 7, 24, 30, 67, 137] {
+        let (mut sampler, mut count) = (Sampler::new(0.05, dimension), 0);
+        run(dimension, 0.3, Control::Adaptive { tolerance: 1e-9 }, &mut |step| {
+            let mut samples = Vec::new();
+            sampler.components_within(step, 8.0, dimension / 3..dimension, &mut |t, state| {
+                samples.push((t, state[dimension / 3..].to_vec()));
+            });
+            for (t, sample) in &samples {
+                let mut alone = vec![0.0; dimension];
+                step.at(*t, &mut alone);
+                assert_eq!(*sample, alone[dimension / 3..], "{dimension} components, t = {t}");
+            }
+            count += samples.len();
+        });
+        assert_eq!(count, 160);
+    }
+}
+
+#[test]
+fn the_largest_size_is_found_wherever_it_stands() {
+    for count in 1..70 {
+        let values: Vec<f64> = (0..count).map(|i| if i % 2 == 0 { 1.0 } else { -1.0 }).collect();
+        for place in 0..count {
+            let with = |value: f64| {
+                let mut values = values.clone();
+                values[place] = value;
+                ode::largest(&values)
+            };
+            assert_eq!([with(-2.5), with(f64::NEG_INFINITY)], [2.5, f64::INFINITY], "{place} of {count}");
+            assert!(with(f64::NAN).is_nan() && with(-f64::NAN).is_nan(), "{place} of {count}");
+        }
+    }
+    assert_eq!(ode::largest(&[]), 0.0);
 }
