@@ -221,6 +221,7 @@ impl<'a> Run<'a> {
         let most_steps = observer.most_steps();
         let mut bends = Bends::new(self.system, &self.state, &self.rates);
         let between_marks = (WORK_BETWEEN_MARKS / self.state.len() as u64).max(1);
+        let (mut rejected, mut in_place) = (0, 0);
         while time[0] < problem.end {
             if self.statistics.steps + self.statistics.rejected >= most_steps {
                 return Err(Failure::TooManySteps { time: time[0], steps: most_steps });
@@ -258,6 +259,12 @@ impl<'a> Run<'a> {
             }
             if is_last {
                 break;
+            }
+            // before the step the state was what `next` is now
+            let is_in_place = self.statistics.rejected > rejected && self.state == self.next;
+            (rejected, in_place) = (self.statistics.rejected, if is_in_place { in_place + 1 } else { 0 });
+            if in_place == MOST_IN_PLACE {
+                return Err(Failure::StepTooSmall { time: time[0], step: length });
             }
             if let Some(bends) = &mut bends {
                 bends.advance();
@@ -355,6 +362,10 @@ const WORK_BETWEEN_MARKS: u64 = 1 << 18;
 /// Lower limit of adaptive steps. The equations are autonomous and the time is summed with compensation, so a step may
 /// be far below the rounding of the time: near a wall of the force it is as short as the gap is small.
 pub const SHORTEST: f64 = 1e-290;
+
+/// So many steps in a row that had to be shortened and changed no component end a run: at the end of the domain the
+/// compensation of the sums takes in ever shorter ones.
+const MOST_IN_PLACE: u32 = 256;
 
 /// A larger defect is taken for a sign that the law is another one at the end of the step than at its start.
 const LARGEST_DEFECT: f64 = 32.0;

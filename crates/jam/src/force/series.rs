@@ -58,22 +58,61 @@ struct InBlocks<const W: usize> {
 
 #[derive(Clone, Debug, Default)]
 struct Row {
-    spacings: Vec<f64>,
-    speeds: Vec<f64>,
+    spacings: Aligned,
+    speeds: Aligned,
 }
 
 impl Row {
     fn reserve(&mut self, length: usize) {
-        self.spacings.resize(length, 0.0);
+        self.spacings.reserve(length);
         // one more, for the neighbour ahead of the last lane
-        self.speeds.resize(length + 1, 0.0);
+        self.speeds.reserve(length + 1);
     }
 
-    /// Spacings, speeds and speeds ahead of a block.
     #[inline(always)]
-    fn block<const W: usize>(&self, from: usize) -> [Lanes<W>; 3] {
-        let speeds = &self.speeds[from..][..W + 1];
-        [Lanes::of(&self.spacings[from..]), Lanes::of(speeds), Lanes::of(&speeds[1..])]
+    fn numbers(&self) -> [&[f64]; 2] {
+        [&self.spacings, &self.speeds].map(Aligned::numbers)
+    }
+
+    #[inline(always)]
+    fn numbers_mut(&mut self) -> [&mut [f64]; 2] {
+        [&mut self.spacings, &mut self.speeds].map(Aligned::numbers_mut)
+    }
+}
+
+/// Spacings, speeds and speeds ahead of a block, from those of a row.
+#[inline(always)]
+fn block<const W: usize>([spacings, speeds]: [&[f64]; 2], from: usize) -> [Lanes<W>; 3] {
+    let speeds = &speeds[from..][..W + 1];
+    [Lanes::of(&spacings[from..]), Lanes::of(speeds), Lanes::of(&speeds[1..])]
+}
+
+/// Numbers that begin where a line of the cache does: what lies across two of them is read and written in two goes.
+#[derive(Clone, Debug, Default)]
+struct Aligned {
+    memory: Vec<f64>,
+    begin: usize,
+}
+
+/// Doubles of a line.
+const LINE: usize = 8;
+
+impl Aligned {
+    fn reserve(&mut self, length: usize) {
+        self.memory.resize(length + LINE - 1, 0.0);
+        let begin = self.memory.as_ptr().align_offset(LINE * size_of::<f64>());
+        // where that is not known, anywhere will do
+        self.begin = if begin < LINE { begin } else { 0 };
+    }
+
+    #[inline(always)]
+    fn numbers(&self) -> &[f64] {
+        &self.memory[self.begin..]
+    }
+
+    #[inline(always)]
+    fn numbers_mut(&mut self) -> &mut [f64] {
+        &mut self.memory[self.begin..]
     }
 }
 
@@ -92,7 +131,7 @@ impl<const W: usize> InBlocks<W> {
     #[inline(always)]
     fn take(&mut self, spacings: &[f64], speeds: &[f64], flow: Flow) {
         let n = spacings.len();
-        let Row { spacings: own_spacings, speeds: own_speeds } = &mut self.now;
+        let [own_spacings, own_speeds] = self.now.numbers_mut();
         for (own, spacing) in own_spacings.iter_mut().zip(spacings) {
             *own = spacing + flow.net_gap;
         }
@@ -108,7 +147,8 @@ impl<const W: usize> InBlocks<W> {
     #[inline(always)]
     fn advance(&mut self, n: usize) {
         std::mem::swap(&mut self.now, &mut self.next);
-        self.now.speeds[n] = self.now.speeds[0];
+        let speeds = self.now.speeds.numbers_mut();
+        speeds[n] = speeds[0];
     }
 }
 
@@ -183,9 +223,9 @@ impl<L: Law, const PLAIN: bool, const W: usize> Coefficients<'_, '_, L, PLAIN, W
         let (states, rates) = coefficients.split_at_mut(dimension);
         memory.reserve(n, size);
         memory.take(&states[..n], &states[n..2 * n], flow);
-        for block in 0..blocks {
-            let place = Place::new(&memory.histories[block * size..(block + 1) * size], order, 0);
-            let [s, v, w] = memory.now.block::<W>(begin::<W>(block, n));
+        for index in 0..blocks {
+            let place = Place::new(&memory.histories[index * size..(index + 1) * size], order, 0);
+            let [s, v, w] = block(memory.now.numbers(), begin::<W>(index, n));
             law.acceleration::<Jet<Lanes<W>, true>>(place.variable(s), place.variable(v), place.variable(w));
         }
         memory.take(&rates[..n], &rates[n..2 * n], NOTHING);
@@ -193,24 +233,25 @@ impl<L: Law, const PLAIN: bool, const W: usize> Coefficients<'_, '_, L, PLAIN, W
             let share = unit / (k + 1) as f64;
             let (spacings, speeds) = row[..2 * n].split_at_mut(n);
             let InBlocks { histories, now, next } = &mut *memory;
-            let mut left = &histories[..];
-            for block in 0..blocks {
+            let (now, next, mut left) = (now.numbers(), next.numbers_mut(), &histories[..]);
+            for index in 0..blocks {
                 let (own, others) = left.split_at(size);
                 left = others;
-                let (from, place) = (begin::<W>(block, n), Place::new(own, order, k));
-                let [s, v, w] = now.block::<W>(from);
+                let (from, place) = (begin::<W>(index, n), Place::new(own, order, k));
+                let [s, v, w] = block::<W>(now, from);
                 let next_spacings = (w - v) * share;
                 let (s, v, w) = (place.variable::<false>(s), place.variable(v), place.variable(w));
                 let next_speeds = law.acceleration(s, v, w).coefficient() * share;
                 write(spacings, from, next_spacings);
                 write(speeds, from, next_speeds);
-                write(&mut next.spacings, from, next_spacings);
-                write(&mut next.speeds, from, next_speeds);
+                write(next[0], from, next_spacings);
+                write(next[1], from, next_speeds);
             }
             memory.advance(n);
             if n < W {
-                spacings.copy_from_slice(&memory.now.spacings[..n]);
-                speeds.copy_from_slice(&memory.now.speeds[..n]);
+                let [own_spacings, own_speeds] = memory.now.numbers();
+                spacings.copy_from_slice(&own_spacings[..n]);
+                speeds.copy_from_slice(&own_speeds[..n]);
             }
         }
     }

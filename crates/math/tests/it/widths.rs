@@ -115,3 +115,12 @@ fn assert_row(name: &str, x: &[f64], in_row: fn(&mut [f64], &mut Scratch), lane:
     let lanes: Vec<f64> = x.iter().map(|&x| lane(x)).collect();
     assert!(is_same(&row, &lanes), "{name}, {}", x.len());
 }
+
+#[test]
+fn a_softplus_and_its_decay_are_those_of_their_own_functions() {
+    for x in arguments() {
+        let [softplus, decay] = lane::softplus_and_decay(x);
+        let own = [lane::softplus(x), lane::exp(-x.abs())];
+        assert_eq!([softplus, decay].map(f64::to_bits), own.map(f64::to_bits), "at {x:e}");
+    }
+}

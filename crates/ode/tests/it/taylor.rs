@@ -1,7 +1,7 @@
 //! Taylor's method on a system that provides its series.
 
 use crate::problems::oscillator;
-use ode::{Control, Failure, Group, Measure, Method, Problem, Statistics, Step, System, integrate};
+use ode::{Control, Failure, Group, Measure, Method, Problem, Sampler, Statistics, Step, System, integrate};
 use std::cell::RefCell;
 use std::ops::{ControlFlow, Range};
 
@@ -216,4 +216,24 @@ fn steps_end_on_kinks() {
     }
     assert_eq!(located.rejected, 0);
     assert!(halved.rejected > 100 && halved.evaluations > 3 * located.evaluations, "{halved:?} {located:?}");
+}
+
+#[test]
+fn samples_of_one_step_have_the_bits_of_each_alone() {
+    for dimension in [1, 7, 24, 30, 67, 137] {
+        let (mut sampler, mut count) = (Sampler::new(0.05, dimension), 0);
+        run(dimension, 0.3, Control::Adaptive { tolerance: 1e-9 }, &mut |step| {
+            let mut samples = Vec::new();
+            sampler.components_within(step, 8.0, dimension / 3..dimension, &mut |t, state| {
+                samples.push((t, state[dimension / 3..].to_vec()));
+            });
+            for (t, sample) in &samples {
+                let mut alone = vec![0.0; dimension];
+                step.at(*t, &mut alone);
+                assert_eq!(*sample, alone[dimension / 3..], "{dimension} components, t = {t}");
+            }
+            count += samples.len();
+        });
+        assert_eq!(count, 160);
+    }
 }
