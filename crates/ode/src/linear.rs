@@ -164,6 +164,10 @@ impl Linear {
     }
 }
 
+/// What a shift in time carries is at most so many times the difference: what remains would be the difference of two far
+/// larger numbers, of which the series has two digits.
+const MOST_LATE: f64 = 10.0;
+
 /// The shift in time that makes most of a difference.
 fn lateness(components: &[Range<usize>], rates: &[f64], error: &[f64]) -> f64 {
     let scale = components.iter().fold(0.0, |scale, range| {
@@ -177,7 +181,9 @@ fn lateness(components: &[Range<usize>], rates: &[f64], error: &[f64]) -> f64 {
         (along, squares) = (along + sums[0], squares + sums[1]);
     }
     let late = along / squares * share;
-    if late.is_finite() { late } else { 0.0 }
+    // of a slow motion it may be far more than the error of what moves on
+    let is_part = late.abs() * largest(rates) <= MOST_LATE * largest(error);
+    if is_part { late } else { 0.0 }
 }
 
 /// The sums of rates times errors and of squares of rates, these in units in which the largest is 1.
