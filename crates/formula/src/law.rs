@@ -102,6 +102,9 @@ fn checked<'a>(section: Place, definitions: &[Definition<'a>]) -> Result<BTreeMa
             Given::Number(number) if !number.is_finite() => {
                 return Err(Problem::new(value, format!("{name} = {number}"), "a finite number"));
             }
+            Given::Number(number) if name == SCALE && number <= 0.0 => {
+                return Err(Problem::new(value, format!("{name} = {number}"), "a number > 0, the size of speeds"));
+            }
             Given::Number(_) if [ACCELERATION, GAP].contains(&name) => {
                 return Err(Problem::new(value, format!("a number for {name}"), "an expression in quotation marks"));
             }

@@ -192,6 +192,9 @@ fn keys_have_their_kinds() {
     assert_error(&of(&lines(&[], &[("acceleration", 1.0)])), 2, 9, "a number for acceleration", "quotation marks");
     assert_error(&of(&lines(&[("body", "1")], &[])), 2, 9, "an expression for body", "a number");
     assert_error(&of(&lines(&[("scale", "1")], &[])), 2, 9, "an expression for scale", "a number");
+    for scale in [0.0, -1.5] {
+        assert_error(&of(&lines(&[], &[("scale", scale)])), 2, 9, &format!("scale = {scale}"), "> 0");
+    }
     assert_error(&of(&lines(&[], &[("gap", 1.0)])), 2, 9, "a number for gap", "quotation marks");
     assert_error(&of(&lines(&[], &[("a", f64::INFINITY)])), 2, 9, "inf", "finite");
     assert_error(&of(&lines(&[], &[("a", f64::NAN)])), 2, 9, "NaN", "finite");

@@ -1,5 +1,6 @@
 //! A law given as formulas in a scene file.
 
+use super::size_of_speeds;
 use crate::force::{Force, Interpreted, Prepared, Source};
 use crate::stability::Response;
 use formula::{Definition, Error, Given, Graph, Place};
@@ -96,9 +97,9 @@ impl Formula {
         self.graph.parameter(name).map(|index| self.values[index])
     }
 
-    /// The size of speeds: the parameter `v0` if there is one, else `scale`.
+    /// The size of speeds: that of the parameter `v0` if there is one, else `scale`. A `v0` of 0 is none.
     pub fn speed_scale(&self) -> Option<f64> {
-        self.parameter("v0").or_else(|| self.parameter("scale"))
+        size_of_speeds(|name| self.parameter(name))
     }
 
     /// The spacing at which two touch.

@@ -382,3 +382,9 @@ impl Model {
         }
     }
 }
+
+/// The size of speeds of a law with these parameters: thresholds refer to it, which a speed of 0 or below would turn around.
+fn size_of_speeds(parameter: impl Fn(&str) -> Option<f64>) -> Option<f64> {
+    let size = |name: &str| parameter(name).map(f64::abs).filter(|size| *size > 0.0);
+    size("v0").or_else(|| size("scale"))
+}

@@ -43,9 +43,9 @@ impl Own {
         self.0.parameter(name)
     }
 
-    /// Its parameter `v0`, else `scale`.
+    /// The size of its parameter `v0`, else `scale`.
     pub(super) fn speed_scale(&self) -> Option<f64> {
-        self.parameter("v0").or_else(|| self.parameter("scale"))
+        super::size_of_speeds(|name| self.parameter(name))
     }
 
     pub(super) fn force(&self) -> Box<dyn Force> {

@@ -113,6 +113,19 @@ fn steps_do_not_creep_towards_an_end_without_reaching_it() {
 }
 
 #[test]
+fn a_run_that_comes_to_rest_at_the_end_of_the_domain_ends_by_name() {
+    // speeds fall ever faster towards s = 1.3, and none of the last steps changes a spacing any more
+    let law = "acceleration = \"v0 - v + 3*ln(s - 1.3)\"\nv0 = -0.5\nbody = 0.5";
+    let text = optimal_velocity(law, "").replace("shift = 0.1", "shift = 0.6");
+    let [series, pair] = ["", "method = \"dop853\"\ntolerance = 1e-11"].map(|method| {
+        let end = outcome(&text.replace("method = \"dop853\"\ntolerance = 1e-11", method));
+        *end.events.iter().find(|event| event.kind == EventKind::Undefined).expect("an end")
+    });
+    assert_eq!(series.pedestrian, pair.pedestrian);
+    assert!((series.time - pair.time).abs() < 1e-9, "{series:?} {pair:?}");
+}
+
+#[test]
 fn a_gap_of_its_own_tells_the_overlap() {
     // from rest everybody but the first gains V(2) (1 - exp(-t)); the gap 2 - 1.1 * 2 v closes at v = 1/1.1
     let law = format!("{BANDO}\ngap = \"s - 1.1*(v + v[1])\"").replace("tanh(s - 2) + tanh(2)", "tanh(2)");

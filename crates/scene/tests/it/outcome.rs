@@ -85,6 +85,17 @@ fn every_class_comes_from_a_scene_that_ends_in_it() {
 }
 
 #[test]
+fn a_desired_speed_of_0_or_below_turns_no_threshold_around() {
+    for v0 in ["1.0", "0.0", "-0.5"] {
+        let law = format!(
+            "kind = \"formula\"\nacceleration = \"v0 - v + 0.4*(s - 1.9) + 0.3*tanh(v[1] - v)\"\nv0 = {v0}\nbody = 0.5"
+        );
+        let found = verdict(&scene(&law, (10, 20.0), 0.3, TAYLOR));
+        assert_eq!(found.class, Class::Decays, "{v0}: {found:?}");
+    }
+}
+
+#[test]
 fn what_is_not_certain_says_what_would_decide_it() {
     let law = format!("{LOGARITHMIC}v0 = 1.0");
     let growing = verdict(&scene(&law, (20, 30.0), 1e-7, TAYLOR));
