@@ -143,3 +143,25 @@ fn margins_of_formulas_are_those_of_the_criteria() {
         assert_eq!(margin > 0.0, slope > 0.5 * kappa, "{row:?}");
     }
 }
+
+#[test]
+fn margins_of_maps_are_those_of_runs_where_short_waves_decay_slowest() {
+    let law = "[law]\nkind = \"algebraic\"\nq = 2.0\nv0 = 2.0\nepsilon = 0.1\ndelta = 0.5\n";
+    let axes = "[uniform]\nheadway = 3.0\n[map]\nx = { parameter = \"mu\", from = 0.05, to = 1.45, cells = 7 }\n\
+                y = { parameter = \"a_v\", from = 0.0, to = 0.6, cells = 4 }\n";
+    let parsed = scene_file::parse("my.toml", &format!("{law}{axes}")).expect("a map");
+    let map = map::read("my.toml", &parsed.panels[0].tables).unwrap_or_else(|error| panic!("{error}"));
+    let computed = map.compute().unwrap_or_else(|error| panic!("{error}"));
+    assert!(computed.error < 1e-13, "{:e}", computed.error);
+    let mut short = 0;
+    for row in computed.table.rows() {
+        let (mu, a_v, margin) = (row[0], row[1], row[2]);
+        let run = "[ring]\npedestrians = 20\nlength = 60.0\n[start]\nshift = 0.1\n[run]\nt_end = 1.0\nsample = 1.0\n";
+        let scene = read(&format!("{law}mu = {mu:?}\na_v = {a_v:?}\n{run}")).unwrap_or_else(|error| panic!("{error}"));
+        let linear = scene.model.linearise(3.0, scene.steady_speed.expect("a flow"));
+        let expected = scene::uniform::stability(&scene).expect("derivatives").margin;
+        assert!((margin - expected).abs() <= 1e-12 * expected.abs(), "{row:?}: {expected}");
+        short += u32::from(linear.long_wave_margin() < 2.0 * margin);
+    }
+    assert!(short > 3, "{short} cells where long waves decay twice as fast as the slowest");
+}
