@@ -380,6 +380,12 @@ impl Linear {
         2.0 * self.phi - (1.0 + 2.0 * self.kappa) * (1.0 + 2.0 * self.beta)
     }
 
+    /// The largest margin over all waves. It is linear in `cos k`: that of long waves or that of the shortest, `k = pi`, which
+    /// always decays but may do so more slowly.
+    pub fn largest_margin(&self) -> f64 {
+        math::larger(self.long_wave_margin(), self.margin(PI))
+    }
+
     /// The largest growth rate among the waves `k = 2 pi l / N`, `l = 1 .. N/2`, and its `l`.
     pub fn fastest(&self, pedestrians: usize) -> (f64, usize) {
         fastest(pedestrians, |k| self.growth_rate(k))

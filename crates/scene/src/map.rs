@@ -33,7 +33,7 @@ impl Axis {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Value {
     /// How far the uniform flow is from stability, exactly, for the waves of all lengths: negative where it is stable (see
-    /// [`Linear::long_wave_margin`]).
+    /// [`Linear::largest_margin`]).
     Margin,
     /// The paper's criterion, negative where the uniform flow is stable; only where the assumptions hold that it was
     /// derived with.
@@ -315,7 +315,7 @@ impl Map {
         }
         let (criterion, linear) = stability(&model, &point)?;
         Ok(match self.value {
-            Value::Margin => (linear.long_wave_margin(), precise(&model, &point)?.margin()),
+            Value::Margin => (linear.largest_margin(), precise(&model, &point)?.margin()),
             Value::Criterion => (criterion, criterion_of(&model, &linear)),
             Value::GrowthRate => {
                 let k = point.wave_number.ok_or("needs a wave number")?;

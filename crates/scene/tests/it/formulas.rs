@@ -98,20 +98,6 @@ fn a_formula_that_loses_its_value_ends_by_name() {
     assert!((event.time - 3.0).abs() < 0.1, "{event:?}");
 }
 
-/// The end lies between two neighbouring numbers: the state stays on the nearer one, and a series of Taylor's would be
-/// tried there without end.
-#[test]
-fn steps_do_not_creep_towards_an_end_without_reaching_it() {
-    let text = "[law]\nkind = \"formula\"\nacceleration = \"3*ln(s - 1.3) - v - 0.5\"\nbody = 0.5\n[ring]\npedestrians = 20\n\
-        length = 40.0\n[start]\nshift = 0.6\n[run]\nt_end = 30.0\nsample = 1.0\n";
-    for method in ["taylor", "dop853"] {
-        let end = outcome(&format!("{text}method = \"{method}\"\n"));
-        let event = end.events.iter().find(|event| event.kind == EventKind::Undefined).expect("an end");
-        assert!((event.time - 2.460_440_871_3).abs() < 1e-9, "{event:?}");
-        assert!(end.statistics.steps + end.statistics.rejected < 3000, "{:?}", end.statistics);
-    }
-}
-
 #[test]
 fn a_run_that_comes_to_rest_at_the_end_of_the_domain_ends_by_name() {
     // speeds fall ever faster towards s = 1.3, and none of the last steps changes a spacing any more
@@ -156,4 +142,26 @@ fn margins_of_formulas_are_those_of_the_criteria() {
         let slope = 1.0 - (t / (t + 2.0)) * (t / (t + 2.0));
         assert_eq!(margin > 0.0, slope > 0.5 * kappa, "{row:?}");
     }
+}
+
+#[test]
+fn margins_of_maps_are_those_of_runs_where_short_waves_decay_slowest() {
+    let law = "[law]\nkind = \"algebraic\"\nq = 2.0\nv0 = 2.0\nepsilon = 0.1\ndelta = 0.5\n";
+    let axes = "[uniform]\nheadway = 3.0\n[map]\nx = { parameter = \"mu\", from = 0.05, to = 1.45, cells = 7 }\n\
+                y = { parameter = \"a_v\", from = 0.0, to = 0.6, cells = 4 }\n";
+    let parsed = scene_file::parse("my.toml", &format!("{law}{axes}")).expect("a map");
+    let map = map::read("my.toml", &parsed.panels[0].tables).unwrap_or_else(|error| panic!("{error}"));
+    let computed = map.compute().unwrap_or_else(|error| panic!("{error}"));
+    assert!(computed.error < 1e-13, "{:e}", computed.error);
+    let mut short = 0;
+    for row in computed.table.rows() {
+        let (mu, a_v, margin) = (row[0], row[1], row[2]);
+        let run = "[ring]\npedestrians = 20\nlength = 60.0\n[start]\nshift = 0.1\n[run]\nt_end = 1.0\nsample = 1.0\n";
+        let scene = read(&format!("{law}mu = {mu:?}\na_v = {a_v:?}\n{run}")).unwrap_or_else(|error| panic!("{error}"));
+        let linear = scene.model.linearise(3.0, scene.steady_speed.expect("a flow"));
+        let expected = scene::uniform::stability(&scene).expect("derivatives").margin;
+        assert!((margin - expected).abs() <= 1e-12 * expected.abs(), "{row:?}: {expected}");
+        short += u32::from(linear.long_wave_margin() < 2.0 * margin);
+    }
+    assert!(short > 3, "{short} cells where long waves decay twice as fast as the slowest");
 }
