@@ -169,7 +169,14 @@ impl Step<'_> {
         self.part_at(t, Part { from: 0, values: state });
     }
 
-    /// The same for a contiguous part of the components: what [`Step::at`] writes there, at lower cost.
+    /// As [`Step::at`], for an observer that does not change the statistics of a run: no evaluation is counted.
+    pub fn seen_at(&mut self, t: f64, state: &mut [f64]) {
+        let counted = self.evaluations;
+        self.at(t, state);
+        self.evaluations = counted;
+    }
+
+    /// As [`Step::at`] for a contiguous part of the components, at lower cost.
     pub fn components_at(&mut self, t: f64, range: Range<usize>, state: &mut [f64]) {
         self.part_at(t, Part { from: range.start, values: &mut state[range] });
     }

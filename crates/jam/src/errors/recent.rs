@@ -45,7 +45,7 @@ impl Recent {
             // in a uniform flow it happens to all at once
             if self.events.last().is_none_or(|(time, _)| *time != event.time) {
                 let mut state = vec![0.0; step.after().len()];
-                step.at(event.time, &mut state);
+                step.seen_at(event.time, &mut state);
                 self.events.push((event.time, state));
             }
             let Some((_, state)) = self.events.last() else { continue };
