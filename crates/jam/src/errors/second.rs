@@ -186,8 +186,14 @@ fn by_tolerance(
     instants: &[Instant],
     onlooker: &mut dyn RunObserver,
 ) -> Second {
-    let method = if run.method == Method::Dop853 { Method::Verner87 } else { Method::Dop853 };
-    let tighter = tolerance * if run.method.order() < HIGH { TIGHTER } else { TIGHTER_IF_HIGH };
+    let method = match run.method {
+        // steps that do not end on kinks are far more, and stumble over each
+        Method::Taylor if has_kinks(&run.model) => Method::Taylor,
+        Method::Dop853 => Method::Verner87,
+        _ => Method::Dop853,
+    };
+    let is_low = method != run.method && run.method.order() < HIGH;
+    let tighter = tolerance * if is_low { TIGHTER } else { TIGHTER_IF_HIGH };
     let control = Control::Adaptive { tolerance: if tighter > TIGHTEST { tighter } else { TIGHTEST } };
     let second = Run { method, control, most_steps: most_steps(run, outcome), ..again(run, outcome) };
     made(&second, AGREEMENT, instants, onlooker)
