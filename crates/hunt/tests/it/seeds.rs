@@ -66,6 +66,7 @@ fn nothing_is_stated_of_the_end_of_steps_that_break_off() {
     }
 }
 
+/// A loose tolerance leads the run out of the domain of its formula.
 #[test]
 fn a_formula_without_value_is_no_end_where_the_second_run_goes_on() {
     let all = of(1_000_186);
