@@ -23,6 +23,9 @@ const TIGHTEST: f64 = 3e-15;
 /// Ends of both runs closer than this, relative to the time, count as the same.
 pub(super) const SAME_TIME: f64 = 1e-9;
 
+/// Steps of a run by Taylor's method that differ from those at a far smaller tolerance.
+const MANY: u64 = 50;
+
 /// Factor on the difference, since errors of two methods may have the same sign: it is right where that of the second run
 /// is a third as large, and too cautious by this factor where it is none.
 const AGREEMENT: f64 = 1.5;
@@ -186,17 +189,24 @@ fn by_tolerance(
     instants: &[Instant],
     onlooker: &mut dyn RunObserver,
 ) -> Second {
-    let method = match run.method {
-        // steps that do not end on kinks are far more, and stumble over each
-        Method::Taylor if has_kinks(&run.model) => Method::Taylor,
-        Method::Dop853 => Method::Verner87,
-        _ => Method::Dop853,
-    };
-    let is_low = method != run.method && run.method.order() < HIGH;
-    let tighter = tolerance * if is_low { TIGHTER } else { TIGHTER_IF_HIGH };
+    let tighter = tolerance * if run.method.order() < HIGH { TIGHTER } else { TIGHTER_IF_HIGH };
     let control = Control::Adaptive { tolerance: if tighter > TIGHTEST { tighter } else { TIGHTEST } };
-    let second = Run { method, control, most_steps: most_steps(run, outcome), ..again(run, outcome) };
-    made(&second, AGREEMENT, instants, onlooker)
+    let mut by = |method: Method| {
+        let second = Run { method, control, most_steps: most_steps(run, outcome), ..again(run, outcome) };
+        made(&second, AGREEMENT, instants, onlooker)
+    };
+    match run.method {
+        Method::Dop853 => by(Method::Verner87),
+        Method::Taylor if has_kinks(&run.model) => {
+            // a few steps may be the same for both tolerances; where there are more, dop853 stumbles over each kink
+            let first = (outcome.statistics.steps < MANY).then(|| by(Method::Dop853));
+            match first.filter(|first| confirmed::reaches(outcome, &first.outcome)) {
+                Some(first) => first,
+                None => by(Method::Taylor),
+            }
+        }
+        _ => by(Method::Dop853),
+    }
 }
 
 /// A run by the same method with steps of `ratio` times the length.
