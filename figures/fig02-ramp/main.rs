@@ -18,12 +18,12 @@ const LOOKS: [usize; 3] = [0, 1, 3];
 fn picture(job: &Job) -> Result<Picture, Failure> {
     let mut curves = Vec::new();
     let mut ramp = Vec::new();
-    for panel in &job.recipe.panels {
+    for panel in &job.scene_file.panels {
         let table = job.read(&panel.name)?;
         ramp = points(&table, "x", "ramp")?;
         curves.push((title(panel, &["curve.epsilon"]), points(&table, "x", "smooth")?));
     }
-    let range = |key| job.recipe.panels.first().and_then(|panel| value(&panel.tables, key)).unwrap_or(0.0);
+    let range = |key| job.scene_file.panels.first().and_then(|panel| value(&panel.tables, key)).unwrap_or(0.0);
     let heights = curves.iter().flat_map(|(_, curve)| curve).map(|point| point.1);
     let x = Axis::linear("$x$", range("curve.from"), range("curve.to")).steps(4);
     let mut panel = Lines::new(x, Axis::from_zero("$r_\\varepsilon(x)$", heights))

@@ -19,7 +19,7 @@ fn tables(job: &mut Job) -> Result<(), Failure> {
 const TRACED: usize = 33;
 
 fn picture(job: &Job) -> Result<Picture, Failure> {
-    let scene = scene::run::read(&job.recipe.file, &job.panel("main")?.tables)?;
+    let scene = scene::run::read(&job.scene_file.file, &job.panel("main")?.tables)?;
     let (t_end, length) = (scene.t_end, scene.ring.length);
     let paths = trajectories(&job.read("trajectories")?)?;
     let axis = |label: &str, [from, to]: [f64; 2]| Axis::linear(label, from, to).steps(4);

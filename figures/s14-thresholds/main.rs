@@ -11,8 +11,8 @@ fn main() -> ExitCode {
 }
 
 fn tables(job: &mut Job) -> Result<(), Failure> {
-    let panels = &job.recipe.panels;
-    let read = |panel: &files::scene_file::Panel| scene::map::read(&job.recipe.file, &panel.tables);
+    let panels = &job.scene_file.panels;
+    let read = |panel: &files::scene_file::Panel| scene::map::read(&job.scene_file.file, &panel.tables);
     let maps =
         panels.iter().map(|panel| Ok((panel.name.as_str(), read(panel)?))).collect::<Result<Vec<_>, Failure>>()?;
     // the effect of delta alone: <0.5, 0, 1, 0.1> beside the last panel of figure 14

@@ -24,7 +24,7 @@ const APART: f64 = 100.0;
 const DRAWN: usize = 3;
 
 fn tables(job: &mut Job) -> Result<(), Failure> {
-    let scene = scene::run::read(&job.recipe.file, &job.panel("main")?.tables)?;
+    let scene = scene::run::read(&job.scene_file.file, &job.panel("main")?.tables)?;
     job.write("steady", &steady(&scene)?)?;
     job.write("states", &states(&job.run_table("main", "trajectories")?, &scene))
 }
@@ -57,7 +57,7 @@ fn states(run: &Table, scene: &Scene) -> Table {
 }
 
 fn picture(job: &Job) -> Result<Picture, Failure> {
-    let scene = scene::run::read(&job.recipe.file, &job.panel("main")?.tables)?;
+    let scene = scene::run::read(&job.scene_file.file, &job.panel("main")?.tables)?;
     let mean = 1.0 / scene.ring.headway();
     let speeds = panel(job, "speed", Axis::linear("speed $v$", 0.0, 1.2).steps(4), mean)?;
     let flows = panel(job, "flow", Axis::linear("flow $\\rho v$", 0.0, 0.6).steps(3), mean)?.unnamed();

@@ -31,7 +31,7 @@ fn tables(job: &mut Job) -> Result<(), Failure> {
     let end = run.rows().map(|row| row[0]).fold(0.0, |end, t| if t > end { t } else { end });
     run.rows().filter(|row| row[0] == end).for_each(|row| last.push(&row[1..]));
     job.write("last", &last)?;
-    let scene = scene::run::read(&job.recipe.file, &job.panel("main")?.tables)?;
+    let scene = scene::run::read(&job.scene_file.file, &job.panel("main")?.tables)?;
     job.write_own_rows("varied", &varied(&scene)?)
 }
 
@@ -97,7 +97,7 @@ fn varied(scene: &Scene) -> Result<Sheet, Failure> {
 }
 
 fn picture(job: &Job) -> Result<Picture, Failure> {
-    let scene = scene::run::read(&job.recipe.file, &job.panel("main")?.tables)?;
+    let scene = scene::run::read(&job.scene_file.file, &job.panel("main")?.tables)?;
     let length = scene.ring.length;
     let paths = trajectories(&job.read("window")?)?;
     let speeds = paths.iter().flatten().map(|sample| sample[2]);

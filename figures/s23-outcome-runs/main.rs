@@ -27,7 +27,7 @@ fn tables(job: &mut Job) -> Result<(), Failure> {
 fn picture(job: &Job) -> Result<Picture, Failure> {
     let mut runs = Vec::new();
     for (run, title) in RUNS {
-        let scene = scene::run::read(&job.recipe.file, &job.panel(run)?.tables)?;
+        let scene = scene::run::read(&job.scene_file.file, &job.panel(run)?.tables)?;
         runs.push((title, scene, trajectories(&job.read(run)?)?));
     }
     let speeds = runs.iter().flat_map(|(_, _, paths)| paths.iter().flatten()).map(|sample| sample[2]);

@@ -46,7 +46,7 @@ fn run_folder(text: &str) -> Result<(String, PathBuf), String> {
 #[derive(Debug)]
 pub struct Job {
     /// Its scene file.
-    pub recipe: SceneFile,
+    pub scene_file: SceneFile,
     arguments: Arguments,
     report: Map<String, Value>,
 }
@@ -66,8 +66,8 @@ fn run(
     picture: fn(&Job) -> Result<Picture, Failure>,
 ) -> Result<(), Failure> {
     let arguments = Arguments::parse();
-    let recipe = scene_file::read(&arguments.scene)?;
-    let mut job = Job { recipe, arguments, report: Map::new() };
+    let scene_file = scene_file::read(&arguments.scene)?;
+    let mut job = Job { scene_file, arguments, report: Map::new() };
     for folder in [&job.arguments.tables, &job.arguments.pictures] {
         std::fs::create_dir_all(folder).map_err(|error| with_path(error, folder))?;
     }
@@ -170,7 +170,7 @@ impl Job {
     /// # Errors
     /// As [`Job::take`].
     pub fn take_deviations(&mut self) -> Result<(), Failure> {
-        let mut runs = self.recipe.panels.iter().filter(|panel| panel.kind == Kind::Run);
+        let mut runs = self.scene_file.panels.iter().filter(|panel| panel.kind == Kind::Run);
         runs.try_for_each(|panel| self.take(&panel.name, "std", &panel.name))
     }
 
@@ -207,9 +207,9 @@ impl Job {
     /// A committed table, which the scene must name: a figure is stale when one of those has changed.
     fn committed(&self, folder: &str, name: &str) -> Result<PathBuf, Failure> {
         let table = format!("{folder}/{name}");
-        match self.recipe.reads.contains(&table) {
+        match self.scene_file.reads.contains(&table) {
             true => Ok(self.arguments.reference.with_file_name(table + ".csv")),
-            false => Err(Failure::input(format!("{}: reads: must name {table}", self.recipe.file))),
+            false => Err(Failure::input(format!("{}: reads: must name {table}", self.scene_file.file))),
         }
     }
 
@@ -244,7 +244,7 @@ impl Job {
     /// # Errors
     /// The scene has none.
     pub fn panel(&self, name: &str) -> Result<&Panel, Failure> {
-        Ok(self.recipe.panel(name)?)
+        Ok(self.scene_file.panel(name)?)
     }
 
     /// Computes the tables of all maps and curves of the scene, each under the name of its panel.
@@ -252,7 +252,7 @@ impl Job {
     /// # Errors
     /// The scene is invalid, or a table cannot be written.
     pub fn compute_panels(&mut self) -> Result<(), Failure> {
-        for panel in self.recipe.panels.clone() {
+        for panel in self.scene_file.panels.clone() {
             self.compute(&panel)?;
         }
         Ok(())
@@ -261,7 +261,7 @@ impl Job {
     fn compute(&mut self, panel: &Panel) -> Result<(), Failure> {
         let table = match panel.kind {
             Kind::Map => {
-                let map = scene::map::read(&self.recipe.file, &panel.tables)?;
+                let map = scene::map::read(&self.scene_file.file, &panel.tables)?;
                 let computed = map.compute().map_err(Failure::input)?;
                 if !computed.blank.is_empty() {
                     let problem = format!("{}: {} cells are blank", panel.name, computed.blank.len());
@@ -271,7 +271,7 @@ impl Job {
                 self.report.insert(panel.name.clone(), json!({ "method": "closed form", "error": error }));
                 computed.table
             }
-            Kind::Curve => scene::curve::table(&self.recipe.file, &panel.tables)?,
+            Kind::Curve => scene::curve::table(&self.scene_file.file, &panel.tables)?,
             Kind::Run | Kind::Sweep | Kind::Drawing => return Ok(()),
         };
         self.write(&panel.name, &table)

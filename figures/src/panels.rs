@@ -39,7 +39,7 @@ pub fn map_grid(
     let mut all = Vec::new();
     for (index, name) in names.iter().enumerate() {
         let panel = job.panel(name)?;
-        let map = scene::map::read(&job.recipe.file, &panel.tables)?;
+        let map = scene::map::read(&job.scene_file.file, &panel.tables)?;
         let values = job.read(name)?.column(map.columns()[2])?;
         let labels = Labels { horizontal: index + columns >= names.len(), vertical: index % columns == 0 };
         picture = picture.titled(&title(panel), map_panel(&map, &values, labels)?);

@@ -10,8 +10,8 @@ pub const SCENE: &str = "[law]\nkind = \"exponential\"\na = 8.0\nb = 1.5\nv0 = 3
 
 /// Tries these bytes.
 pub fn read(bytes: &[u8]) {
-    let recipe = scene_file::parse("any.toml", SCENE).expect("a scene");
-    let scene = scene::run::read("any.toml", &recipe.panels[0].tables).expect("a run");
+    let scene_file = scene_file::parse("any.toml", SCENE).expect("a scene");
+    let scene = scene::run::read("any.toml", &scene_file.panels[0].tables).expect("a run");
     if let Some(checkpoint) = Checkpoint::parse(bytes, &scene) {
         let again = Checkpoint::parse(bytes, &scene).expect("what was taken once");
         assert_eq!(format!("{again:?}"), format!("{checkpoint:?}"));

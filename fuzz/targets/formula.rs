@@ -1,12 +1,12 @@
 //! Formulas: any text is a law or an expression with a value, or refused with a place within it.
 
-use formula::{Definition, Error, Expression, Given, Place, Variable, law};
+use formula::{Definition, Error, Expression, Given, Location, Variable, law};
 
 /// Tries one file: a law whose lines are `name = number` and `name = expression`, and the whole of it as one expression.
 pub fn read(bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
     let definitions: Vec<Definition<'_>> = text.lines().enumerate().filter_map(definition).collect();
-    let bound = law("scene.toml", Place { line: 1, column: 1 }, &definitions).and_then(|graph| {
+    let bound = law("scene.toml", Location { line: 1, column: 1 }, &definitions).and_then(|graph| {
         let stencil = graph.stencil();
         assert!(stencil.spacings.iter().chain(&stencil.speeds).all(|j| j.abs() <= formula::limits::FARTHEST));
         graph.bind(&graph.values())
@@ -30,7 +30,7 @@ pub fn read(bytes: &[u8]) {
         }
         Err(error) => complaint(&error, &text),
     }
-    match Expression::parse("scene.toml", Place { line: 1, column: 1 }, &text) {
+    match Expression::parse("scene.toml", Location { line: 1, column: 1 }, &text) {
         Ok(expression) => {
             let value = expression.eval(|name| 0.5 + name as f64);
             assert!(value.is_err() || value.is_ok_and(|value| value.is_finite()));
@@ -42,7 +42,7 @@ pub fn read(bytes: &[u8]) {
 /// The definition of a line.
 fn definition((at, line): (usize, &str)) -> Option<Definition<'_>> {
     let (name, value) = line.split_once(" = ")?;
-    let place = |column: usize| Place { line: at as u32 + 1, column: column as u32 };
+    let place = |column: usize| Location { line: at as u32 + 1, column: column as u32 };
     let given = value.parse().map_or(Given::Text(value), Given::Number);
     Some(Definition { name, key: place(1), value: place(name.chars().count() + 4), given })
 }

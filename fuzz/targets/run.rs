@@ -11,9 +11,9 @@ const SMALL: (usize, f64, u64) = (12, 200.0, 400);
 /// Tries one file.
 pub fn read(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
-    let Ok(recipe) = scene_file::parse("any.toml", text) else { return };
-    for panel in recipe.panels.iter().filter(|panel| panel.kind == Kind::Run) {
-        if let Ok(scene) = scene::run::read(&recipe.file, &panel.tables) {
+    let Ok(scene_file) = scene_file::parse("any.toml", text) else { return };
+    for panel in scene_file.panels.iter().filter(|panel| panel.kind == Kind::Run) {
+        if let Ok(scene) = scene::run::read(&scene_file.file, &panel.tables) {
             run(scene);
         }
     }

@@ -11,18 +11,18 @@ pub fn read(bytes: &[u8]) {
     // a file that is not UTF-8 is refused by the standard library
     let Ok(text) = std::str::from_utf8(bytes) else { return };
     match scene_file::parse("any.toml", text) {
-        Ok(recipe) => accepted(&recipe, text),
+        Ok(scene_file) => accepted(&scene_file, text),
         Err(error) => refused(&error, text),
     }
 }
 
-fn accepted(recipe: &SceneFile, text: &str) {
+fn accepted(scene_file: &SceneFile, text: &str) {
     let again = scene_file::parse("any.toml", text).expect("what was accepted once");
-    assert_eq!(format!("{again:?}"), format!("{recipe:?}"));
-    for panel in &recipe.panels {
+    assert_eq!(format!("{again:?}"), format!("{scene_file:?}"));
+    for panel in &scene_file.panels {
         let tables = match panel.kind {
-            Kind::Run => scene::run::read(&recipe.file, &panel.tables).map(|_| ()),
-            Kind::Map => scene::map::read(&recipe.file, &panel.tables).map(|map| {
+            Kind::Run => scene::run::read(&scene_file.file, &panel.tables).map(|_| ()),
+            Kind::Map => scene::map::read(&scene_file.file, &panel.tables).map(|map| {
                 if map.x.cells * map.y.cells <= SMALL
                     && let Ok(computed) = map.compute()
                 {
@@ -30,10 +30,10 @@ fn accepted(recipe: &SceneFile, text: &str) {
                 }
             }),
             Kind::Curve if points(panel) > SMALL as f64 => Ok(()),
-            Kind::Curve => scene::curve::table(&recipe.file, &panel.tables).map(|table| {
+            Kind::Curve => scene::curve::table(&scene_file.file, &panel.tables).map(|table| {
                 assert!(table.rows().flatten().all(|number| number.is_finite()), "{table:?}");
             }),
-            Kind::Sweep => sweep::read(&recipe.file, &panel.tables).map(|_| ()),
+            Kind::Sweep => sweep::read(&scene_file.file, &panel.tables).map(|_| ()),
             Kind::Drawing => Ok(()),
         };
         tables.unwrap_or_else(|error| refused(&error, text));

@@ -1,7 +1,7 @@
 //! Chooses the figures that fit into a time budget.
 
 use crate::child::Usage;
-use crate::plan::{self, Node, Wish};
+use crate::plan::{self, Needs, Node};
 use crate::record::FigureState;
 use crate::verbs::figures::{Times, forecast};
 use checkout::costs::{Cost, Costs};
@@ -39,8 +39,8 @@ pub fn choose<'a>(
 ) -> Result<Choice<'a>, Failure> {
     let last = |node: &Node| times.get(&node.name).copied().or_else(|| costs.get(&node.name).map(|cost| cost.cpu));
     let seconds = |chosen: &[bool]| {
-        let wishes: Vec<Wish> = chosen.iter().map(|&draw| Wish { draw, measure: false }).collect();
-        let nodes = plan::make(scratch, surveys, &wishes, true)?;
+        let needs: Vec<Needs> = chosen.iter().map(|&draw| Needs { draw, measure: false }).collect();
+        let nodes = plan::make(scratch, surveys, &needs, true)?;
         let forecast = forecast(&nodes, threads, &last);
         Ok(if forecast.unknown > 0 { f64::INFINITY } else { forecast.seconds })
     };

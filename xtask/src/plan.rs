@@ -15,14 +15,14 @@ pub struct Node {
     /// For progress, logs and times: `fig04 run stable`, or the figure's slug.
     pub name: String,
     /// What it does.
-    pub step: Step,
+    pub task: Task,
     /// What it waits for, and how long it may take.
     pub job: Job,
 }
 
 /// What a node does.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Step {
+pub enum Task {
     /// Integrates a run into the store.
     Simulate {
         /// The scene file, by name.
@@ -43,25 +43,25 @@ pub enum Step {
 
 /// What is asked of one figure.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Wish {
+pub struct Needs {
     /// Write its tables and pictures.
     pub draw: bool,
     /// Have its runs and their checks at hand, to compare them.
     pub measure: bool,
 }
 
-/// The nodes that fulfil the wishes (one for each figure surveyed). Runs that are stored and intact are not repeated
+/// The nodes that fulfil the needs (one for each figure surveyed). Runs that are stored and intact are not repeated
 /// unless `force`; a run that several figures share appears once, under the name of the first.
 ///
 /// # Errors
 /// A stored run cannot be read.
-pub fn make(paths: &Paths, surveys: &[FigureState<'_>], wishes: &[Wish], force: bool) -> Result<Vec<Node>, Failure> {
+pub fn make(paths: &Paths, surveys: &[FigureState<'_>], needs: &[Needs], force: bool) -> Result<Vec<Node>, Failure> {
     let mut nodes: Vec<Node> = Vec::new();
     let mut known: BTreeMap<String, Option<usize>> = BTreeMap::new();
-    for (index, (survey, wish)) in surveys.iter().zip(wishes).enumerate() {
+    for (index, (survey, need)) in surveys.iter().zip(needs).enumerate() {
         let mut after = Vec::new();
         for (panel, (_, key)) in survey.figure.runs().zip(&survey.runs) {
-            let both = [(false, wish.draw || wish.measure), (true, wish.measure)];
+            let both = [(false, need.draw || need.measure), (true, need.measure)];
             for (check, _) in both.into_iter().filter(|(_, wanted)| *wanted) {
                 let node = run(survey, panel, key, check);
                 let at = match known.get(&node.0) {
@@ -76,7 +76,7 @@ pub fn make(paths: &Paths, surveys: &[FigureState<'_>], wishes: &[Wish], force: 
                 after.extend(at.filter(|_| !check));
             }
         }
-        if wish.draw {
+        if need.draw {
             nodes.push(draw(survey, index, after));
         }
     }
@@ -89,15 +89,15 @@ fn run(survey: &FigureState<'_>, panel: &Panel, key: &str, check: bool) -> (Stri
     let verb = if check { "check" } else { "run" };
     let name = format!("{} {verb} {}", survey.figure.id, panel.name);
     let scene = Paths::scene(&survey.figure.slug);
-    let step = Step::Simulate { scene, panel: panel.name.clone(), key: key.clone(), check };
-    (key, Node { name, step, job: Job { after: Vec::new(), weight: work } })
+    let task = Task::Simulate { scene, panel: panel.name.clone(), key: key.clone(), check };
+    (key, Node { name, task, job: Job { after: Vec::new(), weight: work } })
 }
 
 fn draw(survey: &FigureState<'_>, index: usize, after: Vec<usize>) -> Node {
-    let panels = survey.figure.recipe.as_ref().map_or(&[][..], |recipe| &recipe.panels);
+    let panels = survey.figure.scene_file.as_ref().map_or(&[][..], |scene_file| &scene_file.panels);
     let maps = panels.iter().filter(|panel| panel.kind == Kind::Map).count();
     let job = Job { after, weight: 1.0 + maps as f64 };
-    Node { name: survey.figure.slug.clone(), step: Step::Draw { figure: index }, job }
+    Node { name: survey.figure.slug.clone(), task: Task::Draw { figure: index }, job }
 }
 
 /// Pedestrians times duration: a guess of the work, far above that of any map. 1e6 when the scene does not say.

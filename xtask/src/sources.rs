@@ -103,7 +103,7 @@ impl Sources {
         let folder = Paths::figure_folder(&figure.slug);
         let supplement = if figure.is_supplement() { &SUPPLEMENT_SOURCES[..] } else { &[] };
         let mut inputs = self.numbers_from(&[&["crates/plot/", folder.as_str()], supplement].concat());
-        let reads = figure.recipe.iter().flat_map(|recipe| &recipe.reads).map(|name| Paths::table(name));
+        let reads = figure.scene_file.iter().flat_map(|scene_file| &scene_file.reads).map(|name| Paths::table(name));
         inputs.extend(reads.filter_map(|name| Some((name.clone(), self.files.get(&name)?.clone()))));
         inputs.extend(self.keys.get(&figure.slug).cloned().unwrap_or_default());
         inputs.extend(runs.iter().map(|(panel, key)| (format!("run {panel}"), key.clone())));

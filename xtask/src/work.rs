@@ -1,7 +1,7 @@
 //! Carries out a plan: starts programs, moves their outputs into place, and shows progress on stderr.
 
 use crate::child::{self, Message, Usage};
-use crate::plan::{Node, Step};
+use crate::plan::{Node, Task};
 use crate::pool::{self, Job, Outcome};
 use crate::progress::ProgressDisplay;
 use crate::record::FigureState;
@@ -20,7 +20,7 @@ use std::time::Instant;
 
 /// What a node has made.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Made {
+pub struct NodeOutput {
     /// Seconds of the wall clock.
     pub seconds: f64,
     /// Whether a part of it was made before, by a run that was killed: the seconds are those of the rest.
@@ -44,8 +44,8 @@ pub fn carry_out(
     nodes: &[Node],
     threads: usize,
     keep_going: bool,
-    made: &mut dyn FnMut(&Node, &Made) -> Result<(), Failure>,
-) -> Result<Vec<Outcome<Made>>, Failure> {
+    made: &mut dyn FnMut(&Node, &NodeOutput) -> Result<(), Failure>,
+) -> Result<Vec<Outcome<NodeOutput>>, Failure> {
     let jobs: Vec<Job> = nodes.iter().map(|node| node.job.clone()).collect();
     let board = ProgressDisplay::new();
     let work = |index: usize, stop: &AtomicBool| {
@@ -55,10 +55,10 @@ pub fn carry_out(
         board.start(&node.name);
         let made = perform(paths, surveys, node, stop, &|word| board.hear(&node.name, word));
         let resumed = board.end(&node.name);
-        Ok(Made { seconds: start.elapsed().as_secs_f64(), resumed, ..made? })
+        Ok(NodeOutput { seconds: start.elapsed().as_secs_f64(), resumed, ..made? })
     };
     let (mut count, mut trouble) = (0, Ok(()));
-    let mut ended = |index: usize, outcome: &Outcome<Made>| {
+    let mut ended = |index: usize, outcome: &Outcome<NodeOutput>| {
         let node = &nodes[index];
         count += 1;
         match outcome {
@@ -86,10 +86,10 @@ fn perform(
     node: &Node,
     stop: &AtomicBool,
     heard: &(dyn Fn(Message) + Sync),
-) -> Result<Made, Failure> {
+) -> Result<NodeOutput, Failure> {
     let log = paths.log(&node.name);
-    match &node.step {
-        Step::Simulate { scene, panel, key, check } => {
+    match &node.task {
+        Task::Simulate { scene, panel, key, check } => {
             let mut command = simulate(paths, scene, panel, *check);
             command.arg("--checkpoint").arg(paths.checkpoint(key));
             let fresh = store::fresh(paths, key);
@@ -99,9 +99,13 @@ fn perform(
                 .and_then(|()| child::run_measured(command, &log, stop, heard))
                 .and_then(|usage| store::adopt(&fresh, &store::folder(paths, key)).map(|()| usage));
             let usage = stored.inspect_err(|_| discard(&fresh))?;
-            Ok(Made { usage, bytes: bytes(&disk::walk(&store::folder(paths, key), &|_| true)?), ..Made::default() })
+            Ok(NodeOutput {
+                usage,
+                bytes: bytes(&disk::walk(&store::folder(paths, key), &|_| true)?),
+                ..NodeOutput::default()
+            })
         }
-        Step::Draw { figure } => {
+        Task::Draw { figure } => {
             let fresh = paths.output(&files::write::draft_name(&paths.tables(&surveys[*figure].figure.id)));
             disk::remove(&fresh)?;
             draw(paths, &surveys[*figure], &fresh, &log, stop).inspect_err(|_| discard(&fresh))
@@ -128,7 +132,13 @@ fn simulate(paths: &Paths, scene: &str, panel: &str, check: bool) -> Command {
 
 /// The tables are written into a folder of their own that then takes the place of the old one: no table of an earlier
 /// run stays behind.
-fn draw(paths: &Paths, survey: &FigureState<'_>, fresh: &Path, log: &Path, stop: &AtomicBool) -> Result<Made, Failure> {
+fn draw(
+    paths: &Paths,
+    survey: &FigureState<'_>,
+    fresh: &Path,
+    log: &Path,
+    stop: &AtomicBool,
+) -> Result<NodeOutput, Failure> {
     let figure = survey.figure;
     let report = paths.report(&figure.id);
     let pictures = match paths.scheme {
@@ -154,7 +164,7 @@ fn draw(paths: &Paths, survey: &FigureState<'_>, fresh: &Path, log: &Path, stop:
     let usage = child::run_measured(command, log, stop, &|_| {})?;
     let outputs = put_in_place(paths, survey, fresh)?;
     let files: Vec<PathBuf> = outputs.keys().map(|name| paths.output(name)).collect();
-    Ok(Made { usage, bytes: bytes(&files), outputs, ..Made::default() })
+    Ok(NodeOutput { usage, bytes: bytes(&files), outputs, ..NodeOutput::default() })
 }
 
 /// Bytes of files; one that is gone counts nothing.
@@ -191,9 +201,9 @@ pub fn sweep(paths: &Paths, all: &[Figure]) -> Result<(), Failure> {
 /// # Errors
 /// One cannot be removed.
 pub fn forget(paths: &Paths, nodes: &[Node]) -> Result<(), Failure> {
-    nodes.iter().try_for_each(|node| match &node.step {
-        Step::Simulate { key, .. } => disk::remove(&paths.checkpoint(key)),
-        Step::Draw { .. } => Ok(()),
+    nodes.iter().try_for_each(|node| match &node.task {
+        Task::Simulate { key, .. } => disk::remove(&paths.checkpoint(key)),
+        Task::Draw { .. } => Ok(()),
     })
 }
 
@@ -227,7 +237,7 @@ pub struct Ends {
 
 impl Ends {
     /// Sorts the outcomes of the nodes.
-    pub fn of(nodes: &[Node], outcomes: &[Outcome<Made>]) -> Ends {
+    pub fn of(nodes: &[Node], outcomes: &[Outcome<NodeOutput>]) -> Ends {
         let mut ends = Ends::default();
         for (node, outcome) in nodes.iter().zip(outcomes) {
             let name = node.name.clone();

@@ -13,7 +13,7 @@ pub struct Figure {
     /// The part before the first hyphen: `fig04`.
     pub id: String,
     /// The scene, or what is wrong with it.
-    pub recipe: Result<SceneFile, String>,
+    pub scene_file: Result<SceneFile, String>,
 }
 
 impl Figure {
@@ -24,7 +24,7 @@ impl Figure {
 
     /// The paper's label, `fig:stdv_rec`; empty for a scene without one or one that cannot be read.
     pub fn label(&self) -> &str {
-        let source = self.recipe.as_ref().map_or("", |recipe| recipe.source.as_str());
+        let source = self.scene_file.as_ref().map_or("", |scene_file| scene_file.source.as_str());
         let (first, rest) = source.split_once(' ').unwrap_or((source, ""));
         // "not in the paper" begins with no label
         let is_label = rest.is_empty() || first.contains(':') || first.ends_with(',');
@@ -33,12 +33,12 @@ impl Figure {
 
     /// What it shows, in words.
     pub fn title(&self) -> &str {
-        self.recipe.as_ref().map_or("", |recipe| recipe.title.as_str())
+        self.scene_file.as_ref().map_or("", |scene_file| scene_file.title.as_str())
     }
 
     /// Panels that need a simulation in time; none for a scene that cannot be read.
     pub fn runs(&self) -> impl Iterator<Item = &Panel> {
-        let panels = self.recipe.as_ref().map_or(&[][..], |recipe| &recipe.panels);
+        let panels = self.scene_file.as_ref().map_or(&[][..], |scene_file| &scene_file.panels);
         panels.iter().filter(|panel| panel.kind == Kind::Run)
     }
 
@@ -71,11 +71,11 @@ pub fn discover(paths: &Paths) -> Result<Vec<Figure>, Failure> {
             continue;
         }
         let scene = Paths::scene(&slug);
-        let recipe = match disk::read_text(&paths.root.join(&scene))? {
+        let scene_file = match disk::read_text(&paths.root.join(&scene))? {
             Some(text) => scene_file::parse(&scene, &text).map_err(|error| error.to_string()),
             None => Err(format!("{scene}: no such file")),
         };
-        figures.push(Figure { id: id.to_owned(), slug, recipe });
+        figures.push(Figure { id: id.to_owned(), slug, scene_file });
     }
     Ok(figures)
 }
@@ -95,7 +95,7 @@ pub fn select<'a>(figures: &'a [Figure], wanted: &[String], all: bool) -> Result
     let selected: Vec<&Figure> =
         figures.iter().filter(|figure| default(figure) || chosen.contains(&figure.slug.as_str())).collect();
     for figure in &selected {
-        if let Err(problem) = &figure.recipe {
+        if let Err(problem) = &figure.scene_file {
             return Err(Failure::Usage(problem.clone()));
         }
     }

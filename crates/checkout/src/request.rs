@@ -43,7 +43,7 @@ pub struct Entry {
 
 /// A figure that was made.
 #[derive(Clone, Debug)]
-pub struct Made<'a> {
+pub struct MadeFigure<'a> {
     /// The figure.
     pub figure: &'a Figure,
     /// Its runs: panel and key.
@@ -79,10 +79,10 @@ impl Request {
     ///
     /// # Errors
     /// Usage: a figure that the checkout does not have.
-    pub fn figures<'a>(&self, all: &'a [Figure]) -> Result<Vec<Made<'a>>, Failure> {
+    pub fn figures<'a>(&self, all: &'a [Figure]) -> Result<Vec<MadeFigure<'a>>, Failure> {
         let made = |one: &Entry| {
             let figure = figure::find(all, &one.id)?;
-            Ok(Made { figure, runs: one.runs.clone(), outputs: one.outputs.clone() })
+            Ok(MadeFigure { figure, runs: one.runs.clone(), outputs: one.outputs.clone() })
         };
         self.figures.iter().map(made).collect()
     }

@@ -3,12 +3,12 @@
 use crate::entry::{Claim, Erratum, Measure, Parameter, Verdict};
 use crate::expression::{Condition, Expression};
 use crate::requirement::Requirement;
-use crate::source::{Place, Tests};
+use crate::source::{ClaimLocation, Tests};
 use checkout::failure::Failure;
 use checkout::paths::LEDGER_SOURCES;
 
 fn tests_of<'a>(file: &str, id: &str, key: &str, under: bool, measures: &'a [Measure]) -> Tests<'a> {
-    let place = |number: usize| Place(format!("{file}, {id}, {key} {number}"));
+    let place = |number: usize| ClaimLocation(format!("{file}, {id}, {key} {number}"));
     measures.iter().enumerate().map(|(index, measure)| (place(index + 1), under, measure)).collect()
 }
 
@@ -21,8 +21,8 @@ impl Claim {
     }
 
     /// What a message about it begins with.
-    pub fn place(&self) -> Place {
-        Place(format!("{}, {}", LEDGER_SOURCES[0], self.id))
+    pub fn place(&self) -> ClaimLocation {
+        ClaimLocation(format!("{}, {}", LEDGER_SOURCES[0], self.id))
     }
 
     /// Whether verdict, condition, reason and tests fit together.
@@ -55,8 +55,8 @@ impl Erratum {
     }
 
     /// What a message about it begins with.
-    pub fn place(&self) -> Place {
-        Place(format!("{}, {}", LEDGER_SOURCES[1], self.id))
+    pub fn place(&self) -> ClaimLocation {
+        ClaimLocation(format!("{}, {}", LEDGER_SOURCES[1], self.id))
     }
 }
 
@@ -67,8 +67,8 @@ impl Parameter {
     }
 
     /// What a message about it begins with.
-    pub fn place(&self) -> Place {
-        Place(format!("{}, {}", LEDGER_SOURCES[2], self.id))
+    pub fn place(&self) -> ClaimLocation {
+        ClaimLocation(format!("{}, {}", LEDGER_SOURCES[2], self.id))
     }
 }
 
@@ -86,7 +86,7 @@ impl Measure {
     ///
     /// # Errors
     /// Usage: there are several, or it is neither a number nor a measure.
-    pub fn operand(&self, place: &Place) -> Result<Option<(&'static str, Operand)>, Failure> {
+    pub fn operand(&self, place: &ClaimLocation) -> Result<Option<(&'static str, Operand)>, Failure> {
         let all = [("times", &self.times), ("over", &self.over), ("less", &self.less)];
         let mut given = all.into_iter().filter_map(|(key, value)| Some((key, value.as_ref()?)));
         let Some((key, value)) = given.next() else { return Ok(None) };
@@ -109,7 +109,7 @@ impl Measure {
     ///
     /// # Errors
     /// As [`Measure::operand`].
-    pub fn tables(&self, place: &Place) -> Result<Vec<String>, Failure> {
+    pub fn tables(&self, place: &ClaimLocation) -> Result<Vec<String>, Failure> {
         let mut tables = vec![self.table.clone()];
         tables.extend(self.beside.clone());
         if let Some((_, Operand::Measure(other))) = self.operand(place)? {
@@ -122,7 +122,7 @@ impl Measure {
     ///
     /// # Errors
     /// Usage: the key, and what would be valid.
-    pub fn check(&self, place: &Place) -> Result<(), Failure> {
+    pub fn check(&self, place: &ClaimLocation) -> Result<(), Failure> {
         if let Some(is) = &self.is {
             Requirement::parse(is).map_err(|problem| place.fail("is", problem))?;
         }
@@ -159,7 +159,7 @@ impl Measure {
                 if other.is.is_some() || other.name.is_some() {
                     return Err(place.fail(key, "name and is stand only in the test itself"));
                 }
-                other.check(&Place(format!("{}, {key}", place.0)))
+                other.check(&ClaimLocation(format!("{}, {key}", place.0)))
             }
             _ => Ok(()),
         }

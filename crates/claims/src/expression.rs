@@ -3,7 +3,7 @@
 use crate::sheet::{Sheet, Stated};
 use crate::uncertain::{Outcome, Relation, Uncertain};
 use files::table::Cell;
-use formula::Place;
+use formula::Location;
 
 /// `v`, `2`, `v - v_beside`: a formula whose names are columns.
 #[derive(Clone, Debug)]
@@ -69,7 +69,7 @@ impl Expression {
     /// # Errors
     /// What is wrong, at which column of the text, and what would be valid.
     pub fn parse(text: &str) -> Result<Expression, String> {
-        let parsed = formula::Expression::parse("", Place { line: 1, column: 1 }, text);
+        let parsed = formula::Expression::parse("", Location { line: 1, column: 1 }, text);
         parsed.map(Expression).map_err(|error| {
             format!("{text:?}: column {}: {}; valid: {}", error.place.column, error.found, error.valid)
         })

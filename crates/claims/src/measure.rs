@@ -4,7 +4,7 @@ use crate::check::Operand;
 use crate::entry::{Measure, Take};
 use crate::expression::{Binding, Bound, BoundCondition, Condition, Expression};
 use crate::sheet::Sheet;
-use crate::source::Place;
+use crate::source::ClaimLocation;
 use crate::tables::Tables;
 use crate::uncertain::{Outcome, Uncertain};
 use checkout::failure::Failure;
@@ -15,12 +15,12 @@ use std::rc::Rc;
 /// # Errors
 /// Usage: a table or column that is not there, no row where one is needed, several where only one may be left, or a
 /// word where a number is needed; with the place and what would be valid.
-pub fn evaluate(measure: &Measure, tables: &Tables<'_>, place: &Place) -> Result<Uncertain, Failure> {
+pub fn evaluate(measure: &Measure, tables: &Tables<'_>, place: &ClaimLocation) -> Result<Uncertain, Failure> {
     let own = of_table(measure, tables, place)?;
     let Some((key, operand)) = measure.operand(place)? else { return Ok(own) };
     let other = match operand {
         Operand::Number(number) => Uncertain::exact(number),
-        Operand::Measure(measure) => evaluate(&measure, tables, &Place(format!("{}, {key}", place.0)))?,
+        Operand::Measure(measure) => evaluate(&measure, tables, &ClaimLocation(format!("{}, {key}", place.0)))?,
     };
     Ok(match key {
         "times" => own * other,
@@ -37,7 +37,7 @@ pub type Rows = Vec<(usize, Uncertain)>;
 /// # Errors
 /// As [`evaluate`]; or the measure takes another one than `only`, has a second operand, or a row of which it is open whether
 /// it is left.
-pub fn each(measure: &Measure, tables: &Tables<'_>, place: &Place) -> Result<(Rc<Sheet>, Rows), Failure> {
+pub fn each(measure: &Measure, tables: &Tables<'_>, place: &ClaimLocation) -> Result<(Rc<Sheet>, Rows), Failure> {
     if measure.take != Take::Only || measure.operand(place)?.is_some() {
         return Err(place.fail("take", "must be `only`, without a second operand, where each row gives a number"));
     }
@@ -50,7 +50,7 @@ pub fn each(measure: &Measure, tables: &Tables<'_>, place: &Place) -> Result<(Rc
     }
 }
 
-fn of_table(measure: &Measure, tables: &Tables<'_>, place: &Place) -> Result<Uncertain, Failure> {
+fn of_table(measure: &Measure, tables: &Tables<'_>, place: &ClaimLocation) -> Result<Uncertain, Failure> {
     let (sheet, chosen, of) = looked_at(measure, tables, place)?;
     if measure.take.counts() {
         return counted(measure.take, &chosen, sheet.rows()).map_err(|problem| place.fail("among", problem));
@@ -64,7 +64,7 @@ fn of_table(measure: &Measure, tables: &Tables<'_>, place: &Place) -> Result<Unc
 fn looked_at(
     measure: &Measure,
     tables: &Tables<'_>,
-    place: &Place,
+    place: &ClaimLocation,
 ) -> Result<(Rc<Sheet>, Chosen, Option<Bound>), Failure> {
     let sheet = sheet(measure, tables, place)?;
     let of = measure.of.as_deref().map(Expression::parse).transpose().map_err(|problem| place.fail("of", problem))?;
@@ -88,7 +88,7 @@ fn of_the_table(measure: &Measure, problem: &str) -> String {
 }
 
 /// The rows of the table that are looked at, with the other table or the next rows beside them.
-fn sheet(measure: &Measure, tables: &Tables<'_>, place: &Place) -> Result<Rc<Sheet>, Failure> {
+fn sheet(measure: &Measure, tables: &Tables<'_>, place: &ClaimLocation) -> Result<Rc<Sheet>, Failure> {
     let mut sheet = tables.get(&measure.table).map_err(|problem| place.fail("table", problem))?;
     if !measure.among.is_empty() {
         let fail = |problem: String| place.fail("among", of_the_table(measure, &problem));

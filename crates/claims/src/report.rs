@@ -3,7 +3,7 @@
 use crate::entry::{Claim, Erratum, Measure, Parameter, Verdict};
 use crate::measure;
 use crate::requirement::Requirement;
-use crate::source::{Place, Sources, Tests};
+use crate::source::{ClaimLocation, Sources, Tests};
 use crate::tables::Tables;
 use crate::uncertain::{Outcome, Uncertain};
 use crate::words;
@@ -195,7 +195,7 @@ fn confirmed(tests: &[Tested]) -> Option<bool> {
     Some(outcomes.all(|outcome| outcome == Outcome::True))
 }
 
-fn tested(tests: &Tests<'_>, id: &str, tables: &Tables<'_>, place: &Place) -> Result<Vec<Tested>, Failure> {
+fn tested(tests: &Tests<'_>, id: &str, tables: &Tables<'_>, place: &ClaimLocation) -> Result<Vec<Tested>, Failure> {
     let done: Vec<Tested> = tests
         .iter()
         .map(|(place, under, measure)| test(measure, place, *under, id, tables))
@@ -208,7 +208,13 @@ fn tested(tests: &Tests<'_>, id: &str, tables: &Tables<'_>, place: &Place) -> Re
     }
 }
 
-fn test(measure: &Measure, place: &Place, under: bool, id: &str, tables: &Tables<'_>) -> Result<Tested, Failure> {
+fn test(
+    measure: &Measure,
+    place: &ClaimLocation,
+    under: bool,
+    id: &str,
+    tables: &Tables<'_>,
+) -> Result<Tested, Failure> {
     let found = measure::evaluate(measure, tables, place)?;
     let requirement = measure.is.as_deref().map(Requirement::parse).transpose();
     let requirement = requirement.map_err(|problem| place.fail("is", problem))?;
@@ -235,7 +241,7 @@ fn named(tests: &[Tested]) -> BTreeMap<&str, Uncertain> {
 }
 
 /// A text with its placeholders filled, refused when a measured number is typed into it.
-fn filled(text: &str, tests: &[Tested], place: &Place, key: &str, known: &str) -> Result<String, Failure> {
+fn filled(text: &str, tests: &[Tested], place: &ClaimLocation, key: &str, known: &str) -> Result<String, Failure> {
     if let Some(number) = words::typed_number(text, known) {
         let remedy = "measured numbers stand as {name} of a test; those of the source must be in `says`";
         return Err(place.fail(key, format!("{number} is typed; {remedy}")));

@@ -43,9 +43,9 @@ pub struct Sources {
 
 /// Where a message belongs: `paper/claims.toml, mu-critical, test 2`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Place(pub String);
+pub struct ClaimLocation(pub String);
 
-impl Place {
+impl ClaimLocation {
     /// Code 2, with a key of this place and what is wrong with it.
     pub fn fail(&self, key: &str, problem: impl Display) -> Failure {
         Failure::Usage(format!("{}, {key}: {problem}", self.0))
@@ -53,7 +53,7 @@ impl Place {
 }
 
 /// The tests of an entry, each with its place and whether it is one under a condition.
-pub type Tests<'a> = Vec<(Place, bool, &'a Measure)>;
+pub type Tests<'a> = Vec<(ClaimLocation, bool, &'a Measure)>;
 
 impl Sources {
     /// Reads the three files of the checkout; one that is not there is empty.
@@ -92,7 +92,7 @@ impl Sources {
     fn check(&self) -> Result<(), Failure> {
         let mut ids = BTreeSet::new();
         for (file, id) in self.ids() {
-            let place = Place(format!("{file}, {id}"));
+            let place = ClaimLocation(format!("{file}, {id}"));
             let good = |byte: u8| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'-';
             if id.is_empty() || !id.bytes().all(good) {
                 return Err(place.fail("id", "must be small letters, digits and hyphens"));

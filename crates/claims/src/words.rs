@@ -2,7 +2,7 @@
 
 use crate::check::Operand;
 use crate::entry::{Measure, Take};
-use crate::source::Place;
+use crate::source::ClaimLocation;
 use crate::uncertain::Uncertain;
 use checkout::failure::Failure;
 use checkout::paths::Paths;
@@ -17,7 +17,7 @@ const LARGEST_WHOLE: f64 = 1e9;
 ///
 /// # Errors
 /// As [`Measure::operand`].
-pub fn describe(measure: &Measure, place: &Place) -> Result<String, Failure> {
+pub fn describe(measure: &Measure, place: &ClaimLocation) -> Result<String, Failure> {
     let file = |table: &str| Paths::table(table);
     let of = measure.of.as_deref().filter(|_| !measure.take.counts()).unwrap_or("");
     let what = match measure.take {
@@ -80,7 +80,12 @@ pub fn number(found: Uncertain, digits: Option<usize>) -> String {
 /// A text with numbers in place of `{name}`, `{name:5}` (digits) and `{name:percent}`.
 ///
 /// # Errors Usage: an unknown test name (the message lists the valid ones), an unbalanced brace, or another form.
-pub fn fill(text: &str, named: &BTreeMap<&str, Uncertain>, place: &Place, key: &str) -> Result<String, Failure> {
+pub fn fill(
+    text: &str,
+    named: &BTreeMap<&str, Uncertain>,
+    place: &ClaimLocation,
+    key: &str,
+) -> Result<String, Failure> {
     let mut filled = String::new();
     let mut rest = text;
     while let Some((before, after)) = rest.split_once('{') {

@@ -1,7 +1,7 @@
 //! A list of nodes in which equal nodes are stored once.
 
 use crate::operation::{Binary, Id, Operation, Unary, Variable};
-use crate::place::Place;
+use crate::place::Location;
 use std::collections::BTreeMap;
 
 /// What makes two nodes equal: the operation and its operands, constants by their bits.
@@ -36,7 +36,7 @@ impl Node for Operation {
 /// Nodes, each with the place of its first occurrence in the file.
 #[derive(Clone, Debug)]
 pub(crate) struct Arena<N> {
-    pub(crate) nodes: Vec<(N, Place)>,
+    pub(crate) nodes: Vec<(N, Location)>,
     found: BTreeMap<Key, Id>,
 }
 
@@ -48,7 +48,7 @@ impl<N> Default for Arena<N> {
 
 impl<N: Node> Arena<N> {
     /// The index of a node, which is added if no equal node exists.
-    pub(crate) fn add(&mut self, node: N, place: Place) -> Id {
+    pub(crate) fn add(&mut self, node: N, place: Location) -> Id {
         let nodes = &mut self.nodes;
         *self.found.entry(node.key()).or_insert_with(|| {
             nodes.push((node, place));

@@ -2,7 +2,7 @@
 
 use crate::graph::Stencil;
 use crate::operation::{Id, Operation, Variable};
-use crate::place::{Error, Place};
+use crate::place::{Error, Location};
 
 /// A place where a slope jumps: where two nodes are equal, or one is 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,7 +21,7 @@ pub struct Kink {
 pub struct Bound {
     pub(crate) file: String,
     pub(crate) nodes: Vec<Operation>,
-    pub(crate) places: Vec<Place>,
+    pub(crate) places: Vec<Location>,
     pub(crate) roots: Vec<Id>,
 }
 
@@ -47,7 +47,7 @@ impl Bound {
     }
 
     /// The position of a node in the file.
-    pub fn place(&self, node: Id) -> Place {
+    pub fn place(&self, node: Id) -> Location {
         self.places[node]
     }
 

@@ -5,7 +5,7 @@ use crate::arena::Arena;
 use crate::graph::Symbol;
 use crate::limits::{FARTHEST, MOST_OPERATIONS};
 use crate::operation::{Binary, Id, Operation, Unary, Variable};
-use crate::place::{Place, Problem};
+use crate::place::{Location, Problem};
 use crate::tree::{Entry, Index, Quantity};
 use std::collections::BTreeMap;
 
@@ -22,7 +22,7 @@ pub(crate) struct Builder {
 }
 
 impl Builder {
-    pub(crate) fn add(&mut self, symbol: Symbol, place: Place) -> Result<Id, Problem> {
+    pub(crate) fn add(&mut self, symbol: Symbol, place: Location) -> Result<Id, Problem> {
         self.work += 1;
         if self.work > MOST_OPERATIONS {
             let found = format!("a law of more than {MOST_OPERATIONS} operations, sums written out");
@@ -41,14 +41,14 @@ impl Builder {
         Ok(id)
     }
 
-    pub(crate) fn plain(&mut self, operation: Operation, place: Place) -> Result<Id, Problem> {
+    pub(crate) fn plain(&mut self, operation: Operation, place: Location) -> Result<Id, Problem> {
         self.add(Symbol::Plain(operation), place)
     }
 
     /// Adds an expression; `names` defines the names, `j` is the index of the enclosing sum.
     pub(crate) fn expression(
         &mut self,
-        entries: &[(Entry, Place)],
+        entries: &[(Entry, Location)],
         names: &BTreeMap<&str, Id>,
         j: i32,
     ) -> Result<Id, Problem> {
@@ -96,7 +96,7 @@ impl Builder {
         Ok(value)
     }
 
-    fn neighbour(&mut self, quantity: Quantity, index: Index, j: i32, place: Place) -> Result<Id, Problem> {
+    fn neighbour(&mut self, quantity: Quantity, index: Index, j: i32, place: Location) -> Result<Id, Problem> {
         let Index { factor, offset } = index;
         let n = factor * j + offset;
         if n.abs() > FARTHEST {
@@ -115,7 +115,7 @@ impl Builder {
     }
 
     /// The distance to pedestrian n + m, m != 0: spacings added from the nearest to the farthest.
-    fn distance(&mut self, m: i32, place: Place) -> Result<Id, Problem> {
+    fn distance(&mut self, m: i32, place: Location) -> Result<Id, Problem> {
         let (side, count) = if m > 0 { (0, m) } else { (1, -m) };
         for step in self.distances[side].len() as i32..count {
             let spacing = Variable::Spacing(if m > 0 { step } else { -1 - step });

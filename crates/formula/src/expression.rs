@@ -5,7 +5,7 @@ use crate::build::Builder;
 use crate::graph::Graph;
 use crate::operation::{Operation, Variable};
 use crate::parse::{Vocabulary, parse};
-use crate::place::{Error, Place, Problem};
+use crate::place::{Error, Location, Problem};
 use math::number::Number;
 use std::collections::BTreeMap;
 
@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 /// brackets, are names like all others, and every name is a variable.
 #[derive(Clone, Debug)]
 pub struct Expression {
-    names: Vec<(String, Place)>,
+    names: Vec<(String, Location)>,
     bound: Bound,
 }
 
@@ -22,13 +22,13 @@ impl Expression {
     ///
     /// # Errors
     /// What is wrong, with its place, what was found and what would be valid.
-    pub fn parse(file: &str, place: Place, text: &str) -> Result<Expression, Error> {
+    pub fn parse(file: &str, place: Location, text: &str) -> Result<Expression, Error> {
         let graph = graph(file, place, text).map_err(|problem| problem.within(file));
         graph.and_then(|(names, graph)| Ok(Expression { names, bound: graph.bind(&[])? }))
     }
 
     /// The names in the order of their first occurrence in the text, with positions.
-    pub fn names(&self) -> &[(String, Place)] {
+    pub fn names(&self) -> &[(String, Location)] {
         &self.names
     }
 
@@ -54,7 +54,7 @@ fn of_names<T>(mut variable: impl FnMut(usize) -> T) -> impl FnMut(Variable) -> 
     }
 }
 
-fn graph(file: &str, place: Place, text: &str) -> Result<(Vec<(String, Place)>, Graph), Problem> {
+fn graph(file: &str, place: Location, text: &str) -> Result<(Vec<(String, Location)>, Graph), Problem> {
     let tree = parse(text, place, Vocabulary::Free)?;
     let mut builder = Builder::default();
     let (mut names, mut known) = (Vec::new(), BTreeMap::new());

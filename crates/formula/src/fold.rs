@@ -5,7 +5,7 @@ use crate::arena::Arena;
 use crate::eval;
 use crate::graph::{Graph, Symbol};
 use crate::operation::{Binary, Id, Operation, Unary};
-use crate::place::{Place, Problem};
+use crate::place::{Location, Problem};
 use math::number::{Number, whole};
 use std::collections::BTreeMap;
 
@@ -50,7 +50,7 @@ impl Folded {
 /// Binds the parameters of a graph.
 pub(crate) fn bind(graph: &Graph, values: &[f64]) -> Result<Bound, Problem> {
     let mut folder =
-        Folder { arena: Arena::default(), place: Place::default(), problems: Vec::new(), blames: BTreeMap::new() };
+        Folder { arena: Arena::default(), place: Location::default(), problems: Vec::new(), blames: BTreeMap::new() };
     let mut folded: Vec<Folded> = Vec::with_capacity(graph.arena.nodes.len());
     for (symbol, place) in &graph.arena.nodes {
         folder.place = *place;
@@ -112,7 +112,7 @@ fn finished(graph: &Graph, folder: &Folder, roots: &[Id]) -> Result<Bound, Probl
 struct Folder {
     arena: Arena<Operation>,
     /// Of the node at hand.
-    place: Place,
+    place: Location,
     /// Operations without variables that have no finite value: no error as long as nothing needs them.
     problems: Vec<Problem>,
     /// Constants that are not finite, and the problem.

@@ -4,7 +4,7 @@ use crate::Bound;
 use crate::arena::{Arena, Key, Node};
 use crate::fold;
 use crate::operation::{Id, Operation, Variable};
-use crate::place::{Error, Place, Problem};
+use crate::place::{Error, Location, Problem};
 
 /// A node before parameters have values.
 #[derive(Clone, Copy, Debug)]
@@ -33,7 +33,7 @@ pub struct Parameter {
     /// Its name.
     pub name: String,
     /// The position of its value.
-    pub place: Place,
+    pub place: Location,
     /// The value in the file.
     pub value: f64,
 }

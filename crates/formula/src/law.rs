@@ -5,7 +5,7 @@ use crate::graph::{Graph, Parameter, Symbol};
 use crate::names::{self, ACCELERATION, BODY, GAP, SCALE};
 use crate::operation::Id;
 use crate::parse::{Vocabulary, parse};
-use crate::place::{Error, Place, Problem};
+use crate::place::{Error, Location, Problem};
 use crate::tree::Tree;
 use std::collections::BTreeMap;
 
@@ -36,9 +36,9 @@ pub struct Definition<'a> {
     /// The key.
     pub name: &'a str,
     /// The position of the key.
-    pub key: Place,
+    pub key: Location,
     /// The position of the value: of the number, or of the first character of the string after the quotation mark.
-    pub value: Place,
+    pub value: Location,
     /// The value.
     pub given: Given<'a>,
 }
@@ -51,14 +51,15 @@ pub struct Definition<'a> {
 /// # Errors
 /// The first thing that is wrong, with its place, what was found and what would be valid: syntax, unknown names (with the
 /// nearest), circles, unused names, reserved names, a law that is too large.
-pub fn law(file: &str, section: Place, definitions: &[Definition<'_>]) -> Result<Graph, Error> {
+pub fn law(file: &str, section: Location, definitions: &[Definition<'_>]) -> Result<Graph, Error> {
     graph(file, section, definitions).map_err(|problem| problem.within(file))
 }
 
-fn graph(file: &str, section: Place, definitions: &[Definition<'_>]) -> Result<Graph, Problem> {
+fn graph(file: &str, section: Location, definitions: &[Definition<'_>]) -> Result<Graph, Problem> {
     let places = checked(section, definitions)?;
     let trees: Vec<Tree> = definitions.iter().map(tree).collect::<Result<_, _>>()?;
-    let uses: Vec<Vec<(usize, Place)>> = trees.iter().map(|tree| resolved(tree, &places)).collect::<Result<_, _>>()?;
+    let uses: Vec<Vec<(usize, Location)>> =
+        trees.iter().map(|tree| resolved(tree, &places)).collect::<Result<_, _>>()?;
     let order = order(definitions, &uses)?;
     let roots: Vec<usize> = [ACCELERATION, GAP].iter().filter_map(|root| places.get(root).copied()).collect();
     all_used(definitions, &uses, &roots)?;
@@ -83,7 +84,7 @@ fn graph(file: &str, section: Place, definitions: &[Definition<'_>]) -> Result<G
 }
 
 /// The definitions by name, none of which is reserved, there twice, or of the wrong kind.
-fn checked<'a>(section: Place, definitions: &[Definition<'a>]) -> Result<BTreeMap<&'a str, usize>, Problem> {
+fn checked<'a>(section: Location, definitions: &[Definition<'a>]) -> Result<BTreeMap<&'a str, usize>, Problem> {
     let mut places = BTreeMap::new();
     for (place, &Definition { name, key, value, given }) in definitions.iter().enumerate() {
         if !names::is_name(name) {
@@ -134,7 +135,7 @@ fn tree(definition: &Definition<'_>) -> Result<Tree, Problem> {
 }
 
 /// The definitions that an expression names.
-fn resolved(tree: &Tree, places: &BTreeMap<&str, usize>) -> Result<Vec<(usize, Place)>, Problem> {
+fn resolved(tree: &Tree, places: &BTreeMap<&str, usize>) -> Result<Vec<(usize, Location)>, Problem> {
     let mut uses = Vec::new();
     for (name, place) in tree.names() {
         match places.get(name) {
@@ -165,7 +166,7 @@ fn known(places: &BTreeMap<&str, usize>) -> String {
 }
 
 /// An order in which every definition comes behind those it uses.
-fn order(definitions: &[Definition<'_>], uses: &[Vec<(usize, Place)>]) -> Result<Vec<usize>, Problem> {
+fn order(definitions: &[Definition<'_>], uses: &[Vec<(usize, Location)>]) -> Result<Vec<usize>, Problem> {
     #[derive(Clone, Copy, PartialEq)]
     enum State {
         New,
@@ -205,7 +206,7 @@ fn order(definitions: &[Definition<'_>], uses: &[Vec<(usize, Place)>]) -> Result
 }
 
 /// Complains about the first definition that the roots do not lead to.
-fn all_used(definitions: &[Definition<'_>], uses: &[Vec<(usize, Place)>], roots: &[usize]) -> Result<(), Problem> {
+fn all_used(definitions: &[Definition<'_>], uses: &[Vec<(usize, Location)>], roots: &[usize]) -> Result<(), Problem> {
     let mut used = vec![false; uses.len()];
     let mut open = roots.to_vec();
     while let Some(current) = open.pop() {

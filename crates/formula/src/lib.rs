@@ -5,10 +5,10 @@
 //! [`Bound::carry_out`] with any [`Number`](math::number::Number), or by an interpreter that goes over [`Bound::nodes`].
 //!
 //! ```
-//! use formula::{Definition, Given, Place, Variable, law};
+//! use formula::{Definition, Given, Location, Variable, law};
 //!
-//! let line = |name, given, line| Definition { name, key: Place { line, column: 1 }, value: Place { line, column: 17 }, given };
-//! let graph = law("scene.toml", Place { line: 1, column: 1 }, &[
+//! let line = |name, given, line| Definition { name, key: Location { line, column: 1 }, value: Location { line, column: 17 }, given };
+//! let graph = law("scene.toml", Location { line: 1, column: 1 }, &[
 //!     line("acceleration", Given::Text("kappa*(V - v)"), 2),
 //!     line("V", Given::Text("tanh(s - 2) + tanh(2)"), 3),
 //!     line("kappa", Given::Number(1.5), 4),
@@ -55,5 +55,5 @@ pub use expression::Expression;
 pub use graph::{Graph, Parameter, Stencil};
 pub use law::{Definition, Given, law};
 pub use operation::{Binary, Id, Operation, Unary, Variable};
-pub use place::{Error, Place};
+pub use place::{Error, Location};
 pub use written::{Term, Writer};

@@ -2,14 +2,14 @@
 
 /// A place in a file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Place {
+pub struct Location {
     /// Line, counted from 1.
     pub line: u32,
     /// Column in characters, counted from 1.
     pub column: u32,
 }
 
-impl std::fmt::Display for Place {
+impl std::fmt::Display for Location {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{}:{}", self.line, self.column)
     }
@@ -21,7 +21,7 @@ pub struct Error {
     /// The file as the user named it.
     pub file: String,
     /// Where in the file.
-    pub place: Place,
+    pub place: Location,
     /// What was found there.
     pub found: String,
     /// What would be valid.
@@ -39,13 +39,13 @@ impl std::error::Error for Error {}
 /// What is wrong, in a file whose name is added on the way out.
 #[derive(Clone, Debug)]
 pub(crate) struct Problem {
-    pub(crate) place: Place,
+    pub(crate) place: Location,
     pub(crate) found: String,
     pub(crate) valid: String,
 }
 
 impl Problem {
-    pub(crate) fn new(place: Place, found: impl Into<String>, valid: impl Into<String>) -> Problem {
+    pub(crate) fn new(place: Location, found: impl Into<String>, valid: impl Into<String>) -> Problem {
         Problem { place, found: found.into(), valid: valid.into() }
     }
 

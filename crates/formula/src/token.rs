@@ -1,7 +1,7 @@
 //! The tokeniser.
 
 use crate::limits::LONGEST_TEXT;
-use crate::place::{Place, Problem};
+use crate::place::{Location, Problem};
 
 /// The smallest unit of a formula.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,7 +18,7 @@ pub(crate) enum Token<'a> {
 pub(crate) struct Lexeme<'a> {
     pub(crate) token: Token<'a>,
     pub(crate) text: &'a str,
-    pub(crate) place: Place,
+    pub(crate) place: Location,
     /// Whether this token directly follows the one before.
     pub(crate) joined: bool,
 }
@@ -43,7 +43,7 @@ const LOOKALIKES: [(&str, &str, &str); 13] = [
 ];
 
 /// Splits a text whose first character is at `start` into tokens; the last one is [`Token::End`].
-pub(crate) fn tokens(text: &str, start: Place) -> Result<Vec<Lexeme<'_>>, Problem> {
+pub(crate) fn tokens(text: &str, start: Location) -> Result<Vec<Lexeme<'_>>, Problem> {
     if text.len() > LONGEST_TEXT {
         let found = format!("an expression of {} bytes", text.len());
         return Err(Problem::new(start, found, format!("up to {LONGEST_TEXT} bytes; split it into named expressions")));
@@ -77,15 +77,15 @@ pub(crate) fn tokens(text: &str, start: Place) -> Result<Vec<Lexeme<'_>>, Proble
 }
 
 /// The place behind a text.
-fn after(place: Place, text: &str) -> Place {
+fn after(place: Location, text: &str) -> Location {
     text.chars().fold(place, |place, c| match c {
-        '\n' => Place { line: place.line.saturating_add(1), column: 1 },
-        _ => Place { column: place.column.saturating_add(1), ..place },
+        '\n' => Location { line: place.line.saturating_add(1), column: 1 },
+        _ => Location { column: place.column.saturating_add(1), ..place },
     })
 }
 
 /// The number at the beginning of a text: digits, a point and digits, an exponent.
-fn number(text: &str, place: Place) -> Result<(Token<'_>, usize), Problem> {
+fn number(text: &str, place: Location) -> Result<(Token<'_>, usize), Problem> {
     let bytes = text.as_bytes();
     let digits = |from: usize| from + bytes[from..].iter().take_while(|byte| byte.is_ascii_digit()).count();
     let mut end = digits(0);
@@ -116,7 +116,7 @@ fn number(text: &str, place: Place) -> Result<(Token<'_>, usize), Problem> {
 }
 
 /// A character that no formula has.
-fn foreign(c: char, place: Place) -> Problem {
+fn foreign(c: char, place: Location) -> Problem {
     let shown = if c.is_control() { '?' } else { c };
     let shown = format!("`{shown}` (U+{:04X})", u32::from(c));
     match LOOKALIKES.iter().find(|(characters, ..)| characters.contains(c)) {

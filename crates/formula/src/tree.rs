@@ -1,7 +1,7 @@
 //! The syntax tree, stored as a list in evaluation order, so that no code recurses over it, however long the text.
 
 use crate::operation::{Binary, Unary};
-use crate::place::Place;
+use crate::place::Location;
 
 /// Which quantity of a pedestrian.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,12 +42,12 @@ pub(crate) enum Entry {
 /// An expression.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Tree {
-    pub(crate) entries: Vec<(Entry, Place)>,
+    pub(crate) entries: Vec<(Entry, Location)>,
 }
 
 impl Tree {
     /// The names in it with their positions, in the order of the text.
-    pub(crate) fn names(&self) -> impl Iterator<Item = (&str, Place)> {
+    pub(crate) fn names(&self) -> impl Iterator<Item = (&str, Location)> {
         self.entries.iter().filter_map(|(entry, place)| match entry {
             Entry::Name(name) => Some((&**name, *place)),
             _ => None,

@@ -3,7 +3,7 @@
 use crate::Bound;
 use crate::arena::Arena;
 use crate::operation::{Binary, Id, Operation, Unary, Variable};
-use crate::place::Place;
+use crate::place::Location;
 use math::number::Number;
 use std::cell::RefCell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -40,12 +40,12 @@ impl Writer {
     /// The operations that lead to a term, whose value is the acceleration.
     pub fn finish(&self, acceleration: Term<'_>) -> Bound {
         let nodes: Vec<Operation> = self.0.borrow().nodes.iter().map(|(operation, _)| *operation).collect();
-        let places = vec![Place::default(); nodes.len()];
+        let places = vec![Location::default(); nodes.len()];
         Bound { file: String::new(), nodes, places, roots: vec![acceleration.id] }
     }
 
     fn add(&self, operation: Operation) -> Term<'_> {
-        Term { writer: self, id: self.0.borrow_mut().add(operation, Place::default()) }
+        Term { writer: self, id: self.0.borrow_mut().add(operation, Location::default()) }
     }
 }
 

@@ -12,8 +12,8 @@ const PEDESTRIANS: usize = 60;
 
 /// The runs of a scene that are short.
 fn short(seed: u64) -> Vec<Run> {
-    let Ok(recipe) = files::scene_file::parse("scene.toml", &draw::scene(seed)) else { return Vec::new() };
-    let runs = recipe.panels.iter().filter_map(|panel| scene::run::read("scene.toml", &panel.tables).ok());
+    let Ok(scene_file) = files::scene_file::parse("scene.toml", &draw::scene(seed)) else { return Vec::new() };
+    let runs = scene_file.panels.iter().filter_map(|panel| scene::run::read("scene.toml", &panel.tables).ok());
     let is_short = |run: &Run| {
         let are_few = match run.control {
             Control::Fixed { step } => run.t_end < STEPS * step,

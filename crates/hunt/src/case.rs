@@ -14,8 +14,8 @@ const LEAST_SHIFT: f64 = 1e-7;
 /// The runs of a scene that end well, as the first and the second integration have them.
 pub fn of(seed: u64) -> Vec<Value> {
     let text = draw::scene(seed);
-    let Ok(recipe) = scene_file::parse("scene.toml", &text) else { return Vec::new() };
-    recipe.panels.iter().filter_map(|panel| case(seed, &text, panel)).collect()
+    let Ok(scene_file) = scene_file::parse("scene.toml", &text) else { return Vec::new() };
+    scene_file.panels.iter().filter_map(|panel| case(seed, &text, panel)).collect()
 }
 
 fn case(seed: u64, text: &str, panel: &scene_file::Panel) -> Option<Value> {

@@ -85,9 +85,9 @@ fn by_taylor(text: &str, random: &mut Random) -> String {
         rest.join("\n").replace("[run]", &run) + "\n"
     };
     let is_refused = |text: &str| {
-        let recipe = files::scene_file::parse("scene.toml", text);
-        recipe.is_ok_and(|recipe| {
-            recipe.panels.iter().any(|panel| {
+        let scene_file = files::scene_file::parse("scene.toml", text);
+        scene_file.is_ok_and(|scene_file| {
+            scene_file.panels.iter().any(|panel| {
                 let scene = scene::run::read("scene.toml", &panel.tables);
                 scene.is_err_and(|error| error.to_string().contains("positions have no series"))
             })

@@ -68,7 +68,7 @@ pub fn scene_as(text: &str, other: &str) -> Vec<Verdict> {
         Err(error) => {
             vec![Verdict { ending: "refused: not a scene".into(), findings: vec![error.to_string()], ..named("") }]
         }
-        Ok(recipe) => recipe.panels.iter().map(|panel| judge_panel(other, panel)).collect(),
+        Ok(scene_file) => scene_file.panels.iter().map(|panel| judge_panel(other, panel)).collect(),
     }
 }
 

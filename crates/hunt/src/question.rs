@@ -1,6 +1,6 @@
 //! Reads a second time, from the text of a scene, what it asks for.
 
-use formula::{Definition, Given, Place};
+use formula::{Definition, Given, Location};
 use reference::formula::Formula;
 use reference::graph::Graph;
 use reference::solution::Question;
@@ -70,7 +70,7 @@ fn graph(document: &Table, over: Option<&Value>) -> Result<Graph, String> {
     let mut law = section(document.get("law"));
     law.extend(section(over.and_then(|panel| panel.get("law"))));
     law.remove("kind");
-    let place = Place { line: 1, column: 1 };
+    let place = Location { line: 1, column: 1 };
     let given = |value: &'_ Value| match value {
         Value::Float(number) => Ok(Given::Number(*number)),
         Value::Integer(number) => Ok(Given::Number(*number as f64)),

@@ -53,18 +53,18 @@ impl Header {
     /// # Errors
     /// `a_0` is out of range, the panel is no run, or its ring or desired speed is missing or out of range, with file and line.
     pub fn new(
-        recipe: &SceneFile,
+        scene_file: &SceneFile,
         panel: &Panel,
         length: Option<f64>,
         time: f64,
         rate: f64,
     ) -> Result<Header, Failure> {
         if panel.kind != Kind::Run {
-            return Err(Failure::Usage(format!("{}: has no [run], so no trajectories", recipe.file)));
+            return Err(Failure::Usage(format!("{}: has no [run], so no trajectories", scene_file.file)));
         }
-        let mut tables = Reader::new(&recipe.file, "scene", &panel.tables);
-        let mut ring = Reader::new(&recipe.file, "ring", tables.section("ring")?);
-        let mut law = Reader::new(&recipe.file, "law", tables.section("law")?);
+        let mut tables = Reader::new(&scene_file.file, "scene", &panel.tables);
+        let mut ring = Reader::new(&scene_file.file, "ring", tables.section("ring")?);
+        let mut law = Reader::new(&scene_file.file, "law", tables.section("law")?);
         let desired_speed = desired_speed(&mut law)?;
         let is_derived = length.is_none();
         let length = match (length, desired_speed) {
@@ -79,8 +79,8 @@ impl Header {
             )));
         }
         Ok(Header {
-            title: line(&recipe.title),
-            source: line(&recipe.source),
+            title: line(&scene_file.title),
+            source: line(&scene_file.source),
             scene: files::write::sha256(panel.determinants().as_bytes()),
             pedestrians: ring.count("pedestrians", 2, 10_000_000)? as u32,
             ring: ring.number("length", POSITIVE)?,

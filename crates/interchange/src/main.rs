@@ -80,19 +80,21 @@ fn main() {
 }
 
 fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let recipe = scene_file::read(&scene(arguments)?)?;
+    let scene_file = scene_file::read(&scene(arguments)?)?;
     let panel = match &arguments.panel {
-        Some(name) => recipe.panel(name)?,
-        None if recipe.panels.len() == 1 => &recipe.panels[0],
-        None => return Err(Failure::Usage(format!("{}: has several panels: choose one with --panel", recipe.file))),
+        Some(name) => scene_file.panel(name)?,
+        None if scene_file.panels.len() == 1 => &scene_file.panels[0],
+        None => {
+            return Err(Failure::Usage(format!("{}: has several panels: choose one with --panel", scene_file.file)));
+        }
     };
-    let header = Header::new(&recipe, panel, arguments.a0, arguments.tau, arguments.fps)?;
+    let header = Header::new(&scene_file, panel, arguments.a0, arguments.tau, arguments.fps)?;
     let folder = tempfile::tempdir().map_err(|error| Failure::Failed(error.to_string()))?;
     let table = match &arguments.table {
         Some(table) => table.clone(),
         None => {
             let simulate = arguments.simulate.clone().map_or_else(beside, Ok)?;
-            interchange::run::make(&simulate, &recipe, panel, &header, arguments.t_end, folder.path())?
+            interchange::run::make(&simulate, &scene_file, panel, &header, arguments.t_end, folder.path())?
         }
     };
     let frames = || Frames::open(&table, header.pedestrians, header.interval());

@@ -16,7 +16,7 @@ const MOST_ROWS: f64 = 2e7;
 /// being made.
 pub fn make(
     simulate: &Path,
-    recipe: &SceneFile,
+    scene_file: &SceneFile,
     panel: &Panel,
     header: &Header,
     t_end: Option<f64>,
@@ -32,7 +32,7 @@ pub fn make(
             program.arg(file);
         }
         None => {
-            program.arg(&recipe.file).args(["--panel", &panel.name]);
+            program.arg(&scene_file.file).args(["--panel", &panel.name]);
         }
     }
     program

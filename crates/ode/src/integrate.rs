@@ -7,7 +7,7 @@ use crate::dense::{Ends, Step, Stepper, Trial};
 use crate::extrapolation::Extrapolation;
 use crate::failure::Failure;
 use crate::methods::Method;
-use crate::observe::{Observer, Pace, Place, ResumePoint};
+use crate::observe::{Observer, Pace, ResumePoint, StepPosition};
 use crate::runge_kutta::RungeKutta;
 use crate::system::{Batch, System};
 use crate::taylor::Taylor;
@@ -53,7 +53,7 @@ pub fn integrate(problem: &Problem<'_>, observer: &mut dyn Observer) -> Result<S
     }
     let mut run = Run::new(problem);
     let made = match problem.control {
-        Control::Fixed { step } => run.fixed(problem, step, Place::default(), observer),
+        Control::Fixed { step } => run.fixed(problem, step, StepPosition::default(), observer),
         Control::Adaptive { .. } if !problem.method.is_adaptive() => {
             return Err(Failure::NoErrorEstimate(problem.method));
         }
@@ -135,15 +135,15 @@ impl<'a> Run<'a> {
         &mut self,
         problem: &Problem<'_>,
         h: f64,
-        from: Place,
+        from: StepPosition,
         observer: &mut dyn Observer,
     ) -> Result<(), Failure> {
         let (whole, is_multiple) = whole_steps(problem.end - problem.begin, h);
-        let Place { step: mut k, mut slow_until } = from;
+        let StepPosition { step: mut k, mut slow_until } = from;
         let mut next_mark = k + LONGEST_BURST;
         while k < whole {
             if k >= next_mark {
-                let place = Place { step: k, slow_until };
+                let place = StepPosition { step: k, slow_until };
                 observer.between(&ResumePoint { place, statistics: &self.statistics, state: &self.state, pace: None });
                 next_mark = k + LONGEST_BURST;
             }
@@ -201,7 +201,7 @@ impl<'a> Run<'a> {
     ) -> Result<(), Failure> {
         let mut norm = Norm::new(self.system, tolerance);
         let mut controller = Controller::new(self.stepper.error_power());
-        let (mut carry, mut next_carry) = (vec![0.0; self.state.len()], vec![0.0; self.state.len()]);
+        let (mut compensation, mut next_compensation) = (vec![0.0; self.state.len()], vec![0.0; self.state.len()]);
         let (mut time, mut time_carry) = ([problem.begin], [0.0]);
         let mut h = match from {
             None => {
@@ -209,7 +209,7 @@ impl<'a> Run<'a> {
                 self.propose(&norm).unwrap_or(guess)
             }
             Some(pace) => {
-                carry.copy_from_slice(pace.carry);
+                compensation.copy_from_slice(pace.compensation);
                 self.rates.copy_from_slice(pace.rates);
                 ([time[0], time_carry[0]], controller.previous) = (pace.time, pace.error);
                 norm.start(&self.state);
@@ -233,7 +233,7 @@ impl<'a> Run<'a> {
                 return Err(Failure::StepTooSmall { time: time[0], step: h });
             }
             let mut error = self.try_step(length, Some(&norm));
-            // without the carry: with it a step of no length could come ever nearer to the end of the domain
+            // without the compensation: with it a step of no length could come ever nearer to the end of the domain
             add(&self.state, &self.change, &mut self.next);
             if !self.system.in_domain(&self.next) {
                 error = f64::INFINITY;
@@ -243,14 +243,14 @@ impl<'a> Run<'a> {
                 h = length * controller.reject(error);
                 continue;
             }
-            add_compensated(&self.state, &self.change, &carry, &mut self.next, &mut next_carry);
+            add_compensated(&self.state, &self.change, &compensation, &mut self.next, &mut next_compensation);
             self.arrive();
             if let Some(factor) = self.too_long(length, &norm, bends.as_mut()) {
                 self.statistics.rejected += 1;
                 h = length * factor;
                 continue;
             }
-            std::mem::swap(&mut carry, &mut next_carry);
+            std::mem::swap(&mut compensation, &mut next_compensation);
             let (start, start_carry) = (time, time_carry);
             add_compensated(&start, &[length], &start_carry, &mut time, &mut time_carry);
             let end = if is_last { problem.end } else { time[0] };
@@ -274,8 +274,8 @@ impl<'a> Run<'a> {
             if self.statistics.steps.is_multiple_of(between_marks) {
                 let (error, unit) = (controller.previous, self.stepper.unit());
                 let time = [time[0], time_carry[0]];
-                let pace = Pace { rates: &self.rates, carry: &carry, time, step: h, error, unit };
-                let place = Place { step: self.statistics.steps, slow_until: 0 };
+                let pace = Pace { rates: &self.rates, compensation: &compensation, time, step: h, error, unit };
+                let place = StepPosition { step: self.statistics.steps, slow_until: 0 };
                 let (statistics, state) = (&self.statistics, &self.state[..]);
                 observer.between(&ResumePoint { place, statistics, state, pace: Some(pace) });
             }
@@ -314,7 +314,7 @@ impl<'a> Run<'a> {
 
     /// Finds the rates at the end of a step.
     fn arrive(&mut self) {
-        // known rates are those at a state that lacks the carry of its sum, half a unit at most
+        // known rates are those at a state that lacks the compensation of its sum, half a unit at most
         match self.stepper.rates_at_end() {
             Some(rates) => self.next_rates.copy_from_slice(rates),
             None => {

@@ -27,7 +27,7 @@ pub use dense::Step;
 pub use failure::Failure;
 pub use integrate::{Problem, SHORTEST, Statistics, integrate, resume};
 pub use methods::Method;
-pub use observe::{MOST_STEPS, Observer, Pace, Place, ResumePoint, Sampler, crossing_between, first_crossing};
+pub use observe::{MOST_STEPS, Observer, Pace, ResumePoint, Sampler, StepPosition, crossing_between, first_crossing};
 pub use shadow::Shadow;
 pub use system::{Batch, Group, Measure, System, Tangent};
 pub use vector::largest;

@@ -34,7 +34,7 @@ pub const MOST_STEPS: u64 = 1_000_000_000;
 
 /// Where an integration by steps of fixed length is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Place {
+pub struct StepPosition {
     /// The number of the next step, from 0.
     pub step: u64,
     /// The step up to which steps are made one by one, because something happened in a batch of them.
@@ -45,7 +45,7 @@ pub struct Place {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ResumePoint<'a> {
     /// Between which steps.
-    pub place: Place,
+    pub place: StepPosition,
     /// The counts so far, and the end of the last step that was shown. Its own state is of no meaning.
     pub statistics: &'a Statistics,
     /// The state there.
@@ -57,10 +57,10 @@ pub struct ResumePoint<'a> {
 /// What steps of adaptive length remember from one to the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pace<'a> {
-    /// The rates at the state, to the last bit: some methods know them from a state that lacks its carry.
+    /// The rates at the state, to the last bit: some methods know them from a state that lacks its compensation.
     pub rates: &'a [f64],
     /// What rounding has dropped of the state.
-    pub carry: &'a [f64],
+    pub compensation: &'a [f64],
     /// The time, and what rounding has dropped of it.
     pub time: [f64; 2],
     /// The length of the next step.

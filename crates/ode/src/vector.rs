@@ -18,10 +18,16 @@ pub(crate) fn add(start: &[f64], change: &[f64], result: &mut [f64]) {
     dispatch(Sum { start, change, result });
 }
 
-/// Writes `result = state + change + carry`, and what rounding drops of it to `dropped` (Kahan's sum): the carry of the
-/// next time.
-pub(crate) fn add_compensated(state: &[f64], change: &[f64], carry: &[f64], result: &mut [f64], dropped: &mut [f64]) {
-    dispatch(Compensated { state, change, carry, result, dropped });
+/// Writes `result = state + change + compensation`, and what rounding drops of it to `dropped` (Kahan's sum): the
+/// compensation of the next sum.
+pub(crate) fn add_compensated(
+    state: &[f64],
+    change: &[f64],
+    compensation: &[f64],
+    result: &mut [f64],
+    dropped: &mut [f64],
+) {
+    dispatch(Compensated { state, change, compensation, result, dropped });
 }
 
 /// Adds `theta^2 (1 - theta)^2 (r_0 + theta (r_1 + (1 - theta) (r_2 + theta r_3 ...)))` to `result`, where `r_j` is
@@ -124,7 +130,7 @@ impl Kernel for Sum<'_> {
 struct Compensated<'a> {
     state: &'a [f64],
     change: &'a [f64],
-    carry: &'a [f64],
+    compensation: &'a [f64],
     result: &'a mut [f64],
     dropped: &'a mut [f64],
 }
@@ -134,10 +140,10 @@ impl Kernel for Compensated<'_> {
 
     #[inline(always)]
     fn run(self) {
-        let inputs = self.state.iter().zip(self.change).zip(self.carry);
+        let inputs = self.state.iter().zip(self.change).zip(self.compensation);
         let outputs = self.result.iter_mut().zip(self.dropped);
-        for (((state, change), carry), (result, dropped)) in inputs.zip(outputs) {
-            let change = change + carry;
+        for (((state, change), compensation), (result, dropped)) in inputs.zip(outputs) {
+            let change = change + compensation;
             let sum = state + change;
             *dropped = change - (sum - state);
             *result = sum;

@@ -22,7 +22,7 @@ fn take(job: &Job, panel: &str) -> Result<(Sweep, Vec<sweep::Cell>), Failure> {
 
 /// The sweep of a panel, and its cells from the table of the figure.
 fn plane(job: &Job, panel: &str) -> Result<(Sweep, Vec<sweep::Cell>), Failure> {
-    let sweep = sweep::read(&job.recipe.file, &job.panel(panel)?.tables)?;
+    let sweep = sweep::read(&job.scene_file.file, &job.panel(panel)?.tables)?;
     let file = job.table_file(panel);
     let text = std::fs::read_to_string(&file).map_err(|error| with_path(error, &file))?;
     let cells = cells_of(&file.display().to_string(), &text, &sweep)?;

@@ -1,7 +1,7 @@
 //! `[law]`: kind and parameters. A term without a named parameter is not computed.
 
 use files::reader::{About, Entry, NOT_NEGATIVE, POSITIVE, Reader, SceneError, Section, Value};
-use formula::{Definition, Given, Place};
+use formula::{Definition, Given, Location};
 use jam::laws::presets::PRESETS;
 use jam::laws::{Algebraic, Exponential, Formula, Law, Logarithmic, Model, Range};
 
@@ -111,6 +111,6 @@ fn formula(file: &str, section: &Section) -> Result<Model, SceneError> {
     Ok(Model::Formula(law))
 }
 
-fn place(line: usize, column: usize) -> Place {
-    Place { line: line as u32, column: column as u32 }
+fn place(line: usize, column: usize) -> Location {
+    Location { line: line as u32, column: column as u32 }
 }

@@ -11,7 +11,7 @@ use scene::run::Scene;
 
 /// What is known of a cell without a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct Precheck {
     /// The outcome, where the start itself decides.
     pub class: Option<Class>,
     /// Whether the uniform flow walks backwards.
@@ -161,17 +161,17 @@ impl Sweep {
     ///
     /// # Errors
     /// A formula without a value, or with several steady speeds.
-    pub fn place(&self, cell: [usize; 2]) -> Result<Place, String> {
+    pub fn place(&self, cell: [usize; 2]) -> Result<Precheck, String> {
         let scene = match self.scene(cell)? {
             Ok(scene) => scene,
-            Err(class) => return Ok(Place { class: Some(class), backward_flow: false, unstable: None }),
+            Err(class) => return Ok(Precheck { class: Some(class), backward_flow: false, unstable: None }),
         };
         let speed = scene.steady_speed.unwrap_or(f64::NAN);
         let response = scene.model.response(scene.ring.headway(), speed);
         let unstable = response.map(|response| {
             [Waves::All, Waves::Ring(scene.ring.pedestrians)].map(|waves| response.margin(waves).0 > 0.0)
         });
-        Ok(Place { class: None, backward_flow: speed < 0.0, unstable })
+        Ok(Precheck { class: None, backward_flow: speed < 0.0, unstable })
     }
 
     /// What is known exactly of a point of the plane, counted in cells from the lower left corner: cell `[i, j]` has its

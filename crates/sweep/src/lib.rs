@@ -11,7 +11,7 @@ pub mod table;
 pub mod tiles;
 
 pub use axis::Axis;
-pub use cell::{Cell, DecidedBy, Exact, NUMBERS, Place};
+pub use cell::{Cell, DecidedBy, Exact, NUMBERS, Precheck};
 pub use pool::Pool;
 pub use read::read;
 

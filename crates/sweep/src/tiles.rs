@@ -4,7 +4,7 @@
 //! shows several outcomes, or a cell within lies beside the line of stability (or beside another line that is known without
 //! a run). What lies within a border of one outcome gets it from there.
 
-use super::{Cell, DecidedBy, Place, Sweep};
+use super::{Cell, DecidedBy, Precheck, Sweep};
 use jam::outcome::Class;
 
 /// Distance of the borders of tiles, in cells.
@@ -184,18 +184,19 @@ impl<E, F: FnMut([usize; 2]) -> Result<Cell, E>> Work<'_, F> {
 struct Places {
     low: [usize; 2],
     high: [usize; 2],
-    all: Vec<Place>,
+    all: Vec<Precheck>,
 }
 
 impl Places {
     fn new(sweep: &Sweep, tile: Tile) -> Result<Places, String> {
         let low = tile.low.map(|i| i.saturating_sub(1));
         let high = [(tile.high[0] + 1).min(sweep.x.cells - 1), (tile.high[1] + 1).min(sweep.y.cells - 1)];
-        let all = Tile { low, high }.indices().map(|cell| sweep.place(cell)).collect::<Result<Vec<Place>, String>>()?;
+        let all =
+            Tile { low, high }.indices().map(|cell| sweep.place(cell)).collect::<Result<Vec<Precheck>, String>>()?;
         Ok(Places { low, high, all })
     }
 
-    fn of(&self, cell: [usize; 2]) -> Place {
+    fn of(&self, cell: [usize; 2]) -> Precheck {
         let height = self.high[1] - self.low[1] + 1;
         self.all[(cell[0] - self.low[0]) * height + (cell[1] - self.low[1])]
     }
@@ -206,7 +207,7 @@ impl Places {
         let around = [[i.wrapping_sub(1), j], [i + 1, j], [i, j.wrapping_sub(1)], [i, j + 1]];
         let is_in = |cell: &[usize; 2]| (0..2).all(|axis| (self.low[axis]..=self.high[axis]).contains(&cell[axis]));
         let own = self.of(cell);
-        let differs = |other: Place| (other.class, other.unstable) != (own.class, own.unstable);
+        let differs = |other: Precheck| (other.class, other.unstable) != (own.class, own.unstable);
         around.iter().filter(|cell| is_in(cell)).any(|cell| differs(self.of(*cell)))
     }
 }

@@ -9,7 +9,7 @@ use checkout::figure;
 use checkout::outputs;
 use checkout::paths::{LEDGER_SOURCES, Paths, Scheme};
 use checkout::print;
-use checkout::request::{Made, Request};
+use checkout::request::{MadeFigure, Request};
 use checkout::sums::{Committed, State, Sums};
 
 /// What changes in a figure.
@@ -67,7 +67,7 @@ pub fn run(paths: &Paths, request: &Request, numbers: bool) -> Result<(), Failur
     claims.map_or(Ok(()), |claims| claims::write(paths, &claims.ledger))
 }
 
-fn change(paths: &Paths, survey: &Made<'_>, reference: &Reference) -> Result<Change, Failure> {
+fn change(paths: &Paths, survey: &MadeFigure<'_>, reference: &Reference) -> Result<Change, Failure> {
     if paths.scheme == Scheme::Paper {
         let states = reference.sums.judge(paths, survey.figure, &survey.outputs);
         let changed: Vec<_> = states.into_iter().filter(|(_, state)| *state != State::Same).collect();
@@ -89,12 +89,13 @@ fn change(paths: &Paths, survey: &Made<'_>, reference: &Reference) -> Result<Cha
 
 fn write_sums(
     paths: &Paths,
-    surveys: &[Made<'_>],
+    surveys: &[MadeFigure<'_>],
     committed: &Committed,
     supplement: bool,
     whole: bool,
 ) -> Result<(), Failure> {
-    let mine: Vec<&Made<'_>> = surveys.iter().filter(|survey| survey.figure.is_supplement() == supplement).collect();
+    let mine: Vec<&MadeFigure<'_>> =
+        surveys.iter().filter(|survey| survey.figure.is_supplement() == supplement).collect();
     if mine.is_empty() {
         return Ok(());
     }
@@ -109,7 +110,7 @@ fn write_sums(
 }
 
 /// Samples of the tables, hashes of the states of the runs.
-fn write_samples(paths: &Paths, survey: &Made<'_>, reference: &Reference) -> Result<(), Failure> {
+fn write_samples(paths: &Paths, survey: &MadeFigure<'_>, reference: &Reference) -> Result<(), Failure> {
     let folder = paths.root.join(Paths::golden(&survey.figure.id));
     let samples = golden::samples(paths, survey.figure)?;
     for name in disk::names(&folder)?.iter().filter(|name| !samples.contains_key(*name)) {

@@ -10,7 +10,7 @@ use checkout::hashing;
 use checkout::outputs::Hashes;
 use checkout::paths::{ATTESTATIONS, LEDGER, Paths, TOLERANCES};
 use checkout::print;
-use checkout::request::{Made, Request};
+use checkout::request::{MadeFigure, Request};
 use clap::{Args, Parser, Subcommand};
 use std::collections::BTreeSet;
 use std::ffi::OsString;
@@ -155,13 +155,13 @@ fn judge(paths: &Paths, arguments: &JudgeArgs) -> Result<(), Failure> {
 fn findings(
     paths: &Paths,
     request: &Request,
-    figures: &[Made<'_>],
+    figures: &[MadeFigure<'_>],
     reference: &Reference,
     all: &[figure::Figure],
 ) -> Result<Findings, Failure> {
     let (made, differences) = (request.made(paths), paths.differences());
     disk::remove(&differences)?;
-    let judge = |one: &Made<'_>| judgement::judge(paths, &made, one, reference, Some(&differences));
+    let judge = |one: &MadeFigure<'_>| judgement::judge(paths, &made, one, reference, Some(&differences));
     let ids: BTreeSet<&str> = figures.iter().map(|one| &*one.figure.id).collect();
     let papers = figures.iter().filter(|one| !one.figure.is_supplement());
     let sums: Hashes = papers.flat_map(|one| one.outputs.clone()).collect();

@@ -9,7 +9,7 @@ use crate::verdict::Verdict;
 use checkout::failure::Failure;
 use checkout::figure::Figure;
 use checkout::paths::Paths;
-use checkout::request::Made;
+use checkout::request::MadeFigure;
 use checkout::sums::State;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -40,7 +40,7 @@ pub struct Judgement {
 pub fn judge(
     paths: &Paths,
     made: &Paths,
-    survey: &Made<'_>,
+    survey: &MadeFigure<'_>,
     reference: &Reference,
     folder: Option<&Path>,
 ) -> Result<Judgement, Failure> {

@@ -9,7 +9,7 @@ use checkout::figure::Figure;
 use checkout::outputs;
 use checkout::paths::{EVENTS, Paths};
 use checkout::process;
-use checkout::request::{Made, Request};
+use checkout::request::{MadeFigure, Request};
 use checkout::sums::{Committed, stray};
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
@@ -62,7 +62,7 @@ impl Reference {
     ///
     /// # Errors
     /// The events of a run cannot be read.
-    pub fn moved_events(&self, made: &Paths, survey: &Made<'_>) -> Result<Vec<Moved>, Failure> {
+    pub fn moved_events(&self, made: &Paths, survey: &MadeFigure<'_>) -> Result<Vec<Moved>, Failure> {
         let mut moved = Vec::new();
         for (_, key) in &survey.runs {
             let Some(scene) = self.scenes.get(key) else { continue };

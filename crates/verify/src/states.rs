@@ -11,7 +11,7 @@ use checkout::disk;
 use checkout::failure::Failure;
 use checkout::paths::{Paths, RUN_TABLES};
 use checkout::process;
-use checkout::request::Made;
+use checkout::request::MadeFigure;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::process::Command;
@@ -146,7 +146,12 @@ fn pedestrians(checkpoints: &[Checkpoint]) -> usize {
 ///
 /// # Errors
 /// A committed file is malformed, or a run cannot be made or read.
-pub fn judge(paths: &Paths, made: &Paths, survey: &Made<'_>, reference: &Reference) -> Result<Vec<Parted>, Failure> {
+pub fn judge(
+    paths: &Paths,
+    made: &Paths,
+    survey: &MadeFigure<'_>,
+    reference: &Reference,
+) -> Result<Vec<Parted>, Failure> {
     let mut parted = Vec::new();
     for (scene, panel, key) in own_runs(survey, &reference.scenes) {
         let name = Paths::states(scene);
@@ -160,7 +165,7 @@ pub fn judge(paths: &Paths, made: &Paths, survey: &Made<'_>, reference: &Referen
 
 /// The runs that are listed under this figure: scene, panel, key. A run that several figures share is judged once.
 pub fn own_runs<'a>(
-    survey: &'a Made<'_>,
+    survey: &'a MadeFigure<'_>,
     scenes: &'a BTreeMap<String, String>,
 ) -> impl Iterator<Item = (&'a str, &'a str, &'a str)> {
     let named = survey.runs.iter().filter_map(|(panel, key)| Some((scenes.get(key)?.as_str(), &**panel, &**key)));
@@ -171,7 +176,7 @@ pub fn own_runs<'a>(
 ///
 /// # Errors
 /// It cannot be made or read.
-pub fn of_run(made: &Paths, survey: &Made<'_>, panel: &str, key: &str) -> Result<Vec<Checkpoint>, Failure> {
+pub fn of_run(made: &Paths, survey: &MadeFigure<'_>, panel: &str, key: &str) -> Result<Vec<Checkpoint>, Failure> {
     let [_, trajectories] = RUN_TABLES;
     let stored = made.store().join(key).join(trajectories);
     let text = match disk::read_text(&stored)? {
@@ -182,7 +187,7 @@ pub fn of_run(made: &Paths, survey: &Made<'_>, panel: &str, key: &str) -> Result
 }
 
 /// Makes the run of a panel with its trajectories.
-fn again(made: &Paths, survey: &Made<'_>, panel: &str) -> Result<String, Failure> {
+fn again(made: &Paths, survey: &MadeFigure<'_>, panel: &str) -> Result<String, Failure> {
     let [_, trajectories] = RUN_TABLES;
     let name = Paths::scene(&survey.figure.slug);
     let scene = disk::read_text(&made.root.join(&name))?.unwrap_or_default();

@@ -24,9 +24,9 @@ fn slugs() -> Vec<String> {
 
 /// Makes the runs of a figure's scene and returns the arguments that name them.
 fn runs(slug: &str, scene: &str, scratch: &Path) -> Vec<String> {
-    let recipe = scene_file::read(&root().join(scene)).expect("a scene");
+    let scene_file = scene_file::read(&root().join(scene)).expect("a scene");
     let mut arguments = Vec::new();
-    for panel in recipe.panels.iter().filter(|panel| panel.kind == Kind::Run) {
+    for panel in scene_file.panels.iter().filter(|panel| panel.kind == Kind::Run) {
         let folder = scratch.join("runs").join(format!("{slug}-{}", panel.name));
         let out = folder.to_str().expect("a path in UTF-8");
         succeed("simulate", &[scene, "--panel", &panel.name, "--out", out, "--tables-only"]);

@@ -6,12 +6,12 @@ use crate::compile::{self, Package};
 use crate::estimate::Estimate;
 use crate::lock::Lock;
 use crate::measured;
-use crate::plan::{self, Node, Step, Wish};
+use crate::plan::{self, Needs, Node, Task};
 use crate::pool::Outcome;
 use crate::record::{self, FigureState, Record, Records};
 use crate::sources::Sources;
 use crate::store;
-use crate::work::{self, Ends, Made};
+use crate::work::{self, Ends, NodeOutput};
 use checkout::disk;
 use checkout::failure::Failure;
 use checkout::figure::{self, Figure};
@@ -46,8 +46,8 @@ pub fn run(paths: &Paths, arguments: &FiguresArgs) -> Result<(), Failure> {
     compile::ensure(paths, &all, &sources, &Package::of(&selected))?;
     let mut records = Records::read(paths)?;
     let mut surveys = record::survey(paths, &selected, &sources, &records)?;
-    let wishes = wishes(paths, &surveys, &records, arguments);
-    let nodes = plan::make(paths, &surveys, &wishes, arguments.force)?;
+    let needs = needs(paths, &surveys, &records, arguments);
+    let nodes = plan::make(paths, &surveys, &needs, arguments.force)?;
     if arguments.force {
         work::forget(paths, &nodes)?;
     }
@@ -86,13 +86,13 @@ fn choose<'a>(all: &'a [Figure], arguments: &FiguresArgs) -> Result<Vec<&'a Figu
     }
 }
 
-fn wishes(paths: &Paths, surveys: &[FigureState<'_>], records: &Records, arguments: &FiguresArgs) -> Vec<Wish> {
-    let wish = |survey: &FigureState<'_>| {
+fn needs(paths: &Paths, surveys: &[FigureState<'_>], records: &Records, arguments: &FiguresArgs) -> Vec<Needs> {
+    let need = |survey: &FigureState<'_>| {
         let draw = arguments.force || !survey.reasons.is_empty();
         let measured = records.get(paths, survey.figure).is_some_and(|record| record.measured.is_some());
-        Wish { draw, measure: paths.scheme == Scheme::Adaptive && (draw || !measured) }
+        Needs { draw, measure: paths.scheme == Scheme::Adaptive && (draw || !measured) }
     };
-    surveys.iter().map(wish).collect()
+    surveys.iter().map(need).collect()
 }
 
 /// Carries out the plan. Each figure is recorded as soon as it is made, so an interrupted run loses nothing.
@@ -102,13 +102,13 @@ fn make(
     nodes: &[Node],
     arguments: &FiguresArgs,
     records: &mut Records,
-) -> Result<Vec<Outcome<Made>>, Failure> {
+) -> Result<Vec<Outcome<NodeOutput>>, Failure> {
     let mut times = read_times(paths)?;
-    let mut made = |node: &Node, made: &Made| {
+    let mut made = |node: &Node, made: &NodeOutput| {
         if !made.resumed {
             times.insert(paths.times_name(&node.name), made.seconds);
         }
-        if let Step::Draw { figure } = node.step {
+        if let Task::Draw { figure } = node.task {
             let survey = &surveys[figure];
             let report = record::report(paths, survey.figure)?;
             let record = Record::new(survey.inputs.clone(), made.outputs.clone(), report);
@@ -168,7 +168,7 @@ fn dry_run(paths: &Paths, all: &[Figure], selected: &[&Figure], arguments: &Figu
     let sources = Sources::read(paths)?;
     let records = Records::read(paths)?;
     let surveys = record::survey(paths, selected, &sources, &records)?;
-    let nodes = plan::make(paths, &surveys, &wishes(paths, &surveys, &records, arguments), arguments.force)?;
+    let nodes = plan::make(paths, &surveys, &needs(paths, &surveys, &records, arguments), arguments.force)?;
     let stale = Package::of(selected).into_iter().filter(|package| package.is_stale(paths, all, &sources));
     let builds: Vec<String> = stale.map(Package::command).collect();
     let states: Vec<(&str, &str)> =
@@ -189,7 +189,7 @@ fn dry_run(paths: &Paths, all: &[Figure], selected: &[&Figure], arguments: &Figu
     rows.extend(
         nodes
             .iter()
-            .filter(|node| matches!(node.step, Step::Simulate { .. }))
+            .filter(|node| matches!(node.task, Task::Simulate { .. }))
             .map(|node| print::row(&[&node.name, "to run", &last(node).map_or(String::new(), duration)])),
     );
     rows.extend(states.iter().map(|(slug, state)| print::row(&[slug, state])));

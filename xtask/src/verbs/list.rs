@@ -56,6 +56,6 @@ fn to_json(paths: &Paths, figure: &Figure, times: &Times) -> Result<Value, Failu
     Ok(json!({
         "figure": figure.id, "label": figure.label(), "title": figure.title(), "binary": figure.slug,
         "scene": Paths::scene(&figure.slug), "outputs": names(paths, figure)?, "seconds": times.get(&figure.slug),
-        "problem": figure.recipe.as_ref().err(),
+        "problem": figure.scene_file.as_ref().err(),
     }))
 }

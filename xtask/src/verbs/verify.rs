@@ -7,10 +7,10 @@ use crate::compile::{self, Package};
 use crate::costs;
 use crate::gate;
 use crate::lock::Lock;
-use crate::plan::{self, Node, Wish};
+use crate::plan::{self, Needs, Node};
 use crate::record::{self, FigureState, Records};
 use crate::sources::Sources;
-use crate::work::{self, Made};
+use crate::work::{self, NodeOutput};
 use checkout::costs::Costs;
 use checkout::disk;
 use checkout::failure::Failure;
@@ -134,11 +134,11 @@ fn recompute<'a>(
     arguments: &VerifyArgs,
 ) -> Result<Vec<FigureState<'a>>, Failure> {
     let surveys = record::survey(scratch, selected, sources, &Records::default())?;
-    let wishes = vec![Wish { draw: true, measure: false }; surveys.len()];
-    let nodes = plan::make(scratch, &surveys, &wishes, true)?;
+    let needs = vec![Needs { draw: true, measure: false }; surveys.len()];
+    let nodes = plan::make(scratch, &surveys, &needs, true)?;
     let threads = if arguments.costs { 1 } else { arguments.effort.threads() };
     let mut measured = Costs::new();
-    let mut made = |node: &Node, made: &Made| {
+    let mut made = |node: &Node, made: &NodeOutput| {
         measured.insert(node.name.clone(), costs::of(made.usage, made.bytes));
         Ok(())
     };

@@ -3,7 +3,7 @@
 use crate::shop::Shop;
 use checkout::print::duration;
 use xtask::child::Message;
-use xtask::plan::{Node, Step};
+use xtask::plan::{Node, Task};
 use xtask::pool::Job;
 use xtask::progress::Track;
 use xtask::verbs::figures::{Forecast, forecast};
@@ -79,7 +79,7 @@ fn what_is_left_follows_from_the_pace_since_the_start() {
 fn a_forecast_is_the_longest_chain_or_an_even_share() {
     let node = |name: &str, after: &[usize]| Node {
         name: name.to_owned(),
-        step: Step::Draw { figure: 0 },
+        task: Task::Draw { figure: 0 },
         job: Job { after: after.to_vec(), weight: 1.0 },
     };
     let nodes = [node("10", &[]), node("4", &[0]), node("5", &[]), node("new", &[2])];

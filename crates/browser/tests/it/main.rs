@@ -11,8 +11,8 @@ use std::path::Path;
 #[test]
 fn every_panel_has_a_table() -> Result<(), Box<dyn std::error::Error>> {
     for figure in FIGURES.iter().filter(|figure| figure.id != "fig01") {
-        let recipe = scene_file::parse(figure.id, figure.scene)?;
-        let panels: BTreeSet<&str> = recipe.panels.iter().map(|panel| panel.name.as_str()).collect();
+        let scene_file = scene_file::parse(figure.id, figure.scene)?;
+        let panels: BTreeSet<&str> = scene_file.panels.iter().map(|panel| panel.name.as_str()).collect();
         let used: BTreeSet<&str> = figure.tables.iter().map(|entry| entry.panel).collect();
         assert_eq!(panels, used, "{}", figure.id);
     }

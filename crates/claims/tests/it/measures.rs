@@ -3,7 +3,7 @@
 use crate::desk::{Desk, numbers};
 use claims::entry::Measure;
 use claims::measure;
-use claims::source::Place;
+use claims::source::ClaimLocation;
 use claims::tables::Tables;
 
 #[test]
@@ -27,7 +27,7 @@ fn each_row_that_is_left_has_its_value() {
     let tables = Tables::new(&desk.paths, &desk.paths).expect("tables");
     let each = |test: &str| {
         let measure: Measure = toml::from_str(test).expect("a measure");
-        measure::each(&measure, &tables, &Place("here".to_owned()))
+        measure::each(&measure, &tables, &ClaimLocation("here".to_owned()))
     };
     let (sheet, rows) =
         each("take = \"only\"\nof = \"2*v\"\ntable = \"fig90/one\"\nwhere = [\"v > 2\"]").expect("rows");

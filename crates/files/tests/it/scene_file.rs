@@ -2,7 +2,7 @@
 
 use files::scene_file::{Kind, SceneFile, parse};
 
-fn recipe(text: &str) -> SceneFile {
+fn scene_file(text: &str) -> SceneFile {
     parse("my.toml", text).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -12,39 +12,40 @@ const TEXT: &str = "title = \"A run\"\nsource = \"fig1\"\n[law]\nkind = \"algebr
 
 #[test]
 fn panels_lie_on_top_of_the_file() {
-    let recipe = recipe(TEXT);
-    assert_eq!((recipe.title.as_str(), recipe.source.as_str()), ("A run", "fig1"));
-    assert_eq!(recipe.origin, [("law.q".to_owned(), "eq1".to_owned())]);
-    let names: Vec<&str> = recipe.panels.iter().map(|panel| panel.name.as_str()).collect();
+    let scene_file = scene_file(TEXT);
+    assert_eq!((scene_file.title.as_str(), scene_file.source.as_str()), ("A run", "fig1"));
+    assert_eq!(scene_file.origin, [("law.q".to_owned(), "eq1".to_owned())]);
+    let names: Vec<&str> = scene_file.panels.iter().map(|panel| panel.name.as_str()).collect();
     assert_eq!(names, ["left", "right"]);
-    let determinants = |name: &str| recipe.panel(name).expect("the panel").determinants();
+    let determinants = |name: &str| scene_file.panel(name).expect("the panel").determinants();
     assert_eq!(determinants("left"), "law.kind = \"algebraic\"\nlaw.mu = 0.25\nlaw.q = 2.0\nrun.t_end = 10.0");
     assert_eq!(determinants("right"), "law.kind = \"algebraic\"\nlaw.mu = 0.5\nlaw.q = 1.0\nrun.t_end = 20.0");
-    let error = recipe.panel("middle").expect_err("there is none");
+    let error = scene_file.panel("middle").expect_err("there is none");
     assert_eq!(error.to_string(), "my.toml: no panel middle; the scene has left, right");
 }
 
 #[test]
 fn a_file_without_panels_has_one() {
-    let recipe = recipe("[law]\nq = 2\n");
-    assert_eq!(recipe.panels.len(), 1);
-    assert_eq!((recipe.panels[0].name.as_str(), recipe.panels[0].kind), ("main", Kind::Drawing));
-    assert!(recipe.title.is_empty() && recipe.source.is_empty() && recipe.origin.is_empty());
+    let scene_file = scene_file("[law]\nq = 2\n");
+    assert_eq!(scene_file.panels.len(), 1);
+    assert_eq!((scene_file.panels[0].name.as_str(), scene_file.panels[0].kind), ("main", Kind::Drawing));
+    assert!(scene_file.title.is_empty() && scene_file.source.is_empty() && scene_file.origin.is_empty());
 }
 
 #[test]
 fn kinds_follow_from_the_tables() {
     let cases = [("[run]\n", Kind::Run), ("[map]\n", Kind::Map), ("[curve]\n", Kind::Curve), ("", Kind::Drawing)];
     for (text, kind) in cases {
-        assert_eq!(recipe(text).panels[0].kind, kind);
+        assert_eq!(scene_file(text).panels[0].kind, kind);
     }
-    let two = recipe("[law]\nq = 1\n[panel.a.run]\nt_end = 1\n[panel.b.map]\nvalue = \"criterion\"\n");
+    let two = scene_file("[law]\nq = 1\n[panel.a.run]\nt_end = 1\n[panel.b.map]\nvalue = \"criterion\"\n");
     assert_eq!([two.panels[0].kind, two.panels[1].kind], [Kind::Run, Kind::Map]);
 }
 
 #[test]
 fn only_values_determine_a_scene() {
-    let plain = recipe("[law]\nq = 1\nmu = 0.5\nkind = \"algebraic\"\n[run]\nt_end = 1e3\n").panels[0].determinants();
+    let plain =
+        scene_file("[law]\nq = 1\nmu = 0.5\nkind = \"algebraic\"\n[run]\nt_end = 1e3\n").panels[0].determinants();
     let same = [
         // comments, order, spelling of numbers, title, source and origin
         "# a comment\n[run] # another\nt_end = 1000\n[law]\nkind = 'algebraic'\nmu = 5e-1\nq = 1.0\n",
@@ -53,7 +54,7 @@ fn only_values_determine_a_scene() {
         "[law]\r\nq = 1\r\nmu = 0.5\r\nkind = \"algebraic\"\r\n[run]\r\nt_end = 1e3\r\n",
     ];
     for text in same {
-        assert_eq!(recipe(text).panels[0].determinants(), plain, "{text}");
+        assert_eq!(scene_file(text).panels[0].determinants(), plain, "{text}");
     }
     let other = [
         "[law]\nq = 1\nmu = 0.5000000000000001\nkind = \"algebraic\"\n[run]\nt_end = 1e3\n",
@@ -61,15 +62,15 @@ fn only_values_determine_a_scene() {
         "[law]\nq = \"1\"\nmu = 0.5\nkind = \"algebraic\"\n[run]\nt_end = 1e3\n",
     ];
     for text in other {
-        assert_ne!(recipe(text).panels[0].determinants(), plain, "{text}");
+        assert_ne!(scene_file(text).panels[0].determinants(), plain, "{text}");
     }
 }
 
 #[test]
 fn values_cannot_pass_for_others() {
     // a text with a line break or an equals sign is quoted, so two scenes never share a text
-    let one = recipe("[law]\na = \"1\\nlaw.b = 2.0\"\n").panels[0].determinants();
-    let two = recipe("[law]\na = 1\nb = 2\n").panels[0].determinants();
+    let one = scene_file("[law]\na = \"1\\nlaw.b = 2.0\"\n").panels[0].determinants();
+    let two = scene_file("[law]\na = 1\nb = 2\n").panels[0].determinants();
     assert_ne!(one, two);
     assert_eq!(one.lines().count(), 1);
 }

@@ -12,7 +12,7 @@ mod neighbours;
 use crate::limits::DEEPEST;
 use crate::names;
 use crate::operation::{Binary, Unary};
-use crate::place::{Place, Problem};
+use crate::place::{Location, Problem};
 use crate::token::{Lexeme, Token, tokens};
 use crate::tree::{Entry, Tree};
 
@@ -33,7 +33,7 @@ const OPERAND: &str = "a number, a name, a function, ( or -";
 const OPERATOR: &str = "an operator + - * / ^ or the end";
 
 /// Parses the text of one expression whose first character is at `start`.
-pub(crate) fn parse(text: &str, start: Place, vocabulary: Vocabulary) -> Result<Tree, Problem> {
+pub(crate) fn parse(text: &str, start: Location, vocabulary: Vocabulary) -> Result<Tree, Problem> {
     let lexemes = tokens(text, start)?;
     let mut parser = Parser { lexemes, at: 0, depth: 0, in_sum: false, vocabulary, tree: Tree::default() };
     parser.expression(0)?;
@@ -64,7 +64,7 @@ impl<'a> Parser<'a> {
         is_next
     }
 
-    fn push(&mut self, entry: Entry, place: Place) {
+    fn push(&mut self, entry: Entry, place: Location) {
         self.tree.entries.push((entry, place));
     }
 
@@ -135,7 +135,7 @@ impl<'a> Parser<'a> {
     }
 
     /// The meaning of a name that has just been read.
-    fn word(&mut self, name: &str, place: Place) -> Result<(), Problem> {
+    fn word(&mut self, name: &str, place: Location) -> Result<(), Problem> {
         let is_law = self.vocabulary == Vocabulary::Law;
         let is_operand =
             matches!(self.next().token, Token::End | Token::Symbol(')' | ',' | '+' | '-' | '*' | '/' | '^'));
@@ -175,7 +175,7 @@ impl<'a> Parser<'a> {
     fn arguments(
         &mut self,
         name: &str,
-        place: Place,
+        place: Location,
         least: usize,
         takes_more: bool,
         entry: Entry,
@@ -216,7 +216,7 @@ impl<'a> Parser<'a> {
     }
 
     /// The closing bracket of what was opened at `place`.
-    fn close(&mut self, bracket: char, opened: &str, place: Place) -> Result<(), Problem> {
+    fn close(&mut self, bracket: char, opened: &str, place: Location) -> Result<(), Problem> {
         if self.take_symbol(bracket) {
             return Ok(());
         }
@@ -276,7 +276,7 @@ impl<'a> Parser<'a> {
 }
 
 /// A name with a bracket behind it that is not a function.
-fn no_function(name: &str, place: Place) -> Problem {
+fn no_function(name: &str, place: Location) -> Problem {
     let functions: Vec<&str> = names::functions().collect();
     let elsewhere = names::ELSEWHERE.iter().find(|(other, _)| *other == name).map(|(_, here)| *here);
     let near = elsewhere.or_else(|| names::nearest(name, functions.iter().copied()));

@@ -3,7 +3,7 @@
 use super::Parser;
 use crate::limits::FARTHEST;
 use crate::names;
-use crate::place::{Place, Problem};
+use crate::place::{Location, Problem};
 use crate::token::{Lexeme, Token};
 use crate::tree::{Entry, Index, Quantity};
 
@@ -12,7 +12,7 @@ pub(super) const SUM_FORM: &str =
 
 impl Parser<'_> {
     /// `s`, `v`, `s[j]`, `v[j]`, `x[j]`.
-    pub(super) fn neighbour(&mut self, name: &str, place: Place) -> Result<(), Problem> {
+    pub(super) fn neighbour(&mut self, name: &str, place: Location) -> Result<(), Problem> {
         let quantity = match name {
             "s" => Quantity::Spacing,
             "v" => Quantity::Speed,
@@ -105,7 +105,7 @@ impl Parser<'_> {
     }
 
     /// `sum(j, 1, 30, EXPRESSION)`, behind its name.
-    pub(super) fn sum(&mut self, place: Place) -> Result<(), Problem> {
+    pub(super) fn sum(&mut self, place: Location) -> Result<(), Problem> {
         if self.in_sum {
             return Err(Problem::new(place, "a sum within a sum", "one sum, whose index is j"));
         }

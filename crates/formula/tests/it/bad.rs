@@ -2,9 +2,9 @@
 
 use crate::common::{graph, lines};
 use formula::limits::{DEEPEST, FARTHEST, LONGEST_TEXT, MOST_OPERATIONS};
-use formula::{Definition, Error, Expression, Given, Place, law};
+use formula::{Definition, Error, Expression, Given, Location, law};
 
-const START: Place = Place { line: 3, column: 17 };
+const START: Location = Location { line: 3, column: 17 };
 
 #[track_caller]
 fn assert_error(error: &Error, line: u32, column: u32, found: &str, valid: &str) {
@@ -185,7 +185,7 @@ fn unused_reserved_and_repeated_names_are_refused() {
 
 #[test]
 fn keys_have_their_kinds() {
-    let section = Place { line: 5, column: 1 };
+    let section = Location { line: 5, column: 1 };
     let of = |definitions: &[Definition<'_>]| law("scene.toml", section, definitions).expect_err("a bad law");
     assert_error(&of(&lines(&[], &[("body", 0.0)])), 5, 1, "without `acceleration`", "acceleration = ");
     assert_error(&of(&lines(&[("acceleration", "s")], &[])), 5, 1, "without `body`", "body = NUMBER");
@@ -268,7 +268,7 @@ fn a_long_chain_of_names_does_not_recurse() {
     let count = 20_000;
     let names: Vec<String> = (0..count).map(|i| format!("n{i}")).collect();
     let texts: Vec<String> = (1..=count).map(|i| if i < count { format!("n{i}") } else { "s".to_owned() }).collect();
-    let place = Place { line: 1, column: 1 };
+    let place = Location { line: 1, column: 1 };
     let chain = names.iter().zip(&texts).map(|(name, text)| (name.as_str(), Given::Text(text)));
     let rest = [("acceleration", Given::Text("n0")), ("body", Given::Number(0.0))];
     let definitions: Vec<Definition<'_>> = rest

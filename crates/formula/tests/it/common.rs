@@ -1,6 +1,6 @@
 //! Short laws for tests, and reproducible random numbers.
 
-use formula::{Bound, Definition, Error, Given, Graph, Place, Variable, law};
+use formula::{Bound, Definition, Error, Given, Graph, Location, Variable, law};
 
 /// A law from its lines: names and expressions, names and numbers. Line 1 is the header; keys stand in column 1, values in
 /// column 9.
@@ -8,7 +8,7 @@ pub fn lines<'a>(texts: &[(&'a str, &'a str)], numbers: &[(&'a str, f64)]) -> Ve
     let given = texts.iter().map(|(name, text)| (*name, Given::Text(text)));
     let given = given.chain(numbers.iter().map(|(name, number)| (*name, Given::Number(*number))));
     let line = |(line, (name, given))| {
-        let place = |column| Place { line: line as u32 + 2, column };
+        let place = |column| Location { line: line as u32 + 2, column };
         Definition { name, key: place(1), value: place(9), given }
     };
     given.enumerate().map(line).collect()
@@ -17,9 +17,9 @@ pub fn lines<'a>(texts: &[(&'a str, &'a str)], numbers: &[(&'a str, f64)]) -> Ve
 /// A law with `body = 0` added.
 pub fn graph(texts: &[(&str, &str)], numbers: &[(&str, f64)]) -> Result<Graph, Error> {
     let mut definitions = lines(texts, numbers);
-    let place = Place { line: 99, column: 1 };
+    let place = Location { line: 99, column: 1 };
     definitions.push(Definition { name: "body", key: place, value: place, given: Given::Number(0.0) });
-    law("scene.toml", Place { line: 1, column: 1 }, &definitions)
+    law("scene.toml", Location { line: 1, column: 1 }, &definitions)
 }
 
 /// A law of one expression, with the values of the file.

@@ -3,7 +3,7 @@
 use crate::common::{Random, lines, state};
 use crate::trees::{PARAMETERS, tree};
 use formula::limits::MOST_OPERATIONS;
-use formula::{Error, Expression, Place, law};
+use formula::{Error, Expression, Location, law};
 
 /// What random texts are made of.
 const WORDS: [&str; 66] = [
@@ -101,7 +101,7 @@ fn text(random: &mut Random) -> String {
 }
 
 #[track_caller]
-fn assert_points_into(text: &str, start: Place, error: &Error) {
+fn assert_points_into(text: &str, start: Location, error: &Error) {
     let lines = text.split('\n').count() as u32;
     let line = error.place.line.checked_sub(start.line).filter(|line| *line < lines);
     let line = text.split('\n').nth(line.unwrap_or_else(|| panic!("{error} for {text:?}")) as usize).expect("a line");
@@ -120,7 +120,7 @@ fn tried(seed: u64, count: usize) -> usize {
         let texts = [("acceleration", acceleration.as_str()), ("gap", "s - V + 0*(p + q2 + kappa)"), ("V", &other)];
         let mut numbers = PARAMETERS.to_vec();
         numbers.push(("body", 0.5));
-        let section = Place { line: 1, column: 1 };
+        let section = Location { line: 1, column: 1 };
         let definitions = lines(&texts, &numbers);
         match law("scene.toml", section, &definitions).and_then(|graph| {
             assert!(graph.size() <= MOST_OPERATIONS);
@@ -143,7 +143,7 @@ fn tried(seed: u64, count: usize) -> usize {
                 }
             }
         }
-        let start = Place { line: 41, column: 13 };
+        let start = Location { line: 41, column: 13 };
         match Expression::parse("claims.toml", start, &acceleration) {
             Ok(expression) => {
                 let value = expression.eval(|name| 0.5 + name as f64);

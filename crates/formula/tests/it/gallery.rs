@@ -3,7 +3,7 @@
 
 use files::reader::{Section, Value as Entry};
 use files::scene_file::{self, SceneFile};
-use formula::{Bound, Definition, Given, Graph, Place, Variable, law};
+use formula::{Bound, Definition, Given, Graph, Location, Variable, law};
 use math::dual::Dual;
 use math::{complex_sqrt, cos, exp, sin};
 use std::collections::BTreeMap;
@@ -22,7 +22,7 @@ fn scene(name: &str) -> SceneFile {
 fn graph(scene: &SceneFile, panel: &str, change: impl Fn(&str) -> String, axes: &[(&str, f64)]) -> Graph {
     let tables = &scene.panel(panel).unwrap_or_else(|error| panic!("{error}")).tables;
     let section = tables.section("law").expect("a law");
-    let place = |line: usize| Place { line: line as u32, column: 1 };
+    let place = |line: usize| Location { line: line as u32, column: 1 };
     let texts: Vec<(&str, usize, Result<f64, String>)> = section
         .entries
         .iter()

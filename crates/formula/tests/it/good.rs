@@ -1,12 +1,12 @@
 //! The meaning of valid expressions.
 
-use formula::{Expression, Place};
+use formula::{Expression, Location};
 use math::double_double::DoubleDouble;
 use math::lane;
 use math::number::Number;
 use std::f64::consts::{E, PI};
 
-const HERE: Place = Place { line: 7, column: 9 };
+const HERE: Location = Location { line: 7, column: 9 };
 
 fn value(text: &str) -> f64 {
     let expression = Expression::parse("claims.toml", HERE, text).unwrap_or_else(|error| panic!("{text}: {error}"));
@@ -93,8 +93,8 @@ fn functions_are_those_of_math() {
 #[test]
 fn names_are_listed_in_the_order_of_the_text_with_their_places() {
     let expression = Expression::parse("claims.toml", HERE, "v - v_beside\n  + s*x/j + v").expect("an expression");
-    let place = |line, column| Place { line, column };
-    let names: Vec<(&str, Place)> = expression.names().iter().map(|(name, at)| (name.as_str(), *at)).collect();
+    let place = |line, column| Location { line, column };
+    let names: Vec<(&str, Location)> = expression.names().iter().map(|(name, at)| (name.as_str(), *at)).collect();
     let expected =
         [("v", place(7, 9)), ("v_beside", place(7, 13)), ("s", place(8, 5)), ("x", place(8, 7)), ("j", place(8, 9))];
     assert_eq!(names, expected);

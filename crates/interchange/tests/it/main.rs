@@ -32,8 +32,8 @@ pub const TABLE: &str = "t,n,x,v\n0,0,-0.125,0\n0,1,5,0\n0.25,0,0.3,0.1\n0.25,1,
 
 /// What its files say of themselves, with this `a_0`.
 pub fn header(a_0: Option<f64>) -> Header {
-    let recipe = scene_file::parse("two.toml", &scene()).expect("a scene");
-    Header::new(&recipe, recipe.panel("main").expect("a panel"), a_0, 0.5, 8.0).expect("a header")
+    let scene_file = scene_file::parse("two.toml", &scene()).expect("a scene");
+    Header::new(&scene_file, scene_file.panel("main").expect("a panel"), a_0, 0.5, 8.0).expect("a header")
 }
 
 /// The scene with an escape that TOML understands.

@@ -8,7 +8,7 @@
 use super::{Flow, NOTHING};
 use crate::laws::Law;
 use math::lanes::Lanes;
-use math::series::{Block, Jet, Place, ROWS};
+use math::series::{Block, Jet, OrderMemory, ROWS};
 use math::simd::{Kernel, dispatch_either, dispatch_wide};
 
 /// The coefficients of spacings and speeds of a ring, from their rows 0 and 1.
@@ -224,7 +224,7 @@ impl<L: Law, const PLAIN: bool, const W: usize> Coefficients<'_, '_, L, PLAIN, W
         memory.reserve(n, size);
         memory.take(&states[..n], &states[n..2 * n], flow);
         for index in 0..blocks {
-            let place = Place::new(&memory.histories[index * size..(index + 1) * size], order, 0);
+            let place = OrderMemory::new(&memory.histories[index * size..(index + 1) * size], order, 0);
             let [s, v, w] = block(memory.now.numbers(), begin::<W>(index, n));
             law.acceleration::<Jet<Lanes<W>, true>>(place.variable(s), place.variable(v), place.variable(w));
         }
@@ -237,7 +237,7 @@ impl<L: Law, const PLAIN: bool, const W: usize> Coefficients<'_, '_, L, PLAIN, W
             for index in 0..blocks {
                 let (own, others) = left.split_at(size);
                 left = others;
-                let (from, place) = (begin::<W>(index, n), Place::new(own, order, k));
+                let (from, place) = (begin::<W>(index, n), OrderMemory::new(own, order, k));
                 let [s, v, w] = block::<W>(now, from);
                 let next_spacings = (w - v) * share;
                 let (s, v, w) = (place.variable::<false>(s), place.variable(v), place.variable(w));

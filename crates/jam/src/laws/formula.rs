@@ -3,7 +3,7 @@
 use super::size_of_speeds;
 use crate::force::{Force, Interpreted, Prepared, Source};
 use crate::stability::Response;
-use formula::{Definition, Error, Given, Graph, Place};
+use formula::{Definition, Error, Given, Graph, Location};
 use math::dual::Dual;
 use math::number::Number;
 use std::sync::Arc;
@@ -59,7 +59,7 @@ impl Formula {
     /// # Errors
     /// As [`formula::law`] and [`Formula::new`]; the number of a line counts from 1.
     pub fn written(lines: &[(&str, Given<'_>)]) -> Result<Formula, Error> {
-        let place = |index: usize| Place { line: index as u32 + 1, column: 1 };
+        let place = |index: usize| Location { line: index as u32 + 1, column: 1 };
         let definition = |(index, &(name, given))| Definition { name, key: place(index), value: place(index), given };
         let definitions: Vec<Definition<'_>> = lines.iter().enumerate().map(definition).collect();
         Formula::new(formula::law("law", place(0), &definitions)?)

@@ -10,7 +10,7 @@ use crate::events::{Event, EventKind};
 use crate::jams::{Drift, Jam};
 use crate::outcome::{Judge, Memory};
 use crate::states::StateVariables;
-use ode::{Control, Pace, Place, ResumePoint};
+use ode::{Control, Pace, ResumePoint, StepPosition};
 
 /// A run between two of its steps.
 #[derive(Clone, Copy, Debug)]
@@ -46,7 +46,7 @@ impl PartialRun<'_> {
         words.count(usize::from(pace.is_some()));
         if let Some(pace) = pace {
             words.numbers(pace.rates);
-            words.numbers(pace.carry);
+            words.numbers(pace.compensation);
             words.numbers(&[pace.time[0], pace.time[1], pace.step, pace.error, pace.unit]);
         }
         words.whole(&[self.earlier.steps, self.earlier.rejected, self.earlier.evaluations]);
@@ -82,7 +82,7 @@ impl PartialRun<'_> {
 /// A run to resume.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Checkpoint {
-    pub(crate) place: Place,
+    pub(crate) place: StepPosition,
     pub(crate) statistics: ode::Statistics,
     pub(crate) state: Vec<f64>,
     pub(crate) pace: Option<Remembered>,
@@ -99,7 +99,7 @@ pub struct Checkpoint {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Remembered {
     rates: Vec<f64>,
-    carry: Vec<f64>,
+    compensation: Vec<f64>,
     time: [f64; 2],
     step: f64,
     error: f64,
@@ -108,8 +108,8 @@ pub(crate) struct Remembered {
 
 impl Remembered {
     pub(crate) fn pace(&self) -> Pace<'_> {
-        let Remembered { rates, carry, time, step, error, unit } = self;
-        Pace { rates, carry, time: *time, step: *step, error: *error, unit: *unit }
+        let Remembered { rates, compensation, time, step, error, unit } = self;
+        Pace { rates, compensation, time: *time, step: *step, error: *error, unit: *unit }
     }
 }
 
@@ -117,7 +117,7 @@ impl Checkpoint {
     /// Reads what [`PartialRun::to_bytes`] wrote for this run; `None` for anything of another form.
     pub fn parse(bytes: &[u8], run: &Run) -> Option<Checkpoint> {
         let mut words = Reader { words: bytes.chunks_exact(8) };
-        let place = Place { step: words.whole()?, slow_until: words.whole()? };
+        let place = StepPosition { step: words.whole()?, slow_until: words.whole()? };
         let (steps, rejected, evaluations) = (words.whole()?, words.whole()?, words.whole()?);
         let statistics = ode::Statistics { steps, rejected, evaluations, time: words.number()?, state: Vec::new() };
         let count = words.count()?;
@@ -213,9 +213,16 @@ impl Reader<'_> {
 
     fn pace(&mut self, dimension: usize) -> Option<Remembered> {
         let rates = (0..dimension).map(|_| self.number()).collect::<Option<Vec<f64>>>()?;
-        let carry = (0..dimension).map(|_| self.number()).collect::<Option<Vec<f64>>>()?;
+        let compensation = (0..dimension).map(|_| self.number()).collect::<Option<Vec<f64>>>()?;
         let time = [self.number()?, self.number()?];
-        Some(Remembered { rates, carry, time, step: self.number()?, error: self.number()?, unit: self.number()? })
+        Some(Remembered {
+            rates,
+            compensation,
+            time,
+            step: self.number()?,
+            error: self.number()?,
+            unit: self.number()?,
+        })
     }
 
     fn event(&mut self) -> Option<Event> {

@@ -56,12 +56,12 @@ pub(crate) fn untried(run: &Run, observer: &mut dyn RunObserver) -> Outcome {
     let form = run.form.build(&run.model, run.ring);
     let mut recorder = Recorder::new(run, &*form, observer);
     recorder.start(&run.initial(&*form));
-    let made = Made { statistics: ode::Statistics::default(), failure: None };
+    let made = Leg { statistics: ode::Statistics::default(), failure: None };
     recorder.end(made).unwrap_or_else(|broken| *broken.outcome)
 }
 
 /// The result of a leg: how far it got, and the reason if it failed.
-struct Made {
+struct Leg {
     statistics: ode::Statistics,
     failure: Option<ode::Failure>,
 }
@@ -126,13 +126,13 @@ impl<'a> Recorder<'a> {
     }
 
     /// Integrates from this time and state to the end of the run, or until an event or the walls break it off.
-    fn leg(&mut self, form: &dyn RingSystem, begin: f64, state: &[f64]) -> Made {
+    fn leg(&mut self, form: &dyn RingSystem, begin: f64, state: &[f64]) -> Leg {
         let made = integrate(&self.problem(form, begin, state), self);
         self.made(made)
     }
 
     /// Continues from a checkpoint as [`Recorder::leg`] would have done.
-    fn resume(&mut self, form: &dyn RingSystem, near_walls: &'a dyn RingSystem, checkpoint: Checkpoint) -> Made {
+    fn resume(&mut self, form: &dyn RingSystem, near_walls: &'a dyn RingSystem, checkpoint: Checkpoint) -> Leg {
         let Checkpoint { place, statistics, state, pace, found, samples, drift, .. } = checkpoint;
         // one sample for each multiple of the interval, from 0; none after a stop
         self.sampler.resume(samples.len() as u64);
@@ -158,10 +158,10 @@ impl<'a> Recorder<'a> {
         self.made(made)
     }
 
-    fn made(&mut self, made: Result<ode::Statistics, ode::Failure>) -> Made {
+    fn made(&mut self, made: Result<ode::Statistics, ode::Failure>) -> Leg {
         match made {
-            Ok(statistics) => Made { statistics, failure: None },
-            Err(failure) => Made { statistics: std::mem::take(&mut self.reached), failure: Some(failure) },
+            Ok(statistics) => Leg { statistics, failure: None },
+            Err(failure) => Leg { statistics: std::mem::take(&mut self.reached), failure: Some(failure) },
         }
     }
 
@@ -176,12 +176,12 @@ impl<'a> Recorder<'a> {
     }
 
     /// The result of the run; if it failed, the result up to that point.
-    fn end(mut self, made: Made) -> Result<Outcome, Broken> {
+    fn end(mut self, made: Leg) -> Result<Outcome, Broken> {
         let mut statistics = counts(&made.statistics);
         statistics.steps += self.earlier.steps;
         statistics.rejected += self.earlier.rejected;
         statistics.evaluations += self.earlier.evaluations;
-        let Made { statistics: ode::Statistics { time, mut state, .. }, failure } = made;
+        let Leg { statistics: ode::Statistics { time, mut state, .. }, failure } = made;
         let last_step = time;
         if state.is_empty() {
             // no step was tried

@@ -1,17 +1,17 @@
 //! Laws as formulas: the built-in ones a second time, and others.
 
-use formula::{Definition, Given, Place};
+use formula::{Definition, Given, Location};
 use jam::laws::{Formula, Model};
 
 /// A law from the lines of its section.
 pub fn law(lines: &[(&str, Given<'_>)]) -> Model {
-    let place = |line: usize, column| Place { line: line as u32 + 2, column };
+    let place = |line: usize, column| Location { line: line as u32 + 2, column };
     let definitions: Vec<Definition<'_>> = lines
         .iter()
         .enumerate()
         .map(|(line, (name, given))| Definition { name, key: place(line, 1), value: place(line, 20), given: *given })
         .collect();
-    let graph = formula::law("scene.toml", Place { line: 1, column: 1 }, &definitions);
+    let graph = formula::law("scene.toml", Location { line: 1, column: 1 }, &definitions);
     Model::Formula(graph.and_then(Formula::new).unwrap_or_else(|error| panic!("{error}")))
 }
 

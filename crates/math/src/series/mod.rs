@@ -2,7 +2,7 @@
 //!
 //! Each operation has a recurrence for its next coefficient ([`recurrences`]). A formula is carried out once for each
 //! order, with [`Jet`]s that hold the coefficients of this order: linear operations act on these, the others read and
-//! write the earlier ones in a [`Place`].
+//! write the earlier ones in a [`OrderMemory`].
 
 pub mod recurrences;
 
@@ -84,7 +84,7 @@ pub const ROWS: usize = recurrences::ROWS;
 /// Where the operations of a formula keep earlier coefficients: [`ROWS`] rows for each operation that
 /// is not linear, each as long as the series.
 #[derive(Debug)]
-pub struct Place<'t, C: Copy> {
+pub struct OrderMemory<'t, C: Copy> {
     memory: &'t [Block<C>],
     /// Coefficients of a series.
     length: usize,
@@ -93,11 +93,11 @@ pub struct Place<'t, C: Copy> {
     next: Cell<usize>,
 }
 
-impl<'t, C: Coefficient> Place<'t, C> {
+impl<'t, C: Coefficient> OrderMemory<'t, C> {
     /// For the coefficients of this order of series of `length`.
     #[inline(always)]
-    pub fn new(memory: &'t [Block<C>], length: usize, order: usize) -> Place<'t, C> {
-        Place { memory, length, order, next: Cell::new(0) }
+    pub fn new(memory: &'t [Block<C>], length: usize, order: usize) -> OrderMemory<'t, C> {
+        OrderMemory { memory, length, order, next: Cell::new(0) }
     }
 
     /// A variable: its coefficient of this order.
@@ -118,7 +118,7 @@ impl<'t, C: Coefficient> Place<'t, C> {
 /// Coefficients of a series. `START` at order 0, where functions are evaluated; from order 1 on there are recurrences.
 #[derive(Clone, Copy, Debug)]
 pub struct Jet<'t, C: Copy, const START: bool> {
-    place: &'t Place<'t, C>,
+    place: &'t OrderMemory<'t, C>,
     coefficient: C,
 }
 

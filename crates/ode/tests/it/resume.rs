@@ -2,14 +2,14 @@
 
 use crate::problems::{general_methods, oscillator, solve};
 use ode::{
-    Control, Failure, Group, Measure, Method, Observer, Pace, Place, Problem, ResumePoint, Statistics, Step, System,
-    integrate, resume,
+    Control, Failure, Group, Measure, Method, Observer, Pace, Problem, ResumePoint, Statistics, Step, StepPosition,
+    System, integrate, resume,
 };
 use std::ops::{ControlFlow, Range};
 
 /// Keeps every mark it is shown.
 #[derive(Default)]
-struct Keeper(Vec<(Place, Statistics, Vec<f64>)>);
+struct Keeper(Vec<(StepPosition, Statistics, Vec<f64>)>);
 
 impl Observer for Keeper {
     fn after(&mut self, _: &mut Step<'_>) -> ControlFlow<()> {
@@ -41,12 +41,12 @@ fn a_run_resumed_from_any_mark_has_the_same_bits_and_counts() {
 
 /// A mark of adaptive steps that outlives them.
 struct Kept {
-    place: Place,
+    place: StepPosition,
     statistics: Statistics,
     state: Vec<f64>,
     rates: Vec<f64>,
-    carry: Vec<f64>,
-    /// Time and its carry, the next step, the last error, the unit.
+    compensation: Vec<f64>,
+    /// Time and its compensation, the next step, the last error, the unit.
     numbers: ([f64; 2], f64, f64, f64),
 }
 
@@ -66,7 +66,7 @@ impl Observer for PaceKeeper {
             statistics: mark.statistics.clone(),
             state: mark.state.to_vec(),
             rates: pace.rates.to_vec(),
-            carry: pace.carry.to_vec(),
+            compensation: pace.compensation.to_vec(),
             numbers: (pace.time, pace.step, pace.error, pace.unit),
         });
     }
@@ -85,7 +85,7 @@ fn adaptive_steps_resumed_from_any_mark_have_the_same_bits_and_counts() {
         // a few of the many marks: each run from one of them goes on to the end
         for kept in keeper.0.iter().step_by(keeper.0.len().div_ceil(8)).chain(keeper.0.last()) {
             let (time, step, error, unit) = kept.numbers;
-            let pace = Pace { rates: &kept.rates, carry: &kept.carry, time, step, error, unit };
+            let pace = Pace { rates: &kept.rates, compensation: &kept.compensation, time, step, error, unit };
             let mark =
                 ResumePoint { place: kept.place, statistics: &kept.statistics, state: &kept.state, pace: Some(pace) };
             let resumed = resume(&problem, &mark, &mut PaceKeeper::default()).expect("nothing stands in the way");
@@ -125,10 +125,11 @@ impl<S: System> System for Wide<S> {
 #[test]
 fn steps_are_resumed_from_marks_of_their_own_kind_alone() {
     let (system, state) = (oscillator(), [1.0, 0.0]);
-    let pace = Pace { rates: &[0.0, -1.0], carry: &[0.0; 2], time: [0.0; 2], step: 0.1, error: 1.0, unit: 1.0 };
+    let pace = Pace { rates: &[0.0, -1.0], compensation: &[0.0; 2], time: [0.0; 2], step: 0.1, error: 1.0, unit: 1.0 };
     for (control, pace) in [(Control::Adaptive { tolerance: 1e-9 }, None), (Control::Fixed { step: 0.1 }, Some(pace))] {
         let problem = Problem { system: &system, start: &state, begin: 0.0, end: 1.0, method: Method::Dop853, control };
-        let mark = ResumePoint { place: Place::default(), statistics: &Statistics::default(), state: &state, pace };
+        let mark =
+            ResumePoint { place: StepPosition::default(), statistics: &Statistics::default(), state: &state, pace };
         assert_eq!(resume(&problem, &mark, &mut Keeper::default()), Err(Failure::NotResumable));
     }
 }

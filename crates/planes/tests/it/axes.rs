@@ -45,7 +45,7 @@ fn axes_that_are_no_parameters_are_named_with_what_is_valid() {
         (replace(&scene, "[sweep]", "[swept]"), vec!["swept"]),
     ];
     for (scene, told) in cases {
-        let place = Place::new(&scene);
+        let place = SceneFolder::new(&scene);
         let told: Vec<&str> = ["scene.toml:"].into_iter().chain(told).collect();
         place.fail("out", &[], 2, &told);
         assert!(!place.path("out").exists(), "{told:?}");

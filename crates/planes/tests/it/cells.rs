@@ -4,7 +4,7 @@ use super::*;
 
 #[test]
 fn every_split_order_and_number_of_threads_gives_the_same_bytes() {
-    let place = Place::new(PLANE);
+    let place = SceneFolder::new(PLANE);
     place.succeed("one", &["--jobs", "1"]);
     let expected = place.results("one");
     let classes = place.read("one/summary.json");
@@ -30,7 +30,7 @@ fn every_split_order_and_number_of_threads_gives_the_same_bytes() {
 
 #[test]
 fn filled_cells_have_the_outcome_that_their_run_has() {
-    let place = Place::new(&replace(PLANE, "cells = 60", "cells = 30"));
+    let place = SceneFolder::new(&replace(PLANE, "cells = 60", "cells = 30"));
     place.succeed("refined", &[]);
     place.edit("scene.toml", |text| format!("{text}refine = false\n"));
     place.succeed("every", &[]);
@@ -55,7 +55,7 @@ fn filled_cells_have_the_outcome_that_their_run_has() {
 
 #[test]
 fn a_dry_run_computes_nothing_and_names_the_commands() {
-    let place = Place::new(&small());
+    let place = SceneFolder::new(&small());
     let said = place.succeed("out", &["--dry-run"]);
     for word in ["900 cells", "4 tiles", "--shard", "--gather"] {
         assert!(said.contains(word), "{said}");

@@ -4,7 +4,7 @@ use super::*;
 
 #[test]
 fn a_killed_sweep_goes_on_where_it_was() {
-    let place = Place::new(PLANE);
+    let place = SceneFolder::new(PLANE);
     place.succeed("whole", &[]);
     let part = "killed/shards/1-of-1.part";
     for cells in [1, 200, 400] {
@@ -24,7 +24,7 @@ fn a_killed_sweep_goes_on_where_it_was() {
 
 #[test]
 fn a_journal_cut_off_anywhere_is_read_as_far_as_it_is_whole() {
-    let place = Place::new(&small());
+    let place = SceneFolder::new(&small());
     place.succeed("whole", &[]);
     let expected = place.results("whole");
     place.kill("cut", &["--jobs", "1"], "cut/shards/1-of-1.part", 20);
@@ -42,7 +42,7 @@ fn a_journal_cut_off_anywhere_is_read_as_far_as_it_is_whole() {
 
 #[test]
 fn cells_of_a_journal_are_believed_not_computed_again() {
-    let place = Place::new(&small());
+    let place = SceneFolder::new(&small());
     place.kill("known", &["--jobs", "1"], "known/shards/1-of-1.part", 20);
     // a number that no run gives shows that the journal was read
     let line = |text: &str| text.lines().find(|line| line.contains(",run,")).expect("a run").to_owned();
@@ -59,7 +59,7 @@ fn cells_of_a_journal_are_believed_not_computed_again() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_is_named_and_loses_nothing() {
-    let place = Place::new(&small());
+    let place = SceneFolder::new(&small());
     place.succeed("whole", &[]);
     // /dev/full takes no byte
     std::fs::create_dir_all(place.path("full/shards")).expect("a folder");
@@ -84,7 +84,7 @@ fn a_full_disk_is_named_and_loses_nothing() {
 /// The folder of the results is made, with those above it.
 #[test]
 fn a_folder_that_cannot_be_made_is_named() {
-    let place = Place::new(&small());
+    let place = SceneFolder::new(&small());
     place.write("file", "in the way");
     place.fail("file", &[], 4, &["file"]);
     assert_eq!(place.read("file"), "in the way");

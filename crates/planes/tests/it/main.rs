@@ -48,7 +48,7 @@ fn replace(text: &str, from: &str, to: &str) -> String {
 }
 
 /// A scene in a folder of its own, in which all its sweeps are.
-struct Place {
+struct SceneFolder {
     folder: TempDir,
 }
 
@@ -59,9 +59,9 @@ struct Ended {
     err: String,
 }
 
-impl Place {
-    fn new(scene: &str) -> Place {
-        let place = Place { folder: tempfile::tempdir().expect("a scratch folder") };
+impl SceneFolder {
+    fn new(scene: &str) -> SceneFolder {
+        let place = SceneFolder { folder: tempfile::tempdir().expect("a scratch folder") };
         place.write("scene.toml", scene);
         place
     }

@@ -4,7 +4,7 @@ use super::*;
 
 #[test]
 fn a_shard_is_the_same_wherever_and_however_often_it_is_computed() {
-    let place = Place::new(&small());
+    let place = SceneFolder::new(&small());
     for out in ["here", "there"] {
         place.succeed(out, &["--shard", "1/2"]);
     }
@@ -28,7 +28,7 @@ fn a_shard_is_the_same_wherever_and_however_often_it_is_computed() {
 
 #[test]
 fn a_damaged_shard_is_named_with_its_line() {
-    let place = Place::new(&small());
+    let place = SceneFolder::new(&small());
     place.succeed("out", &["--shard", "1/1"]);
     let shard = "out/shards/1-of-1.csv";
     let sound = place.read(shard);
@@ -73,7 +73,7 @@ fn a_damaged_shard_is_named_with_its_line() {
 
 #[test]
 fn missing_shards_are_named() {
-    let place = Place::new(&small());
+    let place = SceneFolder::new(&small());
     place.fail("out", &["--gather"], 3, &["out", "no shard"]);
     place.succeed("out", &["--shard", "2/4"]);
     place.fail("out", &["--gather"], 3, &["1/4, 3/4, 4/4", "--shard"]);
@@ -90,7 +90,7 @@ fn missing_shards_are_named() {
 
 #[test]
 fn shards_of_another_scene_program_or_split_are_refused() {
-    let place = Place::new(&small());
+    let place = SceneFolder::new(&small());
     place.succeed("out", &["--shard", "1/2"]);
     let scene = place.read("scene.toml");
     let other = replace(&scene, "shift = 0.1", "shift = 0.2");
@@ -133,7 +133,7 @@ fn shards_of_another_scene_program_or_split_are_refused() {
 
 #[test]
 fn shards_beyond_the_split_are_refused() {
-    let place = Place::new(&small());
+    let place = SceneFolder::new(&small());
     for shard in ["0/3", "3/2", "1/0", "-1/3", "1", "a/b", "1/3/5", "1.5/3", "", "1/1000001"] {
         let ended = place.sweep("out", &[&format!("--shard={shard}")]);
         assert_eq!(ended.code, Some(2), "{shard}: {}", ended.err);
@@ -147,7 +147,7 @@ fn shards_beyond_the_split_are_refused() {
 
 #[test]
 fn shards_that_disagree_are_not_merged() {
-    let place = Place::new(&small());
+    let place = SceneFolder::new(&small());
     for shard in ["1/2", "2/2"] {
         place.succeed("out", &["--shard", shard]);
     }

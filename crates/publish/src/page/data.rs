@@ -41,7 +41,7 @@ pub fn has_curves(figure: &Figure) -> bool {
 }
 
 fn panels(figure: &Figure) -> impl Iterator<Item = &Panel> {
-    figure.recipe.as_ref().map_or(&[][..], |recipe| &recipe.panels).iter()
+    figure.scene_file.as_ref().map_or(&[][..], |scene_file| &scene_file.panels).iter()
 }
 
 /// Collects all numbers.
@@ -52,14 +52,14 @@ pub fn collect(source: &Source<'_>) -> Result<Data, Failure> {
     let mut numbers = Numbers::default();
     let (mut maps, mut curves) = (Vec::new(), Vec::new());
     for figure in &source.figures {
-        let Ok(recipe) = &figure.recipe else { continue };
+        let Ok(scene_file) = &figure.scene_file else { continue };
         if has_maps(figure) {
-            let limit = colors(source, figure, recipe)?.limit();
-            for panel in &recipe.panels {
-                maps.push(map(source, figure, (recipe, panel), limit, &mut numbers)?);
+            let limit = colors(source, figure, scene_file)?.limit();
+            for panel in &scene_file.panels {
+                maps.push(map(source, figure, (scene_file, panel), limit, &mut numbers)?);
             }
         } else if has_curves(figure) {
-            curves.extend(figure_curves(source, figure, recipe, &mut numbers)?);
+            curves.extend(figure_curves(source, figure, scene_file, &mut numbers)?);
         }
     }
     let ring = ring(source, &mut numbers)?;
@@ -73,9 +73,9 @@ pub fn collect(source: &Source<'_>) -> Result<Data, Failure> {
 }
 
 /// The colours that a figure's maps share.
-fn colors(source: &Source<'_>, figure: &Figure, recipe: &SceneFile) -> Result<ColorScale, Failure> {
+fn colors(source: &Source<'_>, figure: &Figure, scene_file: &SceneFile) -> Result<ColorScale, Failure> {
     let mut values = Vec::new();
-    for panel in &recipe.panels {
+    for panel in &scene_file.panels {
         let table = source.table(&format!("{}/{}", figure.id, panel.name))?;
         values.extend(table.rows().filter_map(|row| row.get(2).copied()));
     }
@@ -85,7 +85,7 @@ fn colors(source: &Source<'_>, figure: &Figure, recipe: &SceneFile) -> Result<Co
 fn map(
     source: &Source<'_>,
     figure: &Figure,
-    (recipe, panel): (&SceneFile, &Panel),
+    (scene_file, panel): (&SceneFile, &Panel),
     limit: f64,
     numbers: &mut Numbers,
 ) -> Result<Value, Failure> {
@@ -101,7 +101,7 @@ fn map(
     let column = &table.columns[2];
     Ok(json!({
         "figure": figure.id, "panel": panel.name.replace('_', " "), "id": id, "table": format!("data/{name}.csv"),
-        "difference": scenes::difference(recipe, panel), "x": x, "y": y, "clip": limit,
+        "difference": scenes::difference(scene_file, panel), "x": x, "y": y, "clip": limit,
         "value": { "symbol": source.symbol(&name, column), "words": source.words(&name, column) },
     }))
 }
@@ -125,7 +125,7 @@ fn axis(source: &Source<'_>, table: &str, panel: &Panel, which: &str) -> Result<
 fn figure_curves(
     source: &Source<'_>,
     figure: &Figure,
-    recipe: &SceneFile,
+    scene_file: &SceneFile,
     numbers: &mut Numbers,
 ) -> Result<Vec<Value>, Failure> {
     let mut curves = Vec::new();
@@ -137,10 +137,10 @@ fn figure_curves(
         let (abscissae, ordinates) = (column(&table, &x)?, column(&table, &y)?);
         let id = format!("values-{}-{short}", figure.id);
         numbers.singles(&id, table.len().max(1), abscissae.into_iter().chain(ordinates));
-        let panel = recipe.panels.iter().find(|panel| panel.name == short);
+        let panel = scene_file.panels.iter().find(|panel| panel.name == short);
         curves.push(json!({
             "figure": figure.id, "panel": short.replace('_', " "), "id": id, "table": file, "rows": table.len(),
-            "difference": panel.map_or(String::new(), |panel| scenes::difference(recipe, panel)),
+            "difference": panel.map_or(String::new(), |panel| scenes::difference(scene_file, panel)),
             "x": { "symbol": symbol(&x), "words": source.words(&name, &x) },
             "y": { "symbol": symbol(&y), "words": source.words(&name, &y) },
         }));
@@ -163,9 +163,9 @@ fn ring(source: &Source<'_>, numbers: &mut Numbers) -> Result<Value, Failure> {
     let steps = (count..positions.len()).map(|row| positions[row] - positions[row - count]);
     numbers.shorts("ring-steps", count, steps)?;
     numbers.shorts("ring-speeds", count, speeds.iter().copied())?;
-    let recipe =
-        source.figures.iter().find(|figure| figure.id == "fig11").and_then(|figure| figure.recipe.as_ref().ok());
-    let length = recipe.and_then(|recipe| scenes::shared(recipe).get("ring.length")?.parse::<f64>().ok());
+    let scene_file =
+        source.figures.iter().find(|figure| figure.id == "fig11").and_then(|figure| figure.scene_file.as_ref().ok());
+    let length = scene_file.and_then(|scene_file| scenes::shared(scene_file).get("ring.length")?.parse::<f64>().ok());
     let length = length.ok_or_else(|| Failure::failed("figure 11: no length of the ring"))?;
     Ok(json!({
         "pedestrians": count, "samples": times.len() / count, "start": positions[..count], "unit": STEP,

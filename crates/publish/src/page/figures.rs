@@ -21,18 +21,19 @@ const DIGITS: usize = 16;
 /// # Errors
 /// A picture, or the words for it, are missing.
 pub fn shown(source: &Source<'_>, figure: &Figure) -> Result<Value, Failure> {
-    let recipe = figure.recipe.as_ref().ok();
+    let scene_file = figure.scene_file.as_ref().ok();
     let cells = |[symbol, value, panel, key, origin]: [String; 5]| {
         html::row([escape(&symbol), escape(&value), escape(&panel), code(&key), prose(&origin)])
     };
-    let parameters = recipe.map_or(Vec::new(), |recipe| scenes::rows(recipe).into_iter().map(cells).collect());
+    let parameters =
+        scene_file.map_or(Vec::new(), |scene_file| scenes::rows(scene_file).into_iter().map(cells).collect());
     Ok(context! {
         id => &figure.id, name => name(figure), title => figure.title(), label => figure.label(),
         picture => picture(source, figure)?, caption => Value::from_safe_string(caption(source, figure)),
         explorer => explorer(figure), parameters => parameters, outputs => outputs_rows(source, figure),
         program => Paths::figure_folder(&figure.slug) + "main.rs", scene => Paths::scene(&figure.slug),
         command => format!("cargo xtask figures {}", figure.id),
-        source => recipe.map_or("", |recipe| recipe.source.as_str()),
+        source => scene_file.map_or("", |scene_file| scene_file.source.as_str()),
     })
 }
 
@@ -64,8 +65,8 @@ fn size(png: &[u8]) -> Option<(u32, u32)> {
 
 fn caption(source: &Source<'_>, figure: &Figure) -> String {
     let mut caption = String::new();
-    if let Ok(recipe) = &figure.recipe {
-        let shared = scenes::shared(recipe);
+    if let Ok(scene_file) = &figure.scene_file {
+        let shared = scenes::shared(scene_file);
         let law = shared.get("law.kind").map(|kind| format!("{} law", capital(&escape(kind))));
         let values = shared.iter().filter(|(key, _)| {
             ["law.", "ring.", "start.", "uniform."].iter().any(|start| key.starts_with(start)) && *key != "law.kind"
@@ -75,8 +76,8 @@ fn caption(source: &Source<'_>, figure: &Figure) -> String {
         if !all.is_empty() {
             let _ = write!(caption, "{}. ", all.join(", "));
         }
-        for panel in recipe.panels.iter().filter(|_| recipe.panels.len() > 1 && !figure.is_supplement()) {
-            let difference = scenes::difference(recipe, panel);
+        for panel in scene_file.panels.iter().filter(|_| scene_file.panels.len() > 1 && !figure.is_supplement()) {
+            let difference = scenes::difference(scene_file, panel);
             if !difference.is_empty() {
                 let _ = write!(caption, "{}: {}. ", capital(&panel.name.replace('_', " ")), escape(&difference));
             }

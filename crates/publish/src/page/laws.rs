@@ -18,8 +18,8 @@ const GALLERY: &str = "scenes/gallery";
 pub fn presets(source: &Source<'_>) -> Result<Value, Failure> {
     let mut groups = Vec::new();
     let of_paper = source.figures.iter().filter(|figure| !figure.is_supplement()).filter_map(|figure| {
-        let recipe = figure.recipe.as_ref().ok()?;
-        Some(runs(recipe, &format!("{}: {}", name(figure), recipe.title), Some(&figure.id)))
+        let scene_file = figure.scene_file.as_ref().ok()?;
+        Some(runs(scene_file, &format!("{}: {}", name(figure), scene_file.title), Some(&figure.id)))
     });
     groups.push(json!({ "name": "Runs of the paper", "scenes": of_paper.flatten().collect::<Vec<Value>>() }));
     let mut files: Vec<_> = std::fs::read_dir(source.paths.root.join(GALLERY))
@@ -30,16 +30,16 @@ pub fn presets(source: &Source<'_>) -> Result<Value, Failure> {
     files.sort();
     let mut gallery = Vec::new();
     for file in files {
-        let recipe = scene_file::read(&file).map_err(|error| Failure::failed(error.to_string()))?;
-        gallery.extend(runs(&recipe, &recipe.title, None));
+        let scene_file = scene_file::read(&file).map_err(|error| Failure::failed(error.to_string()))?;
+        gallery.extend(runs(&scene_file, &scene_file.title, None));
     }
     groups.push(json!({ "name": "Gallery of published laws", "scenes": gallery }));
     Ok(Value::Array(groups))
 }
 
 /// `figure`: the figure of the paper to which the run belongs.
-fn runs(recipe: &SceneFile, title: &str, figure: Option<&str>) -> Vec<Value> {
-    let panels: Vec<&Panel> = recipe.panels.iter().filter(|panel| panel.kind == Kind::Run).collect();
+fn runs(scene_file: &SceneFile, title: &str, figure: Option<&str>) -> Vec<Value> {
+    let panels: Vec<&Panel> = scene_file.panels.iter().filter(|panel| panel.kind == Kind::Run).collect();
     let one = |panel: &&Panel| {
         let name = match panels.len() {
             1 => title.to_owned(),
@@ -47,7 +47,7 @@ fn runs(recipe: &SceneFile, title: &str, figure: Option<&str>) -> Vec<Value> {
         };
         let table = |key: &str| panel.tables.section(key).map_or_else(Vec::new, entries);
         json!({
-            "name": name, "title": recipe.title, "source": recipe.source, "law": table("law"), "ring": table("ring"),
+            "name": name, "title": scene_file.title, "source": scene_file.source, "law": table("law"), "ring": table("ring"),
             "start": table("start"), "uniform": table("uniform"), "run": table("run"),
             "origin": figure.map(|figure| format!("{figure} {}", panel.name)),
         })

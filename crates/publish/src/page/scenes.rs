@@ -21,8 +21,8 @@ fn plain(value: &str) -> String {
 }
 
 /// The values that all panels share.
-pub fn shared(recipe: &SceneFile) -> BTreeMap<String, String> {
-    let mut panels = recipe.panels.iter().map(values);
+pub fn shared(scene_file: &SceneFile) -> BTreeMap<String, String> {
+    let mut panels = scene_file.panels.iter().map(values);
     let mut shared = panels.next().unwrap_or_default();
     for other in panels {
         shared.retain(|key, value| other.get(key) == Some(value));
@@ -31,8 +31,8 @@ pub fn shared(recipe: &SceneFile) -> BTreeMap<String, String> {
 }
 
 /// What distinguishes a panel from the others: `μ = 0.45`; empty for a single panel.
-pub fn difference(recipe: &SceneFile, panel: &Panel) -> String {
-    let shared = shared(recipe);
+pub fn difference(scene_file: &SceneFile, panel: &Panel) -> String {
+    let shared = shared(scene_file);
     let mine = values(panel);
     let own = mine.iter().filter(|(key, _)| !shared.contains_key(*key) && is_parameter(key));
     own.map(|(key, value)| equation(key, value)).collect::<Vec<_>>().join(", ")
@@ -64,17 +64,17 @@ pub fn name(key: &str) -> String {
 }
 
 /// A row for each value: symbol, value, panel, key, origin.
-pub fn rows(recipe: &SceneFile) -> Vec<[String; 5]> {
-    let shared = shared(recipe);
+pub fn rows(scene_file: &SceneFile) -> Vec<[String; 5]> {
+    let shared = shared(scene_file);
     let origin = |key: &str| {
-        let found = recipe.origin.iter().find(|(name, _)| name == key);
+        let found = scene_file.origin.iter().find(|(name, _)| name == key);
         found.map_or(String::new(), |(_, origin)| origin.clone())
     };
     let row = |panel: &str, (key, value): (&String, &String)| {
         [name(key), value.clone(), panel.to_owned(), key.clone(), origin(key)]
     };
     let mut rows: Vec<[String; 5]> = shared.iter().map(|pair| row("all", pair)).collect();
-    for panel in &recipe.panels {
+    for panel in &scene_file.panels {
         let mine = values(panel);
         let own = mine.iter().filter(|(key, _)| !shared.contains_key(*key));
         rows.extend(own.map(|pair| row(&panel.name.replace('_', " "), pair)));

@@ -6,7 +6,7 @@ use checkout::failure::Failure;
 use checkout::paths::Paths;
 use claims::entry::Measure;
 use claims::measure::{each, evaluate};
-use claims::source::Place;
+use claims::source::ClaimLocation;
 use claims::tables::Tables;
 use claims::uncertain::Uncertain;
 use claims::words;
@@ -23,7 +23,7 @@ pub fn collect(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure>
     let entries: toml::Table = toml::from_str(&text).map_err(|error| Failure::Usage(format!("{FILE}: {error}")))?;
     let tables = Tables::new(source.paths, source.paths)?;
     for (name, entry) in entries {
-        let place = Place(format!("{FILE}, {name}"));
+        let place = ClaimLocation(format!("{FILE}, {name}"));
         match entry {
             toml::Value::Float(number) => all.exact(&name, number, FILE),
             toml::Value::Integer(number) => all.exact(&name, number as f64, FILE),
@@ -39,7 +39,7 @@ fn add(
     name: &str,
     mut entry: toml::Value,
     tables: &Tables<'_>,
-    place: &Place,
+    place: &ClaimLocation,
 ) -> Result<(), Failure> {
     let digits = entry.as_table_mut().and_then(|table| table.remove("digits")).and_then(|digits| digits.as_integer());
     let measure: Measure = entry.try_into().map_err(|error: toml::de::Error| place.fail("", error.message()))?;

@@ -44,7 +44,7 @@ fn arithmetic(figure: &Figure, panels: &BTreeMap<String, BTreeMap<String, f64>>,
 }
 
 fn panels(figure: &Figure) -> BTreeMap<String, BTreeMap<String, f64>> {
-    let panels = figure.recipe.as_ref().map_or(&[][..], |recipe| &recipe.panels);
+    let panels = figure.scene_file.as_ref().map_or(&[][..], |scene_file| &scene_file.panels);
     let flat = |section: &Section| {
         let mut numbers = BTreeMap::new();
         flatten(section, "", &mut numbers);

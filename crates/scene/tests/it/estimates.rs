@@ -187,8 +187,8 @@ fn figure_4(mu: f64, t_end: f64) -> Scene {
          [start]\nshift = 1e-4\n[run]\nt_end = {t_end:?}\nsample = 1.0\nmethod = \"taylor\"\ntolerance = 1e-12\n\
          record = \"std\"\n"
     );
-    let recipe = files::scene_file::parse("my.toml", &text).expect("a scene");
-    read("my.toml", &recipe.panels[0].tables).expect("a run")
+    let scene_file = files::scene_file::parse("my.toml", &text).expect("a scene");
+    read("my.toml", &scene_file.panels[0].tables).expect("a run")
 }
 
 /// Both numbers are there and no more than so many times apart.

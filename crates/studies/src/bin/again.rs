@@ -42,8 +42,8 @@ fn main() -> ExitCode {
 }
 
 fn again(arguments: &Arguments) -> Result<(), Failure> {
-    let recipe = scene_file::read(&arguments.scene)?;
-    let sweep = sweep::read(&recipe.file, &recipe.panel(&arguments.panel)?.tables)?;
+    let scene_file = scene_file::read(&arguments.scene)?;
+    let sweep = sweep::read(&scene_file.file, &scene_file.panel(&arguments.panel)?.tables)?;
     let name = arguments.table.display().to_string();
     let text = std::fs::read_to_string(&arguments.table).map_err(|error| Failure::input(format!("{name}: {error}")))?;
     let cells = cells_of(&name, &text, &sweep)?;

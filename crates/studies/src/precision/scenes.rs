@@ -44,8 +44,8 @@ impl Known {
     /// # Errors
     /// The scene file cannot be read or is invalid.
     pub fn scene(&self, figures: &Path, solution: &[Instant]) -> Result<Scene, Failure> {
-        let recipe = scene_file::read(&figures.join(self.figure).join("scene.toml"))?;
-        let scene = scene::run::read(&recipe.file, &recipe.panel(self.panel)?.tables)?;
+        let scene_file = scene_file::read(&figures.join(self.figure).join("scene.toml"))?;
+        let scene = scene::run::read(&scene_file.file, &scene_file.panel(self.panel)?.tables)?;
         let t_end = solution.last().map_or(0.0, |instant| instant.time);
         Ok(Scene { t_end, keeps_trajectories: false, ..scene })
     }
