@@ -4,7 +4,7 @@ use crate::failure::{Failure, exit};
 use clap::Parser;
 use files::scene_file::{self, Kind, Panel, SceneFile};
 use files::table::{Cell, Sheet, Table};
-use files::write::{atomic, with_path};
+use files::write::{atomic, make_folder, with_path};
 use plot::Picture;
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
@@ -69,7 +69,7 @@ fn run(
     let scene_file = scene_file::read(&arguments.scene)?;
     let mut job = Job { scene_file, arguments, report: Map::new() };
     for folder in [&job.arguments.tables, &job.arguments.pictures] {
-        std::fs::create_dir_all(folder).map_err(|error| with_path(error, folder))?;
+        make_folder(folder)?;
     }
     if !job.arguments.draw_only {
         tables(&mut job)?;

@@ -5,7 +5,7 @@ use crate::panels::{Labels, map_panel};
 use crate::uniform;
 use clap::Parser;
 use files::scene_file::{self, Kind, SceneFile};
-use files::write::{atomic_all, with_path};
+use files::write::{atomic_all, can_be_folder, make_folder};
 use plot::style::COLUMN_WIDTH;
 use plot::{ColorScale, Picture};
 use scene::map::{Computed, Value};
@@ -37,6 +37,7 @@ pub struct Arguments {
 /// A bad scene (nothing is written), or a file that cannot be written.
 pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     let parsed = scene_file::read(&arguments.scene)?;
+    arguments.out.iter().try_for_each(|folder| can_be_folder(folder))?;
     let panels: Vec<_> = parsed.panels.iter().filter(|panel| panel.kind == Kind::Map).collect();
     if panels.is_empty() {
         return points(&parsed, arguments);
@@ -66,7 +67,7 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
         }
     }
     if let Some(folder) = &arguments.out {
-        std::fs::create_dir_all(folder).map_err(|error| with_path(error, folder))?;
+        make_folder(folder)?;
         atomic_all(&files)?;
     }
     print(&if arguments.json {

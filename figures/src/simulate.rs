@@ -89,6 +89,7 @@ fn methods() -> String {
 /// that cannot be written.
 pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     let scene = read_scene(arguments)?;
+    arguments.out.iter().try_for_each(|folder| files::write::can_be_folder(folder))?;
     let is_checked = !(arguments.no_check || arguments.check);
     let mut ended = arguments.care.run(&scene, is_checked)?;
     let errors = is_checked.then(|| ended.checked(&scene, &mut (), &mut arguments.care.judging()));
@@ -103,7 +104,7 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
         if !arguments.tables_only {
             files.extend(pictures(folder, &scene, &outcome, errors)?);
         }
-        std::fs::create_dir_all(folder).map_err(|error| files::write::with_path(error, folder))?;
+        files::write::make_folder(folder)?;
     }
     files.extend(arguments.state.iter().map(|file| (file.clone(), state(&outcome).to_csv())));
     atomic_all(&files)?;

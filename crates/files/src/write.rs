@@ -89,6 +89,29 @@ fn not_a_file(kind: fs::FileType) -> Option<&'static str> {
     kind.is_dir().then_some("is a folder")
 }
 
+/// Makes a folder and those above it, where they are missing.
+///
+/// # Errors
+/// As [`can_be_folder`]; or the operating system's, with the path in its text.
+pub fn make_folder(path: &Path) -> io::Result<()> {
+    can_be_folder(path)?;
+    fs::create_dir_all(path).map_err(|error| with_path(error, path))
+}
+
+/// Whether a folder of this name is there or can be made, asked before a long run rather than after it.
+///
+/// # Errors
+/// Invalid input: the name, or one above it, is that of something else.
+pub fn can_be_folder(path: &Path) -> io::Result<()> {
+    // with a file above it a name is neither there nor missing
+    let Some((at, data)) = path.ancestors().find_map(|at| Some((at, fs::metadata(at).ok()?))) else { return Ok(()) };
+    if data.is_dir() {
+        return Ok(());
+    }
+    let problem = "is no folder; the name of a folder is needed, which is made if it is missing";
+    Err(with_path(io::Error::new(io::ErrorKind::InvalidInput, problem), at))
+}
+
 /// The name of a draft of `name`: no other process has this number, and no other draft of this process that count.
 pub fn draft_name(name: &str) -> String {
     static COUNT: AtomicU64 = AtomicU64::new(0);

@@ -7,7 +7,7 @@ use checkout::paths::Paths;
 use checkout::print;
 use clap::{Parser, ValueEnum};
 use files::scene_file;
-use files::write::{self, Draft, with_path};
+use files::write::{self, Draft, make_folder};
 use interchange::frames::Frames;
 use interchange::header::{Header, RATES};
 use interchange::{sqlite, text};
@@ -98,7 +98,7 @@ fn run(arguments: &Arguments) -> Result<(), Failure> {
         }
     };
     let frames = || Frames::open(&table, header.pedestrians, header.interval());
-    std::fs::create_dir_all(&arguments.out).map_err(|error| with_path(error, &arguments.out))?;
+    make_folder(&arguments.out)?;
     let mut drafts = Vec::new();
     if arguments.format != Some(Format::Jupedsim) {
         let draft = Draft::new(&arguments.out.join("trajectories.txt"))?;

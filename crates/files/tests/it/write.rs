@@ -1,6 +1,6 @@
 //! Writing leaves either the old file or the whole new one, and nothing else.
 
-use files::write::{Draft, atomic, atomic_all, draft_name, is_draft_name, sha256, sha256_file};
+use files::write::{Draft, atomic, atomic_all, draft_name, is_draft_name, make_folder, sha256, sha256_file};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -39,6 +39,22 @@ fn writing_makes_one_file_and_replaces_it() {
         atomic(&file, contents).expect("it can be written");
         assert_eq!(fs::read(&file).expect("the file"), contents);
         assert_eq!(folder.names(), ["table.csv"]);
+    }
+}
+
+#[test]
+fn a_folder_is_not_made_in_place_of_a_file() {
+    let folder = Folder::new("made");
+    let file = folder.0.join("table.csv");
+    fs::write(&file, b"old").expect("a file");
+    for place in [file.clone(), file.join("inner").join("more")] {
+        let error = make_folder(&place).expect_err("a file is in the way");
+        assert_eq!(error.kind(), std::io::ErrorKind::InvalidInput);
+        assert!(error.to_string().starts_with(&format!("{}: ", file.display())), "{error}");
+    }
+    assert_eq!(fs::read(&file).expect("the file"), b"old");
+    for _ in 0..2 {
+        make_folder(&folder.0.join("one").join("two")).expect("nothing is in the way");
     }
 }
 

@@ -7,7 +7,7 @@ mod work;
 
 use figures::failure::{Failure, print};
 use files::scene_file::{self, Kind, SceneFile};
-use files::write::{sha256, sha256_file, with_path};
+use files::write::{make_folder, sha256, sha256_file};
 use journal::Shard;
 use serde_json::json;
 use std::path::PathBuf;
@@ -88,7 +88,7 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     }
     let shard = Shard { index, count };
     let shards = task.out.join("shards");
-    std::fs::create_dir_all(&shards).map_err(|error| with_path(error, &shards))?;
+    make_folder(&shards)?;
     let computed = work::run(&task, shard.tiles(&task), jobs, &shard)?;
     match arguments.shard {
         None => gather::gather(&task, arguments),

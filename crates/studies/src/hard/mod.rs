@@ -19,7 +19,7 @@ mod widening;
 
 use figures::failure::{Failure, print};
 use figures::job::finite_csv;
-use files::write::{atomic, with_path};
+use files::write::{atomic, make_folder};
 use rows::Rows;
 use std::path::PathBuf;
 
@@ -66,7 +66,7 @@ const CASES: [(&str, Compute); 12] = [
 /// A reference run failed, a table holds a number that is not finite, or a file cannot be written.
 pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     let wanted = |name: &str| arguments.only.as_ref().is_none_or(|only| name.starts_with(only.as_str()));
-    std::fs::create_dir_all(&arguments.out).map_err(|error| with_path(error, &arguments.out))?;
+    make_folder(&arguments.out)?;
     for (_, compute) in CASES.into_iter().filter(|(name, _)| wanted(name)) {
         for (name, rows) in compute(arguments.quick)? {
             atomic(&arguments.out.join(format!("{name}.csv")), &finite_csv(name, &rows)?)?;

@@ -10,7 +10,7 @@ pub mod scenes;
 use crate::hard::rows::{Rows, row};
 use figures::failure::{Failure, print};
 use figures::job::finite_csv;
-use files::write::{atomic, with_path};
+use files::write::{atomic, make_folder};
 use math::double_double::DoubleDouble;
 use ode::{Control, Method};
 use run::{Measured, measure};
@@ -63,7 +63,7 @@ impl Arguments {
 pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     let wanted = |known: &&Known| arguments.only.as_ref().is_none_or(|only| known.name == only);
     for folder in [Some(&arguments.out), arguments.seconds.as_ref()].into_iter().flatten() {
-        std::fs::create_dir_all(folder).map_err(|error| with_path(error, folder))?;
+        make_folder(folder)?;
     }
     for known in SCENES.iter().filter(wanted) {
         let problem = Problem::read(known, &arguments.scenes, &arguments.solutions)?;

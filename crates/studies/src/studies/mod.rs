@@ -13,7 +13,7 @@ use crate::hard::Tables;
 use crate::hard::run::figure_4;
 use figures::failure::{Failure, print};
 use figures::job::finite_csv;
-use files::write::{atomic, with_path};
+use files::write::{atomic, make_folder};
 use heun::{Adding, Sum};
 use jam::laws::Model;
 use jam::ring::{Ring, Start};
@@ -72,7 +72,7 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
         _ => Extent::Usual,
     };
     let wanted = |name: &str| arguments.only.as_ref().is_none_or(|only| name.starts_with(only.as_str()));
-    std::fs::create_dir_all(&arguments.out).map_err(|error| with_path(error, &arguments.out))?;
+    make_folder(&arguments.out)?;
     for (_, compute) in STUDIES.into_iter().filter(|(name, _)| wanted(name)) {
         for (name, rows) in compute(extent, &arguments.solutions)? {
             atomic(&arguments.out.join(format!("{name}.csv")), &finite_csv(name, &rows)?)?;
