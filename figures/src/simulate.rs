@@ -4,6 +4,7 @@ use crate::checkpoint::CheckpointOptions;
 use crate::failure::{Failure, print};
 use crate::panels::trajectories;
 use crate::uniform;
+use files::reader::Section;
 use files::scene_file::{self, Kind};
 use files::table::Table;
 use files::write::atomic_all;
@@ -14,11 +15,11 @@ use jam::run::Outcome;
 use ode::{Control, Method};
 use plot::style::COLUMN_WIDTH;
 use plot::{Axis, ColorScale, Lines, Picture, Series, SpaceTime};
-use scene::Overrides;
 use scene::run::Scene;
 use scene::summary::{self, Ended};
 use scene::tables;
 use scene::uniform::{Stability, stability};
+use scene::{Overrides, SceneError};
 use serde_json::Value;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -128,7 +129,8 @@ fn read_scene(arguments: &Arguments) -> Result<Scene, Failure> {
     if panel.kind != Kind::Run {
         return Err(Failure::input(format!("{}: has no [run]; a map is computed with `map`", parsed.file)));
     }
-    let tables = match arguments.scheme.as_str() {
+    let read = |tables: &Section| scene::run::read(&parsed.file, tables);
+    let of_scheme = match arguments.scheme.as_str() {
         "paper" => Overrides::paper().apply(&panel.tables),
         _ => panel.tables.clone(),
     };
@@ -140,12 +142,14 @@ fn read_scene(arguments: &Arguments) -> Result<Scene, Failure> {
         sample: arguments.sample,
         state: None,
     };
-    let tables = overrides.apply(&tables);
-    let scene = scene::run::read(&parsed.file, &tables)?;
+    let tables = overrides.apply(&of_scheme);
+    let scene = read(&tables).map_err(|error| match read(&of_scheme) {
+        // no line of the scene is wrong
+        Ok(_) => SceneError { file: format!("{} with these options", error.file), line: 0, ..error },
+        Err(_) => error,
+    })?;
     match scene.control {
-        Control::Adaptive { tolerance } if arguments.check => {
-            Ok(scene::run::read(&parsed.file, &Overrides::check(tolerance).apply(&tables))?)
-        }
+        Control::Adaptive { tolerance } if arguments.check => Ok(read(&Overrides::check(tolerance).apply(&tables))?),
         _ => Ok(scene),
     }
 }

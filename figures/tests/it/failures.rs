@@ -40,6 +40,18 @@ fn bad_scenes_are_refused_before_anything_is_written() {
 }
 
 #[test]
+fn a_wrong_option_is_not_blamed_on_a_line_of_the_scene() {
+    for (options, words) in
+        [(["--t-end", "0"], "run.t_end = 0: "), (["--method", "heun"], "heun has no error estimate")]
+    {
+        let output = run("simulate", &[&["scenes/ring.toml"], &options[..]].concat());
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(message.contains("scenes/ring.toml with these options: ") && message.contains(words), "{message}");
+    }
+}
+
+#[test]
 fn a_folder_that_cannot_be_made_is_named() {
     let scratch = tempfile::tempdir().expect("a scratch folder");
     let file = scratch.path().join("file");
