@@ -181,6 +181,7 @@ impl Shadow {
     fn expand_linear(&mut self, step: &Step<'_>) {
         if self.has_rows {
             std::mem::swap(&mut self.error, &mut self.after);
+            step.system.constrain(&mut self.error);
         } else {
             self.after.clone_from(&self.error);
         }

@@ -52,6 +52,10 @@ pub trait System {
         0.0
     }
 
+    /// Takes out of a difference of two states what no two of them differ by. Roundings put it in, and where all else
+    /// fades it would stay.
+    fn constrain(&self, _difference: &mut [f64]) {}
+
     /// Writes them, and returns about how fast the fastest difference moves besides fading: the largest distance of an
     /// eigenvalue from their middle.
     fn tangent(&self, _state: &[f64], _tangent: &mut [f64]) -> f64 {

@@ -103,6 +103,13 @@ impl System for Deviations {
         FADING
     }
 
+    /// Deviations of the spacings add up to nothing: the ring has one length.
+    fn constrain(&self, difference: &mut [f64]) {
+        let spacings = &mut difference[..self.pedestrians];
+        let mean = spacings.iter().fold(0.0, |sum, spacing| sum + spacing) / self.pedestrians as f64;
+        spacings.iter_mut().for_each(|spacing| *spacing -= mean);
+    }
+
     fn tangent(&self, state: &[f64], tangent: &mut [f64]) -> f64 {
         self.force.slopes(self.net_gap, &state[..self.pedestrians], tangent);
         fastest(tangent)
