@@ -340,7 +340,8 @@ macro_rules! functions {
 
             #[inline(always)]
             fn powf(self, q: f64) -> Self {
-                changed!(self, kept, a => rules::power(&kept, a, q))
+                let kept = *self.player.kept();
+                Change { change: rules::power_of(&kept, self.change, q), ..self }
             }
 
             #[inline(always)]
@@ -349,7 +350,8 @@ macro_rules! functions {
                 if rules::is_faint(self.player.peek()) {
                     changed!(self, kept, a => rules::faint_exp(&kept, a))
                 } else {
-                    changed!(self, kept, a => rules::exp(&kept, a))
+                    let kept = *self.player.kept();
+                    Change { change: rules::exp_of(&kept, self.change), ..self }
                 }
             }
 
