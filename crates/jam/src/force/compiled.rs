@@ -98,8 +98,9 @@ impl<L: Law> Force for Compiled<L> {
             *reference = Reference::new(&self.law, flow);
         }
         let (law, tape) = (self.law, &reference.tape);
-        let is_done = dispatch(Deviations::<L, true> { law, tape, spacings, speeds, accelerations })
-            || dispatch_wide(Deviations::<L, false> { law, tape, spacings, speeds, accelerations }).is_some();
+        let is_done = !tape.is_faint()
+            && (dispatch(Deviations::<L, true> { law, tape, spacings, speeds, accelerations })
+                || dispatch_wide(Deviations::<L, false> { law, tape, spacings, speeds, accelerations }).is_some());
         if is_done {
             reference.acceleration
         } else {
