@@ -42,7 +42,7 @@ impl Law for Exponential {
     fn acceleration<X: Number>(&self, net_gap: X, v: X, ahead: X) -> X {
         let Exponential { a, b, c, epsilon, v0, .. } = *self;
         let d = self.effective_gap(net_gap, v, ahead);
-        let repelled = -v + v0 - (-d / b).exp() * a;
+        let repelled = -v + v0 - (d / -b).exp() * a;
         if c == 0.0 { repelled } else { repelled - d.ramp(epsilon) * c }
     }
 
