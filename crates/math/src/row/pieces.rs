@@ -47,10 +47,12 @@ pub(crate) fn ln_1p(x: &mut [f64], [e, f, dropped, s]: Room<'_>) {
 
 /// x\[i\] = ln(1 + e^x\[i\]).
 #[inline(always)]
-pub(crate) fn softplus(x: &mut [f64], [r, missing, shifted, decay]: Room<'_>) {
+pub(crate) fn softplus(x: &mut [f64], [decay, f, s, _]: Room<'_>) {
+    let (r, missing, shifted) = (&mut *decay, &mut *f, &mut *s);
     reduce(reduced_decay, x, r, missing, shifted);
-    expand(|_, reduced| reduced.exp(), decay, r, missing, shifted);
-    let [f, s] = [r, missing];
+    for i in 0..x.len() {
+        decay[i] = Reduced { r: decay[i], missing: f[i], shifted: s[i] }.exp();
+    }
     divide(Ratio::of_unit, decay, f, s);
     for i in 0..x.len() {
         x[i] = softplus_of(x[i], decay[i], Ratio { f: f[i], s: s[i] });
