@@ -94,8 +94,9 @@ pub trait Number:
 pub fn whole(q: f64) -> Option<i32> {
     const LARGEST: f64 = 16.0;
     // of the size, so that a compiler which knows the answer for q knows it for -q
-    let (size, n) = (q.abs(), q.abs() as i32);
-    (size <= LARGEST && f64::from(n) == size).then_some(if q < 0.0 { -n } else { n })
+    let size = q.abs();
+    let n = size as u8;
+    (size <= LARGEST && f64::from(n) == size).then_some(if q < 0.0 { -i32::from(n) } else { i32::from(n) })
 }
 
 /// `((x x) x) ...`, n >= 0 times.
