@@ -83,7 +83,7 @@ macro_rules! function {
 impl<const W: usize> Lanes<W> {
     /// softplus(y0 + x) - softplus(y0).
     #[inline(always)]
-    pub fn softplus_difference(self, base: &SoftplusBase) -> Lanes<W> {
+    pub(crate) fn softplus_difference(self, base: &SoftplusBase) -> Lanes<W> {
         function!(x of self => lane::softplus_difference(base, x),
             piece, room => pieces::softplus_difference(base, &mut piece, room))
     }
