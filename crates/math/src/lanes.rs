@@ -4,8 +4,9 @@
 //! [`Kernel`](crate::simd::Kernel). The operations of several registers do not wait for each other, so a processor
 //! overlaps them.
 
-use crate::lane;
+use crate::lane::{self, SoftplusBase};
 use crate::number::Number;
+use crate::row::pieces::{self, Room};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// `W` doubles, one for each pedestrian of a block.
@@ -56,6 +57,37 @@ macro_rules! lane_by_lane {
     }};
 }
 pub(crate) use lane_by_lane;
+
+/// From this number of lanes on, a function is evaluated in several short loops, which a processor overlaps better and
+/// whose constants it has registers for (see [`row`](crate::row)).
+const MANY: usize = 32;
+
+/// Applies a function of a lane, or where there are many lanes a function of a piece of a row.
+macro_rules! function {
+    ($x:ident of $lanes:expr => $value:expr, $piece:ident, $room:ident => $of_piece:expr) => {
+        if W < MANY {
+            lane_by_lane!($x of $lanes => $value)
+        } else {
+            let mut $piece = $lanes.0;
+            let [mut a, mut b, mut c, mut d] = [[0.0; W]; 4];
+            let $room: Room<'_> = [&mut a, &mut b, &mut c, &mut d];
+            $of_piece;
+            Lanes($piece)
+        }
+    };
+    ($function:ident of $lanes:expr) => {
+        function!(x of $lanes => lane::$function(x), piece, room => pieces::$function(&mut piece, room))
+    };
+}
+
+impl<const W: usize> Lanes<W> {
+    /// softplus(y0 + x) - softplus(y0).
+    #[inline(always)]
+    pub(crate) fn softplus_difference(self, base: &SoftplusBase) -> Lanes<W> {
+        function!(x of self => lane::softplus_difference(base, x),
+            piece, room => pieces::softplus_difference(base, &mut piece, room))
+    }
+}
 
 impl<const W: usize> Neg for Lanes<W> {
     type Output = Lanes<W>;
@@ -112,17 +144,17 @@ impl<const W: usize> Number for Lanes<W> {
 
     #[inline(always)]
     fn powf(self, q: f64) -> Lanes<W> {
-        lane_by_lane!(x of self => lane::pow(x, q))
+        (self.ln() * q).exp()
     }
 
     #[inline(always)]
     fn exp(self) -> Lanes<W> {
-        lane_by_lane!(x of self => lane::exp(x))
+        function!(exp of self)
     }
 
     #[inline(always)]
     fn exp_m1(self) -> Lanes<W> {
-        lane_by_lane!(x of self => lane::exp_m1(x))
+        function!(exp_m1 of self)
     }
 
     #[inline(always)]
@@ -132,7 +164,7 @@ impl<const W: usize> Number for Lanes<W> {
 
     #[inline(always)]
     fn ln_1p(self) -> Lanes<W> {
-        lane_by_lane!(x of self => lane::ln_1p(x))
+        function!(ln_1p of self)
     }
 
     #[inline(always)]
@@ -142,12 +174,12 @@ impl<const W: usize> Number for Lanes<W> {
 
     #[inline(always)]
     fn tanh(self) -> Lanes<W> {
-        lane_by_lane!(x of self => lane::tanh(x))
+        function!(tanh of self)
     }
 
     #[inline(always)]
     fn softplus(self) -> Lanes<W> {
-        lane_by_lane!(x of self => lane::softplus(x))
+        function!(softplus of self)
     }
 
     #[inline(always)]

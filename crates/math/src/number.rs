@@ -93,8 +93,10 @@ pub trait Number:
 #[inline(always)]
 pub fn whole(q: f64) -> Option<i32> {
     const LARGEST: f64 = 16.0;
-    let n = q as i32;
-    (q.abs() <= LARGEST && f64::from(n) == q).then_some(n)
+    // of the size, so that a compiler which knows the answer for q knows it for -q
+    let size = q.abs();
+    let n = size as u8;
+    (size <= LARGEST && f64::from(n) == size).then_some(if q < 0.0 { -i32::from(n) } else { i32::from(n) })
 }
 
 /// `((x x) x) ...`, n >= 0 times.

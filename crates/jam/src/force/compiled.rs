@@ -89,7 +89,7 @@ impl<L: Law> Force for Compiled<L> {
 
     fn accelerations(&self, net_gaps: &[f64], speeds: &[f64], accelerations: &mut [f64]) {
         let row = Row { net_gaps, speeds, ahead_of_last: speeds[0] };
-        self::accelerations(self.law, Width::Eight, row, accelerations);
+        self::accelerations(&self.law, Width::Eight, row, accelerations);
     }
 
     fn deviations(&self, flow: Flow, spacings: &[f64], speeds: &[f64], accelerations: &mut [f64]) -> f64 {
@@ -97,9 +97,10 @@ impl<L: Law> Force for Compiled<L> {
         if reference.flow != flow {
             *reference = Reference::new(&self.law, flow);
         }
-        let (law, tape) = (self.law, &reference.tape);
-        let is_done = dispatch(Deviations::<L, true> { law, tape, spacings, speeds, accelerations })
-            || dispatch_wide(Deviations::<L, false> { law, tape, spacings, speeds, accelerations }).is_some();
+        let (law, tape) = (&self.law, &reference.tape);
+        let is_done = !tape.is_faint()
+            && (dispatch(Deviations::<L, true> { law, tape, spacings, speeds, accelerations })
+                || dispatch_wide(Deviations::<L, false> { law, tape, spacings, speeds, accelerations }).is_some());
         if is_done {
             reference.acceleration
         } else {
@@ -190,7 +191,7 @@ pub(super) struct Row<'a> {
 /// Writes the accelerations of a row, with registers no wider than this limit. A function of its own, compiled once for
 /// whoever needs them. Laws with terms that the runs of the paper do not have are compiled for registers of one width, since
 /// copies would take longer to compile than they save; where there are none, pedestrians are done one after the other.
-pub(super) fn accelerations<L: Law>(law: L, limit: Width, row: Row<'_>, accelerations: &mut [f64]) {
+pub(super) fn accelerations<L: Law>(law: &L, limit: Width, row: Row<'_>, accelerations: &mut [f64]) {
     if law.plain().is_some() {
         return dispatch_up_to(limit, Accelerations::<L, true> { law, row, accelerations });
     }
@@ -198,13 +199,13 @@ pub(super) fn accelerations<L: Law>(law: L, limit: Width, row: Row<'_>, accelera
         && dispatch_wide(Accelerations::<L, false> { law, row, accelerations: &mut *accelerations }).is_some();
     if !is_done {
         let Row { net_gaps, speeds, ahead_of_last } = row;
-        along(&Values(law), Pace::Single, net_gaps, speeds, ahead_of_last, accelerations);
+        along(&Values(*law), Pace::Single, net_gaps, speeds, ahead_of_last, accelerations);
     }
 }
 
 /// The accelerations of a row, under the law in its [plain](Law::plain) form if `PLAIN`.
 struct Accelerations<'a, L, const PLAIN: bool> {
-    law: L,
+    law: &'a L,
     row: Row<'a>,
     accelerations: &'a mut [f64],
 }
@@ -228,7 +229,7 @@ impl<L: Law, const PLAIN: bool> Kernel for Accelerations<'_, L, PLAIN> {
     fn run(self) {
         let Accelerations { law, row: Row { net_gaps, speeds, ahead_of_last }, accelerations } = self;
         if !PLAIN {
-            along(&Values(law), pace(&law), net_gaps, speeds, ahead_of_last, accelerations);
+            along(&Values(*law), pace(law), net_gaps, speeds, ahead_of_last, accelerations);
         } else if let Some(law) = law.plain() {
             along(&Values(law), plain_pace(&law), net_gaps, speeds, ahead_of_last, accelerations);
         }
@@ -238,7 +239,7 @@ impl<L: Law, const PLAIN: bool> Kernel for Accelerations<'_, L, PLAIN> {
 /// The accelerations of all pedestrians less that of the uniform flow; false if the law is another one: one in a plain form if
 /// `PLAIN`, else one with any terms.
 struct Deviations<'a, L, const PLAIN: bool> {
-    law: L,
+    law: &'a L,
     tape: &'a Tape,
     spacings: &'a [f64],
     speeds: &'a [f64],
@@ -274,7 +275,7 @@ impl<L: Law, const PLAIN: bool> Kernel for Deviations<'_, L, PLAIN> {
 
     #[inline(always)]
     fn run(self) -> bool {
-        let law = self.law;
+        let law = *self.law;
         law.choose(self)
     }
 }

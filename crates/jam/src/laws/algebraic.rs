@@ -3,7 +3,7 @@
 use super::{Chosen, Law, Parameter, RAMP_WIDTH, Range};
 use crate::ramp::Bend;
 use crate::stability::Linear;
-use math::number::Number;
+use math::number::{Number, whole};
 use std::f64::consts::LN_2;
 
 /// Parameters `<mu, delta, q, a_v>` and `v_0'`, `eps`.
@@ -62,7 +62,7 @@ impl Law for Algebraic {
 
     #[inline(always)]
     fn is_long(&self) -> bool {
-        self.delta != 0.0 || math::number::whole(self.q).is_none()
+        self.delta != 0.0 || whole(self.q).is_none()
     }
 
     #[inline(always)]
@@ -81,6 +81,7 @@ impl Law for Algebraic {
             (true, true, 2.0) => chosen.straight(without(2.0)),
             (true, true, 3.0) => chosen.straight(without(3.0)),
             (true, false, 2.0) => chosen.straight(alone(2.0)),
+            (true, true, q) if whole(q).is_none() => chosen.straight(without(q)),
             _ => chosen.any(self),
         }
     }

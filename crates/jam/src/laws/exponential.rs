@@ -1,6 +1,6 @@
 //! The exponential force, eq:sfm.
 
-use super::{Law, Parameter, RAMP_WIDTH, Range};
+use super::{Chosen, Law, Parameter, RAMP_WIDTH, Range};
 use crate::ramp::Bend;
 use crate::stability::Linear;
 use math::lane;
@@ -42,7 +42,7 @@ impl Law for Exponential {
     fn acceleration<X: Number>(&self, net_gap: X, v: X, ahead: X) -> X {
         let Exponential { a, b, c, epsilon, v0, .. } = *self;
         let d = self.effective_gap(net_gap, v, ahead);
-        let repelled = -v + v0 - (-d / b).exp() * a;
+        let repelled = -v + v0 - (d / -b).exp() * a;
         if c == 0.0 { repelled } else { repelled - d.ramp(epsilon) * c }
     }
 
@@ -66,6 +66,15 @@ impl Law for Exponential {
     fn plain(&self) -> Option<Exponential> {
         let is_plain = self.c == 0.0 && self.a_v == 0.0;
         is_plain.then_some(Exponential { c: 0.0, a_v: 0.0, ..*self })
+    }
+
+    #[inline(always)]
+    fn choose<C: Chosen<Exponential>>(self, chosen: C) -> C::Output {
+        match (self.c == 0.0, self.a_v == 0.0) {
+            (true, true) => chosen.straight(Exponential { c: 0.0, a_v: 0.0, ..self }),
+            (true, false) => chosen.straight(Exponential { c: 0.0, ..self }),
+            _ => chosen.any(self),
+        }
     }
 }
 

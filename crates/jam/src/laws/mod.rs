@@ -162,7 +162,7 @@ pub trait Chosen<L> {
     /// With one in its plain form.
     fn plain(self, law: L) -> Self::Output;
 
-    /// With one whose formula has no function and, its constants known, no choice to be made.
+    /// With one whose formula, its constants known, has no choice to be made and one function at most.
     fn straight(self, law: L) -> Self::Output;
 }
 

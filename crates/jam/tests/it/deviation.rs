@@ -1,7 +1,7 @@
 //! The laws as differences from the uniform flow agree with the printed laws and stay accurate for small deviations.
 
 use crate::sample::{Random, algebraic, deviation, laws, variants};
-use jam::laws::{Algebraic, Model};
+use jam::laws::{Algebraic, Exponential, Model};
 use jam::ring::{Ring, Start};
 use jam::states::StateVariables;
 use math::double_double::DoubleDouble;
@@ -223,6 +223,28 @@ fn a_ring_with_a_room_of_exactly_nothing_is_closed() {
             // slower by a little there is room again
             state[4 + victim] -= 1e-9;
             assert!(form.in_domain(&state), "{kind:?} {victim}");
+        }
+    }
+}
+
+#[test]
+fn a_force_next_to_nothing_in_the_uniform_flow_is_right_where_a_gap_closes() {
+    // e^-705 in the flow, of which e^710 would be a factor: that overflows
+    let (ring, closed) = (Ring { pedestrians: 16, length: 16.0 * 707.0 }, 710.0);
+    for (c, a_v) in [(0.0, 0.0), (0.0, 0.1), (1.0, 0.0), (1.0, 0.1)] {
+        let model = Model::Exponential(Exponential { a: 1.5, b: 1.0, c, a_v, epsilon: 0.1, v0: 3.0 });
+        let form = StateVariables::Deviations.build(&model, ring);
+        let mut state = form.start(Start { shift: 0.0 });
+        state[16..].fill(0.0);
+        (state[3], state[4]) = (-closed, closed);
+        let mut rates = vec![0.0; form.dimension()];
+        form.rates(&state, &mut rates);
+        for (n, spacing) in [(2, 707.0), (3, 707.0 - closed), (4, 707.0 + closed)] {
+            let expected = model.acceleration(spacing, 0.0, 0.0);
+            // that of the uniform flow and the difference from it
+            let acceleration = rates[34] + rates[16 + n];
+            let error = (acceleration - expected).abs() / expected.abs();
+            assert!(error < 1e-12, "c {c}, a_v {a_v}, pedestrian {n}: {acceleration} instead of {expected}");
         }
     }
 }

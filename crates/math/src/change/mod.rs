@@ -28,11 +28,13 @@ pub struct Tape {
     more: usize,
     /// Operations with a kink.
     kinks: usize,
+    /// Whether an exponential is next to nothing.
+    is_faint: bool,
 }
 
 impl Default for Tape {
     fn default() -> Tape {
-        Tape { kept: [Kept::default(); CAPACITY], length: 0, more: 0, kinks: 0 }
+        Tape { kept: [Kept::default(); CAPACITY], length: 0, more: 0, kinks: 0, is_faint: false }
     }
 }
 
@@ -45,6 +47,12 @@ impl Tape {
     /// Whether the formula has kinks: `abs`, `min` or `max`.
     pub fn has_kinks(&self) -> bool {
         self.kinks > 0
+    }
+
+    /// Whether an exponential of the reference is next to nothing, so that its factor e^da may overflow where the product does
+    /// not: then [`Change`]s give NaN or infinities there.
+    pub fn is_faint(&self) -> bool {
+        self.is_faint
     }
 }
 
@@ -110,6 +118,13 @@ impl Reference<'_> {
         self.tape.0.borrow_mut().kinks += 1;
         self.map(kept, value)
     }
+
+    /// Of an exponential, or one less 1.
+    fn with_exponential(self, value: f64) -> Self {
+        let kept = Kept::of_exp(self.value);
+        self.tape.0.borrow_mut().is_faint |= rules::is_faint(&kept);
+        self.map(kept, value)
+    }
 }
 
 /// A tape being read, from its beginning.
@@ -133,16 +148,11 @@ impl<'t> Player<'t> {
     }
 
     #[inline(always)]
-    fn peek(&self) -> &'t Kept {
-        // the recorder has seen that there is no more; the remainder spares the test
-        &self.tape.kept[self.next.get() % CAPACITY]
-    }
-
-    #[inline(always)]
     fn kept(&self) -> &'t Kept {
-        let kept = self.peek();
-        self.next.set(self.next.get() + 1);
-        kept
+        let next = self.next.get();
+        self.next.set(next + 1);
+        // the recorder has seen that there is no more; the remainder spares the test
+        &self.tape.kept[next % CAPACITY]
     }
 }
 
@@ -292,11 +302,11 @@ macro_rules! functions {
             }
 
             fn exp(self) -> Self {
-                self.map(Kept::of_exp(self.value), Number::exp(self.value))
+                self.with_exponential(Number::exp(self.value))
             }
 
             fn exp_m1(self) -> Self {
-                self.map(Kept::of_exp(self.value), Number::exp_m1(self.value))
+                self.with_exponential(Number::exp_m1(self.value))
             }
 
             fn min(self, other: Self) -> Self {
@@ -340,17 +350,14 @@ macro_rules! functions {
 
             #[inline(always)]
             fn powf(self, q: f64) -> Self {
-                changed!(self, kept, a => rules::power(&kept, a, q))
+                let kept = *self.player.kept();
+                Change { change: rules::power_of(&kept, self.change, q), ..self }
             }
 
             #[inline(always)]
             fn exp(self) -> Self {
-                // chosen once for all lanes
-                if rules::is_faint(self.player.peek()) {
-                    changed!(self, kept, a => rules::faint_exp(&kept, a))
-                } else {
-                    changed!(self, kept, a => rules::exp(&kept, a))
-                }
+                let kept = *self.player.kept();
+                Change { change: rules::exp_of(&kept, self.change), ..self }
             }
 
             #[inline(always)]

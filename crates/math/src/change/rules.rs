@@ -4,12 +4,9 @@
 //! With a = a0 + da: the product changes by `da b + a0 db`, the quotient q by `(da - q0 db) / b`, the exponential by
 //! `e^a0 (e^da - 1)`, the logarithm by `ln(1 + da / a0)`. No rule subtracts two nearly equal numbers.
 
-use crate::lane::exponential::Reduced;
-use crate::lane::logarithm::{Parts, Ratio, ln_1p_of};
-use crate::lane::softplus::{Change, softplus_difference_of};
 use crate::lane::{self, SoftplusBase};
-use crate::lanes::{Lanes, lane_by_lane};
-use crate::number::repeated;
+use crate::lanes::Lanes;
+use crate::number::{Number, repeated};
 
 /// What an operation keeps of the reference.
 #[derive(Clone, Copy, Debug)]
@@ -215,54 +212,29 @@ pub fn softplus(kept: &Kept, da: f64) -> f64 {
     lane::softplus_difference(&kept.softplus, da)
 }
 
-/// [`ln`] of many.
+/// [`power`] of several.
+#[inline(always)]
+pub(super) fn power_of<const W: usize>(kept: &Kept, da: Lanes<W>, q: f64) -> Lanes<W> {
+    ((da * kept.a).ln_1p() * q).exp_m1() * kept.b
+}
+
+/// [`exp`] of several.
+#[inline(always)]
+pub(super) fn exp_of<const W: usize>(kept: &Kept, da: Lanes<W>) -> Lanes<W> {
+    da.exp_m1() * kept.a
+}
+
+/// [`ln`] of several.
 #[inline(always)]
 pub(super) fn ln_of<const W: usize>(kept: &Kept, da: Lanes<W>) -> Lanes<W> {
-    if W < MANY {
-        return lane_by_lane!(da of da => ln(kept, da));
-    }
-    let Lanes(mut x) = da * kept.a;
-    let [mut e, mut f, mut dropped, mut s] = [[0.0; W]; 4];
-    for i in 0..W {
-        Parts { e: e[i], f: f[i], dropped: dropped[i], s: s[i] } = Parts::new(x[i]);
-    }
-    for i in 0..W {
-        x[i] = ln_1p_of(x[i], Parts { e: e[i], f: f[i], dropped: dropped[i], s: s[i] });
-    }
-    Lanes(x)
+    (da * kept.a).ln_1p()
 }
 
-/// [`softplus`] of many.
+/// [`softplus`] of several.
 #[inline(always)]
 pub(super) fn softplus_of<const W: usize>(kept: &Kept, da: Lanes<W>) -> Lanes<W> {
-    let base = &kept.softplus;
-    if W < MANY {
-        return lane_by_lane!(da of da => lane::softplus_difference(base, da));
-    }
-    let Lanes(mut x) = da;
-    let [mut r, mut missing, mut shifted, mut less] = [[0.0; W]; 4];
-    for i in 0..W {
-        let change = Change::new(base, x[i]);
-        Reduced { r: r[i], missing: missing[i], shifted: shifted[i] } = change.reduced;
-        less[i] = change.less;
-    }
-    for i in 0..W {
-        let reduced = Reduced { r: r[i], missing: missing[i], shifted: shifted[i] };
-        less[i] = Change { reduced, less: less[i] }.value(base);
-    }
-    let (change, mut f, mut s) = (less, r, missing);
-    for i in 0..W {
-        Ratio { f: f[i], s: s[i] } = Ratio::of_short(change[i]);
-    }
-    for i in 0..W {
-        x[i] = softplus_difference_of(base, x[i], change[i], Ratio { f: f[i], s: s[i] });
-    }
-    Lanes(x)
+    da.softplus_difference(&kept.softplus)
 }
-
-/// From this number of values on, a function is evaluated in several short loops, which a processor overlaps better
-/// (see [`row`](crate::row)).
-const MANY: usize = 32;
 
 /// Of |a|.
 #[inline(always)]

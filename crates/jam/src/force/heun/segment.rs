@@ -103,7 +103,7 @@ fn accelerate<L: Law>(
             *net_gap = ahead - x - L::CONTACT;
         }
         let own = Row { net_gaps: &net_gaps[..n], speeds, ahead_of_last: speeds[n] };
-        accelerations(*scheme.law, limit, own, &mut row[..n]);
+        accelerations(scheme.law, limit, own, &mut row[..n]);
     }
 }
 
