@@ -221,7 +221,7 @@ impl<'a> Run<'a> {
         let most_steps = observer.most_steps();
         let mut bends = Bends::new(self.system, &self.state, &self.rates);
         let between_marks = (WORK_BETWEEN_MARKS / self.state.len() as u64).max(1);
-        let (mut rejected, mut in_place) = (0, 0);
+        let (mut rejected, mut in_place) = (self.statistics.rejected, 0);
         while time[0] < problem.end {
             if self.statistics.steps + self.statistics.rejected >= most_steps {
                 return Err(Failure::TooManySteps { time: time[0], steps: most_steps });
@@ -271,7 +271,8 @@ impl<'a> Run<'a> {
             }
             norm.start(&self.state);
             h = self.propose(&norm).unwrap_or_else(|| length * controller.accept(error));
-            if self.statistics.steps.is_multiple_of(between_marks) {
+            // a mark does not tell how many steps in a row were made in place
+            if in_place == 0 && self.statistics.steps.is_multiple_of(between_marks) {
                 let (error, unit) = (controller.previous, self.stepper.unit());
                 let time = [time[0], time_carry[0]];
                 let pace = Pace { rates: &self.rates, compensation: &compensation, time, step: h, error, unit };

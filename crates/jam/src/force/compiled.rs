@@ -154,8 +154,8 @@ impl<L: Law> Force for Compiled<L> {
         if self.has_kinks() { self.interpreted().kinks() } else { 0 }
     }
 
-    fn has_soft_kinks(&self) -> bool {
-        self.has_kinks() && self.interpreted().has_soft_kinks()
+    fn has_unsuited_kinks(&self) -> bool {
+        self.has_kinks() && self.interpreted().has_unsuited_kinks()
     }
 
     fn kink_arguments(&self, pedestrians: usize, order: usize, arguments: &mut [f64]) {

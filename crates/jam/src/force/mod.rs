@@ -71,8 +71,8 @@ pub trait Force: std::fmt::Debug + Send {
         0
     }
 
-    /// Whether some of them are kinks of higher derivatives only.
-    fn has_soft_kinks(&self) -> bool {
+    /// Whether Taylor's method does not suit some of them; see [`Model::has_unsuited_kinks`](crate::laws::Model::has_unsuited_kinks).
+    fn has_unsuited_kinks(&self) -> bool {
         false
     }
 

@@ -354,9 +354,11 @@ impl Model {
         }
     }
 
-    /// Whether some of its kinks are of higher derivatives only, as that of `max(0, x)^2`.
-    pub fn has_soft_kinks(&self) -> bool {
-        self.has_kinks() && self.force().has_soft_kinks()
+    /// Whether Taylor's method does not suit some of its kinks: soft ones, of higher derivatives only, as that of
+    /// `max(0, x)^2`, which other methods pass at less cost; and those behind which a root is drawn, as that of
+    /// `sqrt(max(0, x))`, where its series do not exist.
+    pub fn has_unsuited_kinks(&self) -> bool {
+        self.has_kinks() && self.force().has_unsuited_kinks()
     }
 
     /// Whether the acceleration may have no value at some places with open gaps.

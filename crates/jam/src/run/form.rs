@@ -20,10 +20,9 @@ pub fn fitting(wanted: Option<StateVariables>, model: &Model, ring: Ring, speed:
 }
 
 /// The default method of a run: Taylor's, the steps of which end on [kinks](Model::has_kinks); or `dop853` in positions,
-/// which have no series, and for laws with [soft kinks](Model::has_soft_kinks), which its steps pass at less cost than
-/// there are kinks in a ring.
+/// which have no series, and for laws with [kinks that do not suit Taylor's method](Model::has_unsuited_kinks).
 pub fn usual_method(form: StateVariables, model: &Model) -> Method {
-    if form == StateVariables::Positions || model.has_soft_kinks() { Method::Dop853 } else { Method::Taylor }
+    if form == StateVariables::Positions || model.has_unsuited_kinks() { Method::Dop853 } else { Method::Taylor }
 }
 
 /// Whether a ring has a uniform flow that its state can deviate from.

@@ -224,8 +224,9 @@ impl Force for Interpreted {
         self.prepared.kinks.len()
     }
 
-    fn has_soft_kinks(&self) -> bool {
-        self.prepared.program.has_soft_kinks()
+    fn has_unsuited_kinks(&self) -> bool {
+        let program = &self.prepared.program;
+        program.has_soft_kinks() || program.has_roots_of_kinks()
     }
 
     fn kink_arguments(&self, pedestrians: usize, order: usize, arguments: &mut [f64]) {

@@ -168,10 +168,27 @@ impl Program {
         kinks
     }
 
-    /// Whether there are kinks of higher derivatives only, as that of `max(0, x)^2`: those whose result goes into powers
+    /// Whether some kinks are of higher derivatives only, as that of `max(0, x)^2`: those whose result goes into powers
     /// above 1 and nowhere else.
     pub fn has_soft_kinks(&self) -> bool {
         (0..self.instructions.len()).any(|index| self.instructions[index].has_kink() && self.is_raised(index))
+    }
+
+    /// Whether a root is drawn of something behind a kink, as that of `max(0, x)`: its slope may be infinite there.
+    pub fn has_roots_of_kinks(&self) -> bool {
+        let mut behind = vec![false; self.registers];
+        for instruction in &self.instructions {
+            let is_behind = |source| matches!(source, Source::Register(register) if behind[register]);
+            let is_operand_behind = match instruction.action {
+                Action::Constant(_) => false,
+                action => is_behind(instruction.of) || action.second().is_some_and(is_behind),
+            };
+            if is_operand_behind && matches!(instruction.action, Action::Unary(Unary::Sqrt)) {
+                return true;
+            }
+            behind[instruction.into] = is_operand_behind || instruction.has_kink();
+        }
+        false
     }
 
     /// Whether the result of an instruction goes into powers above 1 and nowhere else.
