@@ -104,12 +104,12 @@ fn the_metre_of_a_formula_follows_from_v0_or_scale() {
 }
 
 #[test]
-fn a_folder_that_cannot_be_made_is_a_failure() {
+fn a_file_in_the_place_of_the_folder_is_bad_input() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("out"), "in the way").expect("a file");
     let output = export(folder.path(), &scene(), TABLE, &[]);
-    assert_eq!(output.status.code(), Some(4));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("out"));
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("out: is no folder"));
 }
 
 #[test]

@@ -86,7 +86,7 @@ fn a_full_disk_is_named_and_loses_nothing() {
 fn a_folder_that_cannot_be_made_is_named() {
     let place = SceneFolder::new(&small());
     place.write("file", "in the way");
-    place.fail("file", &[], 4, &["file"]);
+    place.fail("file", &[], 2, &["file: is no folder"]);
     assert_eq!(place.read("file"), "in the way");
     assert!(Path::new(&place.path("file")).is_file());
 }
