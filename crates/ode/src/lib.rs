@@ -10,6 +10,7 @@ mod control;
 mod dense;
 mod extrapolation;
 mod failure;
+mod inside;
 mod integrate;
 mod kinks;
 mod linear;
