@@ -82,13 +82,14 @@ fn part<const LANES: usize>(row: &[f64], first: usize) -> [f64; LANES] {
 /// `r_0 + theta (r_1 + (1 - theta) (r_2 + theta r_3 ...))`.
 #[inline(always)]
 fn nested<const LANES: usize>(rows: &Rows, theta: f64, first: usize) -> [f64; LANES] {
-    let mut sum = [0.0; LANES];
-    for r in (0..rows.count()).rev() {
-        let factor = if r % 2 == 0 { theta } else { 1.0 - theta };
-        let row = &rows.row(r)[first..][..LANES];
+    let (mut sum, odd) = ([0.0; LANES], 1.0 - theta);
+    let mut factor = if rows.count() % 2 == 1 { theta } else { odd };
+    for row in rows.iter().rev() {
+        let row = &row[first..][..LANES];
         for lane in 0..LANES {
             sum[lane] = row[lane] + factor * sum[lane];
         }
+        factor = if factor == theta { odd } else { theta };
     }
     sum
 }

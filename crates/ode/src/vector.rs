@@ -20,7 +20,7 @@ const LINE: usize = 8;
 impl Rows {
     /// So many rows of `n` zeros.
     pub(crate) fn new(count: usize, n: usize) -> Rows {
-        let stride = n.next_multiple_of(LINE);
+        let stride = n.max(1).next_multiple_of(LINE);
         let memory = vec![0.0; count * stride + LINE - 1];
         let begin = memory.as_ptr().align_offset(LINE * size_of::<f64>());
         // where that is not known, anywhere will do
@@ -40,6 +40,12 @@ impl Rows {
 
     pub(crate) fn row_mut(&mut self, j: usize) -> &mut [f64] {
         &mut self.memory[self.begin + j * self.stride..][..self.n]
+    }
+
+    /// All of them, with what fills them up.
+    #[inline(always)]
+    pub(crate) fn iter(&self) -> std::slice::ChunksExact<'_, f64> {
+        self.memory[self.begin..][..self.count * self.stride].chunks_exact(self.stride)
     }
 
     fn stages(&self) -> Stages<'_> {
