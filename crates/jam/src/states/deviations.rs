@@ -84,14 +84,17 @@ impl System for Deviations {
         let is_along = self.force.uses_speeds() && !self.is_steady(flow, coefficients[dimension + speed]);
         let along = is_along.then_some(speed);
         self.force.series(Motion { flow, along, pedestrians: n, order, unit, dimension, coefficients });
-        for k in 1..order {
-            let (done, next) = coefficients[k * dimension..].split_at_mut(dimension);
+        let mut rows = coefficients.chunks_exact_mut(dimension).skip(1);
+        let Some(row) = rows.next() else { return };
+        let [mut own, mut flow] = [row[n], row[speed]];
+        for (k, row) in (1..order).zip(rows) {
             let share = unit / (k + 1) as f64;
-            next[first] = done[n] * share;
-            next[distance] = done[speed] * share;
+            row[first] = own * share;
+            row[distance] = flow * share;
             if !is_along {
-                next[speed] = relaxation * done[speed] * share;
+                row[speed] = relaxation * flow * share;
             }
+            [own, flow] = [row[n], row[speed]];
         }
     }
 

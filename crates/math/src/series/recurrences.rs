@@ -128,7 +128,7 @@ pub fn recip<C: Coefficient, const START: bool>(h: History<'_, C>, a: C) -> C {
 /// Of a^n for a negative n, where a does not vanish.
 #[inline(always)]
 pub fn whole_power<C: Coefficient, const START: bool>(h: History<'_, C>, a: C, n: i32) -> C {
-    if START { start_power(h, a, a.powi(n)) } else { next_power(h, a, f64::from(n)) }
+    if START { start_power(h, a, a.powi(n)) } else { next_whole_power(h, a, f64::from(n)) }
 }
 
 /// Of a^q, a > 0.
@@ -159,6 +159,27 @@ fn next_power<C: Coefficient>(h: History<'_, C>, a: C, q: f64) -> C {
             let (f, a) = (powers[i].get(), numbers[powers.len() - 1 - i].get());
             sum = sum + (f * a) * (q * (k - j) - j);
             j += 1.0;
+        }
+    }
+    let f = sum * (h.first(2) * (1.0 / k));
+    h.write(1, f);
+    f
+}
+
+/// [`next_power`] for a whole q, whose factors are whole numbers: each follows from the one before without rounding.
+#[inline(always)]
+fn next_whole_power<C: Coefficient>(h: History<'_, C>, a: C, q: f64) -> C {
+    h.write(0, a);
+    let (k, order) = (h.k(), h.order);
+    let mut factor = q * k;
+    let mut sum = h.first(1) * a * factor;
+    if order > 1 {
+        let (powers, numbers) = (&h.row(1)[1..order], &h.row(0)[1..order]);
+        #[allow(clippy::needless_range_loop)]
+        for i in 0..powers.len() {
+            let (f, a) = (powers[i].get(), numbers[powers.len() - 1 - i].get());
+            factor -= q + 1.0;
+            sum = sum + (f * a) * factor;
         }
     }
     let f = sum * (h.first(2) * (1.0 / k));
