@@ -77,7 +77,7 @@ impl System for Deviations {
     /// If the force depends on speeds, the uniform flow has a series like that of a pedestrian until it is steady.
     /// Otherwise it only relaxes: `dV/dt = f(Delta y) - V` with a constant, for other laws with another factor of `V`.
     fn series(&self, order: usize, unit: f64, coefficients: &mut [f64]) {
-        let (n, dimension) = (self.pedestrians, self.dimension());
+        let (n, dimension) = (self.pedestrians, coefficients.len() / (order + 1));
         let (first, distance, speed) = self.extras();
         let flow = self.flow(coefficients);
         let relaxation = if self.force.uses_speeds() { 0.0 } else { self.force.relaxation(flow) };
@@ -96,6 +96,11 @@ impl System for Deviations {
             }
             [own, flow] = [row[n], row[speed]];
         }
+    }
+
+    /// Whole lines of the cache, of 64 bytes each.
+    fn row_length(&self) -> usize {
+        self.dimension().next_multiple_of(8)
     }
 
     fn tangent_size(&self) -> usize {
