@@ -25,8 +25,8 @@ pub struct Compiled<L: Law> {
     /// The uniform flow asked for last: once it is steady it is asked for again and again.
     reference: RefCell<Reference>,
     memory: RefCell<Memory>,
-    /// The law as a list of operations, for work that is not worth compiling.
-    interpreted: OnceCell<Interpreted>,
+    /// The law as a list of operations, for work that is not worth compiling; large, and most runs do without.
+    interpreted: OnceCell<Box<Interpreted>>,
 }
 
 /// What the formula keeps of a uniform flow.
@@ -73,7 +73,7 @@ impl<L: Law> Compiled<L> {
     }
 
     fn interpreted(&self) -> &Interpreted {
-        self.interpreted.get_or_init(|| interpreted(&self.law))
+        self.interpreted.get_or_init(|| Box::new(interpreted(&self.law)))
     }
 }
 

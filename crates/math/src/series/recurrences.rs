@@ -7,8 +7,14 @@
 
 use super::{Block, Coefficient};
 
-/// Rows of memory of an operation.
-pub const ROWS: usize = 4;
+/// Rows that an operation keeps, as long as the series. Behind them it keeps one block more, of order 0.
+const ROWS: usize = 3;
+
+/// All blocks that it keeps, for series of this length.
+#[inline(always)]
+pub fn memory(length: usize) -> usize {
+    ROWS * length + 1
+}
 
 /// The memory of one operation, and the order that is computed.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +28,7 @@ pub struct History<'t, C: Copy> {
 type Row<'t, C> = &'t [Block<C>];
 
 impl<'t, C: Coefficient> History<'t, C> {
-    /// [`ROWS`] rows of `length` coefficients.
+    /// In [`memory`] for series of this length.
     #[inline(always)]
     pub fn new(rows: Row<'t, C>, length: usize, order: usize) -> History<'t, C> {
         History { rows, length, order }
@@ -30,7 +36,7 @@ impl<'t, C: Coefficient> History<'t, C> {
 
     #[inline(always)]
     fn row(self, index: usize) -> Row<'t, C> {
-        &self.rows[index * self.length..(index + 1) * self.length]
+        &self.rows[index * self.length..][..if index < ROWS { self.length } else { 1 }]
     }
 
     /// Writes the coefficient of this order.
