@@ -25,8 +25,8 @@ pub struct Compiled<L: Law> {
     /// The uniform flow asked for last: once it is steady it is asked for again and again.
     reference: RefCell<Reference>,
     memory: RefCell<Memory>,
-    /// The law as a list of operations, for work that is not worth compiling.
-    interpreted: OnceCell<Interpreted>,
+    /// The law as a list of operations, for work that is not worth compiling; large, and most runs do without.
+    interpreted: OnceCell<Box<Interpreted>>,
 }
 
 /// What the formula keeps of a uniform flow.
@@ -42,8 +42,20 @@ impl Reference {
         let recorder = Recorder::new();
         let speed = recorder.variable(flow.speed);
         law.acceleration(recorder.variable(flow.net_gap), speed, speed);
-        let acceleration = law.acceleration(flow.net_gap, flow.speed, flow.speed);
-        Reference { flow, acceleration, tape: recorder.finish() }
+        Reference { flow, acceleration: Reference::acceleration(law, flow), tape: recorder.finish() }
+    }
+
+    /// Turns to another flow. Where the law is `linear_in_speeds`, what it keeps depends on the net gap alone.
+    fn turn_to<L: Law>(&mut self, law: &L, flow: Flow, linear_in_speeds: bool) {
+        if linear_in_speeds && self.flow.net_gap == flow.net_gap {
+            (self.flow, self.acceleration) = (flow, Reference::acceleration(law, flow));
+        } else {
+            *self = Reference::new(law, flow);
+        }
+    }
+
+    fn acceleration<L: Law>(law: &L, flow: Flow) -> f64 {
+        law.acceleration(flow.net_gap, flow.speed, flow.speed)
     }
 }
 
@@ -60,23 +72,8 @@ impl<L: Law> Compiled<L> {
         self.reference.borrow().tape.has_kinks()
     }
 
-    /// Brings the reference to this flow. Where speeds enter the formula with constant factors alone, no operation keeps
-    /// anything of them: the tape is that of the gap.
-    fn follow(&self, reference: &mut Reference, flow: Flow) {
-        if reference.flow == flow {
-            return;
-        }
-        let is_same_tape = self.speed_slopes.is_some() && flow.net_gap == reference.flow.net_gap;
-        if is_same_tape && flow.speed.is_finite() && reference.flow.speed.is_finite() {
-            reference.acceleration = self.law.acceleration(flow.net_gap, flow.speed, flow.speed);
-            reference.flow = flow;
-        } else {
-            *reference = Reference::new(&self.law, flow);
-        }
-    }
-
     fn interpreted(&self) -> &Interpreted {
-        self.interpreted.get_or_init(|| interpreted(&self.law))
+        self.interpreted.get_or_init(|| Box::new(interpreted(&self.law)))
     }
 }
 
@@ -109,7 +106,9 @@ impl<L: Law> Force for Compiled<L> {
 
     fn deviations(&self, flow: Flow, spacings: &[f64], speeds: &[f64], accelerations: &mut [f64]) -> f64 {
         let mut reference = self.reference.borrow_mut();
-        self.follow(&mut reference, flow);
+        if reference.flow != flow {
+            reference.turn_to(&self.law, flow, self.speed_slopes.is_some());
+        }
         let (law, tape) = (&self.law, &reference.tape);
         let is_done = !tape.is_faint()
             && (dispatch(Deviations::<L, true> { law, tape, spacings, speeds, accelerations })
