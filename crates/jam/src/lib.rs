@@ -145,7 +145,6 @@
 //!
 //! A tolerance bounds the error of a step, not that of a run. Run twice, the second time with another method and a smaller
 //! tolerance, and take the difference for the error of the first; [`ode::Shadow`] carries the errors of Taylor's method along.
-#![deny(rustdoc::broken_intra_doc_links)]
 
 pub mod criteria;
 pub mod errors;
