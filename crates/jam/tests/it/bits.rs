@@ -33,5 +33,6 @@ fn a_law_and_its_formula_have_the_same_bits_whatever_is_asked_of_them() {
             pairs += 1;
         }
     }
-    assert_eq!(pairs, 22);
+    let formulas = lines.keys().filter(|name| name.ends_with("-formula")).count();
+    assert!(pairs == formulas && pairs >= 22, "{pairs} pairs of {formulas} formulas");
 }
