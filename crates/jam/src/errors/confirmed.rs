@@ -64,14 +64,14 @@ const NEAR: f64 = 1e-6;
 pub(super) fn until(run: &Run, outcome: &Outcome, second: &Second) -> Option<f64> {
     let other = &second.outcome;
     let is_before_end = |time: &f64| *time < (1.0 - SAME_TIME) * outcome.statistics.time;
+    let is_refuted = outcome.stop().is_some_and(|stop| is_refuted(stop, other));
     let end = match (outcome.stop(), other.stop()) {
         (None, Some(stop)) => Some(stop.time),
-        (Some(stop), None) if is_refuted(stop, other) => Some(stop.time),
+        (Some(stop), None) if is_refuted => Some(stop.time),
         // of a shift that the run has lost the other one alone tells anything
         (None, None) if loses_shift(run) => Some(other.statistics.time),
         _ => None,
     };
-    let is_refuted = outcome.stop().is_some_and(|stop| is_refuted(stop, other));
     let end = end.filter(|time| is_refuted || is_before_end(time));
     let difference = match run.control {
         Control::Fixed { .. } => first_unlike(outcome, second),

@@ -109,11 +109,6 @@ pub fn errors(run: &Run, outcome: &Outcome) -> Errors {
     Second::new(run, outcome, None, &mut ()).errors(run, outcome)
 }
 
-/// Whether the law has bends of no width.
-pub(crate) fn has_kinks(model: &Model) -> bool {
-    model.has_kinks()
-}
-
 /// Fixed steps may be too long for their error to be that of their order.
 const CAUTION: f64 = 2.0;
 

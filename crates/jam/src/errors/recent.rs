@@ -1,11 +1,11 @@
-//! Instants of a run at which a second one is compared with it: the ends of its last adaptive steps, since at the end of
+//! Instants of a run at which a second one is compared with it: the ends of its last steps, since at the end of
 //! the run alone the errors of two methods may agree by chance, and its events.
 
 use crate::events::{Event, EventKind};
 use crate::ring::Ring;
 use crate::run::{Run, RunObserver, Sight};
 use crate::states::{RingSystem, StateVariables};
-use ode::{Control, Step};
+use ode::Step;
 use std::collections::VecDeque;
 
 /// Number of instants kept.
@@ -65,7 +65,7 @@ impl Recent {
     /// The instants of this run, in order of time.
     pub fn instants(&self, run: &Run) -> Vec<Instant> {
         let new = |is_last| move |(time, state): &(f64, Vec<f64>)| Instant::new(*time, state, run.form, run, is_last);
-        let last = self.states.iter().filter(|_| matches!(run.control, Control::Adaptive { .. })).map(new(true));
+        let last = self.states.iter().map(new(true));
         let mut all: Vec<Instant> = last.chain(self.events.iter().map(new(false))).collect();
         all.sort_by(|a, b| a.time.total_cmp(&b.time));
         all

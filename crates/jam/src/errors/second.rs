@@ -2,7 +2,7 @@
 
 use super::propagated::{UNSURE, std_error};
 use super::recent::{Compared, Instant, Recent};
-use super::{CAUTION, Errors, ROUNDINGS, confirmed, has_kinks, largest, largest_std, loses_shift, of_headway};
+use super::{CAUTION, Errors, ROUNDINGS, confirmed, largest, largest_std, loses_shift, of_headway};
 use crate::events::{Event, EventKind};
 use crate::run::{Outcome, Run, RunObserver, has_deviations, run_from};
 use crate::states::StateVariables;
@@ -16,6 +16,10 @@ const TIGHTER: f64 = 0.1;
 /// same error (seed 600874 of the hunt).
 const TIGHTER_IF_HIGH: f64 = 0.005;
 const HIGH: usize = 8;
+
+/// The tolerance that the second run of fixed steps starts from: it is made more exact than any of them, since fading motion
+/// may leave errors far below those of its beginning.
+const ACCURATE: f64 = 1e-12;
 
 /// Least tolerance of a second run; a smaller one may be unattainable because of rounding.
 const TIGHTEST: f64 = 3e-15;
@@ -54,8 +58,8 @@ pub(super) struct Second {
 }
 
 impl Second {
-    /// Makes the second run. For fixed steps it uses longer ones, which cost less, or shorter ones if the longer do not
-    /// confirm the run. The run can be observed.
+    /// Makes the second run. That of fixed steps is an accurate one, which needs no order to tell their error; where it costs
+    /// too much, one by longer steps, or by shorter ones if the longer do not confirm the run. The run can be observed.
     pub fn new(run: &Run, outcome: &Outcome, seen: Option<&Recent>, onlooker: &mut dyn RunObserver) -> Second {
         let instants = seen.map_or(Vec::new(), |seen| seen.instants(run));
         let rates = outcome.events.iter().map(|event| seen.and_then(|seen| seen.rate(event))).collect();
@@ -67,6 +71,12 @@ impl Second {
             Control::Adaptive { tolerance } => return by_tolerance(run, outcome, tolerance, instants, onlooker),
             Control::Fixed { step } => step,
         };
+        let accurate = by_tolerance(run, outcome, ACCURATE, instants, onlooker);
+        if is_sure(outcome, &accurate.outcome, end(run, outcome)) {
+            return accurate;
+        }
+        // between their steps those of a low order are less exact than at the ends
+        let at_events: Vec<Instant> = instants.iter().filter(|instant| !instant.is_last).cloned().collect();
         let made = if step < run.t_end { step } else { run.t_end };
         let ratio = match order_seen(run) {
             // a longer step would be cut to the same one
@@ -74,13 +84,13 @@ impl Second {
             1 | 2 => 2.0,
             _ => 1.25,
         };
-        let first = by_steps(run, outcome, [made, ratio], instants, onlooker);
+        let first = by_steps(run, outcome, [made, ratio], &at_events, onlooker);
         let is_enough = confirmed::reaches(outcome, &first.outcome) && confirmed::until(run, outcome, &first).is_none();
         if is_enough || ratio < 1.0 {
-            return first;
+            return Second { evaluations: accurate.evaluations + first.evaluations, ..first };
         }
-        let second = by_steps(run, outcome, [made, SHORTER], instants, onlooker);
-        Second { evaluations: first.evaluations + second.evaluations, ..second }
+        let second = by_steps(run, outcome, [made, SHORTER], &at_events, onlooker);
+        Second { evaluations: accurate.evaluations + first.evaluations + second.evaluations, ..second }
     }
 
     /// The errors of the run.
@@ -196,7 +206,7 @@ fn by_tolerance(
         made(&second, AGREEMENT, instants, onlooker)
     };
     let usual = if run.method == Method::Dop853 { Method::Verner87 } else { Method::Dop853 };
-    let (first, last) = match (run.method, has_kinks(&run.model)) {
+    let (first, last) = match (run.method, run.model.has_kinks()) {
         // a few steps may be the same for both tolerances; where there are more, dop853 stumbles over each kink
         (Method::Taylor, true) => ((outcome.statistics.steps < MANY).then_some(Method::Dop853), Method::Taylor),
         // methods whose steps pass over kinks may err alike there; positions have no series
@@ -211,6 +221,13 @@ fn by_tolerance(
     };
     let second = by(last);
     Second { evaluations: spent + second.evaluations, ..second }
+}
+
+/// Whether an accurate run tells the errors of fixed steps: it has come to its end, and to the same one if those stopped.
+fn is_sure(outcome: &Outcome, accurate: &Outcome, end: f64) -> bool {
+    let [stop, other] = [outcome, accurate].map(|outcome| outcome.stop().map(|stop| stop.kind));
+    let is_whole = other.is_some() || accurate.statistics.time >= end;
+    is_whole && (stop.is_none() || stop == other && confirmed::reaches(outcome, accurate))
 }
 
 /// A run by the same method with steps of `ratio` times the length.
@@ -253,17 +270,21 @@ fn end(run: &Run, outcome: &Outcome) -> f64 {
 
 /// The order that the errors of fixed steps show.
 fn order_seen(run: &Run) -> usize {
-    let seen = if has_kinks(&run.model) { ACROSS_KINKS } else { HIGHEST_SEEN };
+    let seen = if run.model.has_kinks() { ACROSS_KINKS } else { HIGHEST_SEEN };
     run.method.order().min(seen)
 }
 
 /// The second run may take a few times the work of the run, with a minimum for short runs, and much more if the run has
-/// lost its shift, and with it all motion.
+/// lost its shift, and with it all motion. For fixed steps there is another way if it takes more than they do.
 fn most_steps(run: &Run, outcome: &Outcome) -> u64 {
     const STAGES: u64 = 12;
     const FEW_TIMES: u64 = 4;
-    let more = if loses_shift(run) { 30_000 } else { 1000 };
-    FEW_TIMES * outcome.statistics.evaluations / STAGES + more
+    let like_run = outcome.statistics.evaluations / STAGES;
+    match run.control {
+        _ if loses_shift(run) => FEW_TIMES * like_run + 30_000,
+        Control::Fixed { .. } => like_run + 50,
+        Control::Adaptive { .. } => FEW_TIMES * like_run + 1000,
+    }
 }
 
 /// The rounding error that fixed steps without compensated sums may accumulate: once the motion is steady all roundings
