@@ -34,20 +34,17 @@ const MANY: u64 = 50;
 /// is a third as large, and too cautious by this factor where it is none.
 const AGREEMENT: f64 = 1.5;
 
-/// Highest order that is visible in an error; beyond it kinks and rounding dominate.
-const HIGHEST_SEEN: usize = 8;
-
-/// The order of steps across a kink.
-const ACROSS_KINKS: usize = 2;
-
-/// Ratio of shorter fixed steps, used if longer ones fail.
-const SHORTER: f64 = 0.5;
+/// The order that is seen in the error of fixed steps where an accurate run costs more than they do: they pass over kinks,
+/// or over bends as sharp.
+const ORDER_SEEN: usize = 2;
 
 /// The second run, and its result.
 pub(super) struct Second {
     form: StateVariables,
     /// The ratio of the run's error to the difference between both runs.
     pub factor: f64,
+    /// The part of a number by which roundings that both runs may have in common have gathered.
+    gathered: f64,
     pub outcome: Outcome,
     /// The run's states at some instants, and its own.
     instants: [Vec<Instant>; 2],
@@ -58,8 +55,8 @@ pub(super) struct Second {
 }
 
 impl Second {
-    /// Makes the second run. That of fixed steps is an accurate one, which needs no order to tell their error; where it costs
-    /// too much, one by longer steps, or by shorter ones if the longer do not confirm the run. The run can be observed.
+    /// Makes the second run. That of fixed steps is an accurate one, which tells their error whatever their order; where it
+    /// costs too much, one by steps of half the length. The run can be observed.
     pub fn new(run: &Run, outcome: &Outcome, seen: Option<&Recent>, onlooker: &mut dyn RunObserver) -> Second {
         let instants = seen.map_or(Vec::new(), |seen| seen.instants(run));
         let rates = outcome.events.iter().map(|event| seen.and_then(|seen| seen.rate(event))).collect();
@@ -75,29 +72,14 @@ impl Second {
         if is_sure(outcome, &accurate.outcome, end(run, outcome)) {
             return accurate;
         }
-        // between their steps those of a low order are less exact than at the ends
-        let at_events: Vec<Instant> = instants.iter().filter(|instant| !instant.is_last).cloned().collect();
-        let made = if step < run.t_end { step } else { run.t_end };
-        let ratio = match order_seen(run) {
-            // a longer step would be cut to the same one
-            _ if made > 0.5 * end(run, outcome) => SHORTER,
-            1 | 2 => 2.0,
-            _ => 1.25,
-        };
-        let first = by_steps(run, outcome, [made, ratio], &at_events, onlooker);
-        let is_enough = confirmed::reaches(outcome, &first.outcome) && confirmed::until(run, outcome, &first).is_none();
-        if is_enough || ratio < 1.0 {
-            return Second { evaluations: accurate.evaluations + first.evaluations, ..first };
-        }
-        let second = by_steps(run, outcome, [made, SHORTER], &at_events, onlooker);
-        Second { evaluations: accurate.evaluations + first.evaluations + second.evaluations, ..second }
+        let shorter = by_half_steps(run, outcome, step, instants, onlooker);
+        Second { evaluations: accurate.evaluations + shorter.evaluations, ..shorter }
     }
 
     /// The errors of the run.
     pub fn errors(&self, run: &Run, outcome: &Outcome) -> Errors {
-        let (factor, other) = (self.factor, &self.outcome);
+        let (factor, gathered, other) = (self.factor, self.gathered, &self.outcome);
         let difference = |numbers: &[f64], others: &[f64]| factor * difference(numbers, others);
-        let gathered = gathered(run, outcome);
         let ends_alike = outcome.stop().map(|stop| stop.kind) == other.stop().map(|stop| stop.kind);
         let times = [outcome, other].map(|outcome| outcome.statistics.time);
         let is_at_event = outcome.ends_at_event() && other.ends_at_event();
@@ -230,17 +212,23 @@ fn is_sure(outcome: &Outcome, accurate: &Outcome, end: f64) -> bool {
     is_whole && (stop.is_none() || stop == other && confirmed::reaches(outcome, accurate))
 }
 
-/// A run by the same method with steps of `ratio` times the length.
-fn by_steps(
+/// A run by the same method with steps of half the length.
+fn by_half_steps(
     run: &Run,
     outcome: &Outcome,
-    [step, ratio]: [f64; 2],
+    step: f64,
     instants: &[Instant],
     onlooker: &mut dyn RunObserver,
 ) -> Second {
-    let growth = (0..order_seen(run)).fold(1.0, |power: f64, _| power * ratio);
-    let second = Run { control: Control::Fixed { step: ratio * step }, ..again(run, outcome) };
-    made(&second, CAUTION / (growth - 1.0).abs(), instants, onlooker)
+    let remaining = (0..run.method.order().min(ORDER_SEEN)).fold(1.0, |remaining, _| 0.5 * remaining);
+    // a step longer than the run is cut to it
+    let step = 0.5 * if step < run.t_end { step } else { run.t_end };
+    let second = Run { control: Control::Fixed { step }, ..again(run, outcome) };
+    // within its steps a method of low order is less exact than at their ends
+    let at_events: Vec<Instant> = instants.iter().filter(|instant| !instant.is_last).cloned().collect();
+    // without compensated sums; once the motion is steady all roundings have the same sign
+    let gathered = 0.5 * f64::EPSILON * outcome.statistics.steps as f64;
+    Second { gathered, ..made(&second, CAUTION / (1.0 - remaining), &at_events, onlooker) }
 }
 
 fn made(second: &Run, factor: f64, instants: &[Instant], onlooker: &mut dyn RunObserver) -> Second {
@@ -248,7 +236,7 @@ fn made(second: &Run, factor: f64, instants: &[Instant], onlooker: &mut dyn RunO
     let outcome = run_from(second, None, &mut compared).unwrap_or_else(|broken| *broken.outcome);
     let instants = [instants.to_vec(), compared.second];
     let (form, evaluations) = (second.form, outcome.statistics.evaluations);
-    Second { form, factor, instants, rates: Vec::new(), evaluations, outcome }
+    Second { form, factor, gathered: 0.0, instants, rates: Vec::new(), evaluations, outcome }
 }
 
 /// The same run up to the time that it reached, in deviations if possible.
@@ -268,12 +256,6 @@ fn end(run: &Run, outcome: &Outcome) -> f64 {
     if is_open { run.t_end } else { outcome.last_step }
 }
 
-/// The order that the errors of fixed steps show.
-fn order_seen(run: &Run) -> usize {
-    let seen = if run.model.has_kinks() { ACROSS_KINKS } else { HIGHEST_SEEN };
-    run.method.order().min(seen)
-}
-
 /// The second run may take a few times the work of the run, with a minimum for short runs, and much more if the run has
 /// lost its shift, and with it all motion. For fixed steps there is another way if it takes more than they do.
 fn most_steps(run: &Run, outcome: &Outcome) -> u64 {
@@ -284,15 +266,6 @@ fn most_steps(run: &Run, outcome: &Outcome) -> u64 {
         _ if loses_shift(run) => FEW_TIMES * like_run + 30_000,
         Control::Fixed { .. } => like_run + 50,
         Control::Adaptive { .. } => FEW_TIMES * like_run + 1000,
-    }
-}
-
-/// The rounding error that fixed steps without compensated sums may accumulate: once the motion is steady all roundings
-/// have the same sign.
-fn gathered(run: &Run, outcome: &Outcome) -> f64 {
-    match run.control {
-        Control::Fixed { .. } => 0.5 * f64::EPSILON * outcome.statistics.steps as f64,
-        Control::Adaptive { .. } => 0.0,
     }
 }
 
