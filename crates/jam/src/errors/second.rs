@@ -27,8 +27,12 @@ const TIGHTEST: f64 = 3e-15;
 /// Ends of both runs closer than this, relative to the time, count as the same.
 pub(super) const SAME_TIME: f64 = 1e-9;
 
-/// Steps of a run by Taylor's method that differ from those at a far smaller tolerance.
+/// In so many steps two runs differ: by Taylor's method at two tolerances, or by two other methods.
 const MANY: u64 = 50;
+
+/// Below this the force on a perturbation has all but underflowed: a series from where it is 0 shows nothing of what it is
+/// later.
+const FAINT: f64 = 1e-200;
 
 /// Factor on the difference, since errors of two methods may have the same sign: it is right where that of the second run
 /// is a third as large, and too cautious by this factor where it is none.
@@ -188,11 +192,15 @@ fn by_tolerance(
         made(&second, AGREEMENT, instants, onlooker)
     };
     let usual = if run.method == Method::Dop853 { Method::Verner87 } else { Method::Dop853 };
-    let (first, last) = match (run.method, run.model.has_kinks()) {
+    let (is_short, is_faint) = (outcome.statistics.steps < MANY, largest_std(outcome) < FAINT);
+    let has_kinks = run.model.has_kinks();
+    // methods whose steps pass over kinks may err alike there, and so may a few steps over a bend, or within them
+    let by_series = run.method != Method::Taylor && (has_kinks || is_short && !is_faint);
+    let (first, last) = match run.method {
         // a few steps may be the same for both tolerances; where there are more, dop853 stumbles over each kink
-        (Method::Taylor, true) => ((outcome.statistics.steps < MANY).then_some(Method::Dop853), Method::Taylor),
-        // methods whose steps pass over kinks may err alike there; positions have no series
-        (_, true) if run.form != StateVariables::Positions => (Some(Method::Taylor), usual),
+        Method::Taylor if has_kinks => (is_short.then_some(Method::Dop853), Method::Taylor),
+        // positions have no series
+        _ if by_series && again(run, outcome).form != StateVariables::Positions => (Some(Method::Taylor), usual),
         _ => (None, usual),
     };
     let first = first.map(&mut by);
@@ -265,7 +273,7 @@ fn most_steps(run: &Run, outcome: &Outcome) -> u64 {
     match run.control {
         _ if loses_shift(run) => FEW_TIMES * like_run + 30_000,
         Control::Fixed { .. } => like_run + 50,
-        Control::Adaptive { .. } => FEW_TIMES * like_run + 1000,
+        Control::Adaptive { .. } => FEW_TIMES * like_run + 20_000,
     }
 }
 
