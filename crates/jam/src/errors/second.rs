@@ -192,7 +192,8 @@ fn by_tolerance(
         made(&second, AGREEMENT, instants, onlooker)
     };
     let usual = if run.method == Method::Dop853 { Method::Verner87 } else { Method::Dop853 };
-    let (is_short, is_faint) = (outcome.statistics.steps < MANY, largest_std(outcome) < FAINT);
+    let is_short = outcome.statistics.steps < MANY;
+    let is_faint = outcome.samples.len() > 1 && largest_std(outcome) < FAINT;
     let has_kinks = run.model.has_kinks();
     // methods whose steps pass over kinks may err alike there, and so may a few steps over a bend, or within them
     let by_series = run.method != Method::Taylor && (has_kinks || is_short && !is_faint);
