@@ -81,7 +81,7 @@ pub(super) struct Instant {
     pub positions: Vec<f64>,
     pub spacings: Vec<f64>,
     pub speeds: Vec<f64>,
-    /// The speeds, less that of the uniform flow in a run in deviations from it.
+    /// The speeds, less that of the first: of any form, and exactly 0 where all are equal.
     pub relative_speeds: Vec<f64>,
 }
 
@@ -95,7 +95,8 @@ impl Instant {
         let [mut positions, mut spacings, mut speeds] = [(); 3].map(|()| vec![0.0; pedestrians]);
         form.read(state, &mut spacings, &mut speeds);
         form.write_positions(state, &mut positions);
-        let relative_speeds = state[form.speeds()].to_vec();
+        let own = &state[form.speeds()];
+        let relative_speeds = own.iter().map(|speed| speed - own[0]).collect();
         Instant { time, is_last, positions, spacings, speeds, relative_speeds }
     }
 }

@@ -185,33 +185,40 @@ fn by_tolerance(
     instants: &[Instant],
     onlooker: &mut dyn RunObserver,
 ) -> Second {
-    let tighter = tolerance * if run.method.order() < HIGH { TIGHTER } else { TIGHTER_IF_HIGH };
-    let control = Control::Adaptive { tolerance: if tighter > TIGHTEST { tighter } else { TIGHTEST } };
-    let mut by = |method: Method| {
+    let mut spent = 0;
+    let mut by = |(method, tolerance): (Method, f64)| {
+        let control = Control::Adaptive { tolerance: if tolerance > TIGHTEST { tolerance } else { TIGHTEST } };
         let second = Run { method, control, most_steps: most_steps(run, outcome), ..again(run, outcome) };
-        made(&second, AGREEMENT, instants, onlooker)
+        let made = made(&second, AGREEMENT, instants, onlooker);
+        spent += made.evaluations;
+        Second { evaluations: spent, ..made }
     };
-    let usual = if run.method == Method::Dop853 { Method::Verner87 } else { Method::Dop853 };
+    let (first, last) = methods(run, outcome, tolerance);
+    let first = first.map(&mut by).filter(|first| confirmed::reaches(outcome, &first.outcome));
+    first.unwrap_or_else(|| by(last))
+}
+
+/// The method and the tolerance of a second run; the second of them where the first does not come to the end.
+fn methods(run: &Run, outcome: &Outcome, tolerance: f64) -> (Option<(Method, f64)>, (Method, f64)) {
+    let tighter = tolerance * if run.method.order() < HIGH { TIGHTER } else { TIGHTER_IF_HIGH };
     let is_short = outcome.statistics.steps < MANY;
-    let is_faint = outcome.samples.len() > 1 && largest_std(outcome) < FAINT;
-    let has_kinks = run.model.has_kinks();
-    // methods whose steps pass over kinks may err alike there, and so may a few steps over a bend, or within them
-    let by_series = run.method != Method::Taylor && (has_kinks || is_short && !is_faint);
-    let (first, last) = match run.method {
+    if run.method == Method::Taylor && run.model.has_kinks() {
         // a few steps may be the same for both tolerances; where there are more, dop853 stumbles over each kink
-        Method::Taylor if has_kinks => (is_short.then_some(Method::Dop853), Method::Taylor),
-        // positions have no series
-        _ if by_series && again(run, outcome).form != StateVariables::Positions => (Some(Method::Taylor), usual),
-        _ => (None, usual),
+        return (is_short.then_some((Method::Dop853, tighter)), (Method::Taylor, tighter));
+    }
+    let usual = if run.method == Method::Dop853 { Method::Verner87 } else { Method::Dop853 };
+    // positions have no series
+    let has_series = run.method != Method::Taylor && again(run, outcome).form != StateVariables::Positions;
+    let is_faint = outcome.samples.len() > 1 && largest_std(outcome) < FAINT;
+    let series = match run.model.has_kinks() {
+        _ if !has_series => None,
+        // methods whose steps pass over kinks may err alike there
+        true => Some((Method::Taylor, tighter)),
+        // and so may a few steps over a bend, or within them; with so few all digits cost little
+        false if is_short && !is_faint => Some((Method::Taylor, TIGHTEST)),
+        false => None,
     };
-    let first = first.map(&mut by);
-    let spent = match first {
-        Some(first) if confirmed::reaches(outcome, &first.outcome) => return first,
-        Some(first) => first.evaluations,
-        None => 0,
-    };
-    let second = by(last);
-    Second { evaluations: spent + second.evaluations, ..second }
+    (series, (usual, tighter))
 }
 
 /// Whether an accurate run tells the errors of fixed steps: it has come to its end, and to the same one if those stopped.
