@@ -17,10 +17,6 @@ const TIGHTER: f64 = 0.1;
 const TIGHTER_IF_HIGH: f64 = 0.005;
 const HIGH: usize = 8;
 
-/// How much smaller it is for Taylor's method, whose error in a few steps is near the tolerance, where that of others is far
-/// below it.
-const TIGHTER_IF_SERIES: f64 = 0.01;
-
 /// The tolerance that the second run of fixed steps starts from: it is made more exact than any of them, since fading motion
 /// may leave errors far below those of its beginning.
 const ACCURATE: f64 = 1e-12;
@@ -214,8 +210,9 @@ fn methods(run: &Run, outcome: &Outcome, tolerance: f64) -> (Option<(Method, f64
     // positions have no series
     let has_series = run.method != Method::Taylor && again(run, outcome).form != StateVariables::Positions;
     let is_faint = outcome.samples.len() > 1 && largest_std(outcome) < FAINT;
+    // the error of a few steps by Taylor's method is near the tolerance, where that of others is far below it
     let of_series = match run.control {
-        Control::Adaptive { .. } => TIGHTER_IF_SERIES * tighter,
+        Control::Adaptive { .. } => TIGHTEST,
         Control::Fixed { .. } => tighter,
     };
     let series = match run.model.has_kinks() {
