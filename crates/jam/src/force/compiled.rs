@@ -25,8 +25,8 @@ pub struct Compiled<L: Law> {
     /// The uniform flow asked for last: once it is steady it is asked for again and again.
     reference: RefCell<Reference>,
     memory: RefCell<Memory>,
-    /// The law as a list of operations, for work that is not worth compiling.
-    interpreted: OnceCell<Interpreted>,
+    /// The law as a list of operations, for work that is not worth compiling; large, and most runs do without.
+    interpreted: OnceCell<Box<Interpreted>>,
 }
 
 /// What the formula keeps of a uniform flow.
@@ -42,8 +42,20 @@ impl Reference {
         let recorder = Recorder::new();
         let speed = recorder.variable(flow.speed);
         law.acceleration(recorder.variable(flow.net_gap), speed, speed);
-        let acceleration = law.acceleration(flow.net_gap, flow.speed, flow.speed);
-        Reference { flow, acceleration, tape: recorder.finish() }
+        Reference { flow, acceleration: Reference::acceleration(law, flow), tape: recorder.finish() }
+    }
+
+    /// Turns to another flow. Where the law is `linear_in_speeds`, what it keeps depends on the net gap alone.
+    fn turn_to<L: Law>(&mut self, law: &L, flow: Flow, linear_in_speeds: bool) {
+        if linear_in_speeds && self.flow.net_gap == flow.net_gap {
+            (self.flow, self.acceleration) = (flow, Reference::acceleration(law, flow));
+        } else {
+            *self = Reference::new(law, flow);
+        }
+    }
+
+    fn acceleration<L: Law>(law: &L, flow: Flow) -> f64 {
+        law.acceleration(flow.net_gap, flow.speed, flow.speed)
     }
 }
 
@@ -61,7 +73,7 @@ impl<L: Law> Compiled<L> {
     }
 
     fn interpreted(&self) -> &Interpreted {
-        self.interpreted.get_or_init(|| interpreted(&self.law))
+        self.interpreted.get_or_init(|| Box::new(interpreted(&self.law)))
     }
 }
 
@@ -95,7 +107,7 @@ impl<L: Law> Force for Compiled<L> {
     fn deviations(&self, flow: Flow, spacings: &[f64], speeds: &[f64], accelerations: &mut [f64]) -> f64 {
         let mut reference = self.reference.borrow_mut();
         if reference.flow != flow {
-            *reference = Reference::new(&self.law, flow);
+            reference.turn_to(&self.law, flow, self.speed_slopes.is_some());
         }
         let (law, tape) = (&self.law, &reference.tape);
         let is_done = !tape.is_faint()
