@@ -223,10 +223,17 @@ impl Stepper for Taylor {
         0
     }
 
-    fn interpolate_both(&mut self, ends: &Ends<'_>, thetas: [f64; 2], from: usize, results: [&mut [f64]; 2]) -> bool {
+    fn interpolate_both(
+        &mut self,
+        _system: &dyn System,
+        ends: &Ends<'_>,
+        thetas: [f64; 2],
+        from: usize,
+        results: [&mut [f64]; 2],
+    ) -> Option<u64> {
         let h = thetas.map(|theta| theta * (ends.h / self.unit));
         dispatch(Both { rows: self.rows(), n: self.row, from, h, results });
-        true
+        Some(0)
     }
 }
 

@@ -7,7 +7,6 @@
 use super::tangent::{FADING, fastest, series};
 use super::{FlowAlong, LEAST_SIZE, RingSystem, closing_rates, displace};
 use crate::force::{Flow, Force, Motion};
-use crate::observe::speed_std;
 use crate::ring::{Ring, Start};
 use ode::{Group, Measure, System, Tangent};
 use std::ops::Range;
@@ -235,9 +234,5 @@ impl RingSystem for Deviations {
     fn flow_along(&self, state: &[f64], rates: &[f64]) -> Option<FlowAlong> {
         let (_, _, speed) = self.extras();
         Some(FlowAlong { net_gap: self.net_gap, speed: state[speed], acceleration: rates[speed] })
-    }
-
-    fn speed_std(&self, state: &[f64]) -> f64 {
-        speed_std(&state[self.pedestrians..2 * self.pedestrians])
     }
 }
