@@ -10,7 +10,7 @@ cd "$(dirname "$0")/.."
 [ -z "${CHECKS_INSTALL:-}" ] || bash checks/install.sh valgrind
 command -v valgrind >/dev/null || { echo "valgrind is missing (apt-get install valgrind)" >&2; exit 5; }
 [ "$(uname -m)" = x86_64 ] || { echo "the numbers are those of x86-64" >&2; exit 5; }
-cargo build --quiet --release --locked -p jam --example cost
+cargo build --quiet --release --locked -p jamming --example cost
 program="${CARGO_TARGET_DIR:-target}/release/examples/cost"
 known=checks/instructions.csv
 scratch=$(mktemp -d)

@@ -157,7 +157,7 @@ has_target() {
 
 # Builds the figures' binaries for this machine.
 build_here() {
-  cargo build --release --quiet -p figures -p jam --bins --example bits >"$scratch/build.log" 2>&1 || { tail -n 20 "$scratch/build.log" >&2; return 1; }
+  cargo build --release --quiet -p figures -p jamming --bins --example bits >"$scratch/build.log" 2>&1 || { tail -n 20 "$scratch/build.log" >&2; return 1; }
 }
 
 # folder NAME: a folder with scenes and references and nothing else; its path.
@@ -226,7 +226,7 @@ part_arm64() {
     install "${packages[@]}" || { skip arm64 "needs ${packages[*]}"; return; }
   fi
   env RUSTC=$compiler CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER=aarch64-linux-gnu-gcc \
-    CARGO_TARGET_DIR="$scratch/build" cargo build --release --quiet --target $triple -p figures -p jam --bins --example bits \
+    CARGO_TARGET_DIR="$scratch/build" cargo build --release --quiet --target $triple -p figures -p jamming --bins --example bits \
     >"$scratch/arm64.log" 2>&1 || { tail -n 20 "$scratch/arm64.log" >&2; skip arm64 "the binaries do not build"; return; }
   place=$(folder arm64)
   bits_as "arm64" "$scratch/build/$triple/release" qemu-aarch64 -L /usr/aarch64-linux-gnu
@@ -267,7 +267,7 @@ build_with_std() {
   local name=${1//-/_}
   name=${name^^}
   env RUSTC_BOOTSTRAP=1 RUSTC=/usr/bin/rustc "CARGO_TARGET_${name}_LINKER=$2" "CARGO_TARGET_${name}_RUSTFLAGS=${3:-}" \
-    CARGO_TARGET_DIR="$scratch/build" cargo build --release --quiet -Zbuild-std=std,panic_unwind --target "$1" -p figures -p jam --bins --example bits \
+    CARGO_TARGET_DIR="$scratch/build" cargo build --release --quiet -Zbuild-std=std,panic_unwind --target "$1" -p figures -p jamming --bins --example bits \
     >"$scratch/$1.log" 2>&1 || { tail -n 20 "$scratch/$1.log" >&2; return 1; }
 }
 

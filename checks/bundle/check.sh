@@ -22,7 +22,7 @@ echo "$listed files with the sums in SHA256SUMS"
 walls=(unshare -n)
 unshare -n true 2>/dev/null || { walls=(); echo "unshare -n is not possible here: cargo is told to use no network"; }
 # cargo as who follows the README starts it
-for words in "xtask figures" "test --release --locked --quiet -p math -p ode -p jam -p files -p scene"; do
+for words in "xtask figures" "test --release --locked --quiet -p jamming-math -p jamming-ode -p jamming -p files -p scene"; do
   echo "without a network: cargo $words"
   # shellcheck disable=SC2086
   env -i PATH="$PATH" HOME="$HOME" ${RUSTUP_HOME:+RUSTUP_HOME="$RUSTUP_HOME"} CARGO_HOME="$home" CARGO_NET_OFFLINE=true \

@@ -41,7 +41,7 @@ pub const STUDIES: Package =
     Package { name: "studies", tools: &["precision", "hard", "studies"], supplements: Some(true) };
 
 /// Removes what is built of our own sources.
-const CLEAN: &str = "clean --quiet --release --locked -p math -p ode -p jam -p files -p scene -p sweep -p plot -p reference -p figures -p planes -p studies";
+const CLEAN: &str = "clean --quiet --release --locked -p jamming-math -p jamming-ode -p jamming -p files -p scene -p sweep -p plot -p reference -p figures -p planes -p studies";
 
 /// What was built: the hashes of the sources, and size and date of each program, so that one that was built by hand since
 /// then is not taken for ours.

@@ -41,7 +41,7 @@ impl Law {
     }
 }
 
-/// Seeds from this on draw laws as formulas ([`formulas`]), those below the laws of the paper.
+/// Seeds from this on draw laws as formulas, those below the laws of the paper.
 pub const FORMULAS: u64 = 1_000_000;
 
 /// Seeds from this on draw the scenes of seeds lower by this, but all by Taylor's method with steps of adaptive length.

@@ -79,7 +79,7 @@ pub fn ratios(scene: &Scene, outcome: &Outcome, answer: &Answer, stated: &Stated
 pub(crate) const FINEST: f64 = 1e-17;
 
 /// What a run states, and the run up to there if its check does not confirm all of it; of the table of trajectories, of which
-/// it states nothing, what [`difference`] finds.
+/// it states nothing, the difference from a second run.
 pub fn of(scene: &Scene, outcome: &Outcome, propagated: &Propagated) -> (Option<Broken>, Stated) {
     let (errors, refused) = errors::checked(scene, outcome, Some(propagated), &mut (), &mut ());
     let cost = errors.cost;

@@ -38,7 +38,7 @@ impl std::error::Error for NoUniformFlow {}
 /// # Errors
 /// [`NoUniformFlow`] when at no speed from -1e12 times the desired one up to it the drive balances the force with room left.
 pub fn steady_speed(model: &Model, headway: f64) -> Result<f64, NoUniformFlow> {
-    if matches!(model, Model::Formula(_) | Model::Own(_)) {
+    if !model.is_of_paper() {
         return nearest(model, headway, None);
     }
     let pushes = |speed: f64| {

@@ -9,7 +9,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// The slopes of a number with respect to `N` variables, where they are the same everywhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Affine<const N: usize> {
-    /// The slopes; `None` where one of them depends on a variable.
+    /// The slopes, one for each of the `N` variables, in the unit of the number over that of the variable; `None` where one
+    /// of them depends on a variable.
     pub slopes: Option<[f64; N]>,
 }
 

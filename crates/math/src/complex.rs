@@ -5,7 +5,8 @@ use crate::scalar::power_of_two;
 /// The principal square root of `re + i im`: the one with a real part >= 0, and with
 /// an imaginary part of the sign of `im` (so a negative number has two roots, by the
 /// sign of its zero). Returns (real part, imaginary part); both have a relative error
-/// below 4 units in the last place for finite arguments of any size.
+/// below 4 units in the last place for finite arguments of any size; NaN in either gives NaN in one or both.
+/// The result has the unit of the root of its argument.
 ///
 /// Follows Kahan, "Branch cuts for complex elementary functions" (1987): first the
 /// part without cancellation, then the other from the product im = 2 re' im'.

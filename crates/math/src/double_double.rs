@@ -13,7 +13,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// The number `hi + lo`, where `hi` is the double nearest to that sum.
 ///
-/// Results are meaningful while all intermediate values stay between about
+/// Results have a relative error of a few 2^-104, with any unit, and are meaningful while all intermediate values stay between about
 /// 1e-290 and 1e300 in size (the errors of products must not underflow, their
 /// splitting must not overflow).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -62,7 +62,7 @@ impl DoubleDouble {
         DoubleDouble { hi, lo: rest + a_tail * b_tail }
     }
 
-    /// The square root of a number >= 0; relative error below 2^-104.
+    /// The square root of a number >= 0, NaN below; relative error below 2^-104.
     #[inline]
     pub fn sqrt(self) -> DoubleDouble {
         let root = self.hi.sqrt();

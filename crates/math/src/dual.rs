@@ -7,20 +7,21 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// A value and its derivative with respect to one variable.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual {
-    /// The value.
+    /// The value, in any unit.
     pub value: f64,
-    /// Its derivative.
+    /// Its derivative, in the unit of the value over that of the variable: at a kink that of one side, NaN beyond the range
+    /// of a function.
     pub slope: f64,
 }
 
 impl Dual {
-    /// The variable itself.
+    /// The variable itself: its slope is 1.
     #[inline(always)]
     pub fn variable(value: f64) -> Dual {
         Dual { value, slope: 1.0 }
     }
 
-    /// What does not depend on the variable.
+    /// What does not depend on the variable: its slope is 0.
     #[inline(always)]
     pub fn constant(value: f64) -> Dual {
         Dual { value, slope: 0.0 }

@@ -9,7 +9,8 @@ use crate::number::Number;
 use crate::row::pieces::{self, Room};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// `W` doubles, one for each pedestrian of a block.
+/// `W` doubles of one unit, one for each pedestrian of a block. Each lane has the bits of the same operations on one double; NaN in
+/// a lane stays in that lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lanes<const W: usize>(pub [f64; W]);
 
@@ -21,7 +22,10 @@ impl<const W: usize> Default for Lanes<W> {
 }
 
 impl<const W: usize> Lanes<W> {
-    /// The first `W` of a slice that holds at least as many.
+    /// The first `W` of a slice.
+    ///
+    /// # Panics
+    /// The slice is shorter.
     #[inline(always)]
     pub fn of(values: &[f64]) -> Lanes<W> {
         let mut lanes = [0.0; W];

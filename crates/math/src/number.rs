@@ -20,7 +20,10 @@ use crate::double_double::{DoubleDouble, full};
 use crate::lane;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// What a formula is made of. Constants enter as the right-hand side of an operation, so a number may belong to
+/// What a formula is made of. Operations have the range of the real function, and no value beyond it: NaN in doubles, which
+/// every further operation keeps but `powi` with the exponent 0. Arguments of `exp`, `ln`, `tanh` and their kin are dimensionless.
+///
+/// Constants enter as the right-hand side of an operation, so a number may belong to
 /// something (a tape, a series) that a constant alone does not know.
 pub trait Number:
     Copy
@@ -34,28 +37,28 @@ pub trait Number:
     + Mul<f64, Output = Self>
     + Div<f64, Output = Self>
 {
-    /// 1 / x.
+    /// 1 / x; infinite at 0.
     fn recip(self) -> Self;
 
-    /// x^n by repeated multiplication, `((x x) x) ...`; of a negative n the reciprocal of that.
+    /// x^n by repeated multiplication, `((x x) x) ...`; of a negative n the reciprocal of that. For any x; 1 where n = 0.
     fn powi(self, n: i32) -> Self;
 
-    /// x^q for x > 0.
+    /// x^q = e^(q ln x) for x > 0; else NaN, for q = 0 too.
     fn powf(self, q: f64) -> Self;
 
-    /// e^x.
+    /// e^x; 0 or infinite where it underflows or overflows.
     fn exp(self) -> Self;
 
     /// e^x - 1.
     fn exp_m1(self) -> Self;
 
-    /// ln x for x > 0.
+    /// ln x for x > 0; else NaN, at 0 too.
     fn ln(self) -> Self;
 
-    /// ln(1 + x) for x > -1.
+    /// ln(1 + x) for x > -1; else NaN, at -1 too.
     fn ln_1p(self) -> Self;
 
-    /// The square root, for x >= 0.
+    /// The square root for x >= 0; else NaN. Its slope at 0 is infinite.
     fn sqrt(self) -> Self;
 
     /// The hyperbolic tangent.
@@ -64,7 +67,7 @@ pub trait Number:
     /// ln(1 + e^x).
     fn softplus(self) -> Self;
 
-    /// |x|.
+    /// |x|. A kink at 0.
     fn abs(self) -> Self;
 
     /// The smaller of two; the first of equal ones; NaN if either is.

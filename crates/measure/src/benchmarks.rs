@@ -83,13 +83,16 @@ impl Measured {
 /// Unsupported: no cargo. Failed: they do not build, or cannot be copied.
 pub fn build(paths: &Paths, sources: &Path, name: &str) -> Result<Tree, Failure> {
     let target = bench(paths).join("build");
-    let mut cargo = process::cargo();
-    cargo.args(["build", "--quiet", "--release", "--locked", "-p", "jam", "--example", "cost"]);
-    cargo.args(["-p", "figures", "--bin", "simulate"]).current_dir(sources).env("CARGO_TARGET_DIR", &target);
-    process::run_shown(&mut cargo).map_err(|failure| match failure {
-        Failure::Child(code) => Failure::Failed(format!("{name} does not build: cargo ended with {code}")),
-        other => other,
-    })?;
+    // by folders: the package of `crates/jam` has another name in older commits
+    for (folder, program) in [("crates/jam", ["--example", "cost"]), ("figures", ["--bin", "simulate"])] {
+        let mut cargo = process::cargo();
+        cargo.args(["build", "--quiet", "--release", "--locked"]).args(program);
+        cargo.current_dir(sources.join(folder)).env("CARGO_TARGET_DIR", &target);
+        process::run_shown(&mut cargo).map_err(|failure| match failure {
+            Failure::Child(code) => Failure::Failed(format!("{name} does not build: cargo ended with {code}")),
+            other => other,
+        })?;
+    }
     let folder = bench(paths).join(name);
     disk::create_folder(&folder)?;
     let suffix = std::env::consts::EXE_SUFFIX;

@@ -2,7 +2,7 @@
 
 use crate::methods::Method;
 
-/// The reason why an integration could not continue.
+/// The reason why an integration could not continue. Times and steps are in the unit of time of the equations.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Failure {
     /// The error, or the end of the domain, asks for a step shorter than [`SHORTEST`](crate::SHORTEST).

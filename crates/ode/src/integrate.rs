@@ -17,11 +17,12 @@ use crate::vector::{add, add_compensated};
 pub struct Problem<'a> {
     /// The equations.
     pub system: &'a dyn System,
-    /// The state at the start.
+    /// The state at the start: [`System::dimension`] components.
     pub start: &'a [f64],
     /// The time at the start.
     pub begin: f64,
-    /// The time at which the integration ends, after `begin`.
+    /// The time at which the integration ends, in the same unit; infinite if the observer ends it. Time does not run backwards: an
+    /// end that is not after `begin` gives the start.
     pub end: f64,
     /// The method.
     pub method: Method,
@@ -40,13 +41,19 @@ pub struct Statistics {
     pub evaluations: u64,
     /// The time reached.
     pub time: f64,
-    /// The state at that time.
+    /// The state at that time: [`System::dimension`] components.
     pub state: Vec<f64>,
 }
 
 /// Integrates from the start, showing every accepted step to the observer, until the end or the observer's `Break`.
 ///
-/// # Errors See [`Failure`]. What the observer saw before remains valid.
+/// # Errors
+/// See [`Failure`]. What the observer saw before remains valid. A start that is not finite is [`Failure::NotFinite`] or
+/// [`Failure::StepTooSmall`] in the first step.
+///
+/// # Panics
+/// The state at the start has another number of components than the system; a step or a tolerance that is not above 0 and
+/// finite; a time that is NaN.
 pub fn integrate(problem: &Problem<'_>, observer: &mut dyn Observer) -> Result<Statistics, Failure> {
     if !problem.method.suits(problem.system) {
         return Err(Failure::NoSeries);
@@ -67,6 +74,9 @@ pub fn integrate(problem: &Problem<'_>, observer: &mut dyn Observer) -> Result<S
 ///
 /// # Errors
 /// [`Failure::NotResumable`] for a mark of a run with another rule for its steps; else as [`integrate`].
+///
+/// # Panics
+/// As [`integrate`].
 pub fn resume(
     problem: &Problem<'_>,
     mark: &ResumePoint<'_>,
@@ -100,6 +110,12 @@ impl<'a> Run<'a> {
         let system = problem.system;
         let n = system.dimension();
         assert_eq!(problem.start.len(), n, "the state has as many components as the system");
+        let (name, size) = match problem.control {
+            Control::Fixed { step } => ("step", step),
+            Control::Adaptive { tolerance } => ("tolerance", tolerance),
+        };
+        assert!(size > 0.0 && size.is_finite(), "the {name} is {size:?}; it must be above 0 and finite");
+        assert!(!problem.begin.is_nan() && !problem.end.is_nan(), "from {:?} to {:?}", problem.begin, problem.end);
         let stepper: Box<dyn Stepper> = match (problem.method, problem.method.tableau()) {
             (_, Some(tableau)) => Box::new(RungeKutta::new(tableau, n)),
             (Method::Ballistic, None) => Box::new(Ballistic::new(system)),
@@ -363,7 +379,7 @@ const LONGEST_BURST: u64 = 4096;
 const WORK_BETWEEN_MARKS: u64 = 1 << 18;
 
 /// Lower limit of adaptive steps. The equations are autonomous and the time is summed with compensation, so a step may
-/// be far below the rounding of the time: near a wall of the force it is as short as the gap is small.
+/// be far below the rounding of the time: near a wall of the force it is as short as the gap is small. In the unit of time.
 pub const SHORTEST: f64 = 1e-290;
 
 /// So many steps in a row that had to be shortened and changed no component end a run: at the end of the domain the

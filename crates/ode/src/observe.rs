@@ -9,7 +9,7 @@ pub trait Observer {
     /// Looks at a step; `Break` ends the integration after it.
     fn after(&mut self, step: &mut Step<'_>) -> ControlFlow<()>;
 
-    /// The time of the next sample: steps that end before it need not be shown unless something happens in them. By
+    /// The time of the next sample, in the unit of time: steps that end before it need not be shown unless something happens in them. By
     /// default every step is shown.
     fn next_sample(&self) -> f64 {
         f64::NEG_INFINITY
@@ -48,7 +48,7 @@ pub struct ResumePoint<'a> {
     pub place: StepPosition,
     /// The counts so far, and the end of the last step that was shown. Its own state is of no meaning.
     pub statistics: &'a Statistics,
-    /// The state there.
+    /// The state there, one number for each component.
     pub state: &'a [f64],
     /// What steps of adaptive length remember; `None` for those of fixed length, whose rates are those of the state.
     pub pace: Option<Pace<'a>>,
@@ -57,15 +57,15 @@ pub struct ResumePoint<'a> {
 /// What steps of adaptive length remember from one to the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pace<'a> {
-    /// The rates at the state, to the last bit: some methods know them from a state that lacks its compensation.
+    /// The rates at the state, one for each component, to the last bit: some methods know them from a state that lacks its compensation.
     pub rates: &'a [f64],
-    /// What rounding has dropped of the state.
+    /// What rounding has dropped of the state, one number for each component.
     pub compensation: &'a [f64],
     /// The time, and what rounding has dropped of it.
     pub time: [f64; 2],
     /// The length of the next step.
     pub step: f64,
-    /// The error of the last step that was accepted.
+    /// The error of the last step that was accepted, in units of the tolerance: 0 to 1.
     pub error: f64,
     /// The unit of time of the series at the state, for a method that has one.
     pub unit: f64,
@@ -87,7 +87,7 @@ pub struct Sampler {
 }
 
 impl Sampler {
-    /// Samples every `interval` (> 0), the first after time 0, of a system of `dimension` components.
+    /// Samples every `interval` (above 0, in the unit of time), the first after time 0, of a system of `dimension` components.
     pub fn new(interval: f64, dimension: usize) -> Sampler {
         Sampler { interval, next: 1, states: [(); 2].map(|()| vec![0.0; dimension]) }
     }
@@ -111,7 +111,7 @@ impl Sampler {
         index as f64 * self.interval
     }
 
-    /// The times of the first and of the last sample that [`Sampler::within`] would take.
+    /// The times of the first and of the last sample that [`Sampler::within`] would take; `None` if there is none.
     pub fn span(&self, step: &Step<'_>, until: f64) -> Option<[f64; 2]> {
         let (first, end) = (self.next(), last_moment(step, until));
         if first > end {
@@ -165,9 +165,10 @@ fn last_moment(step: &Step<'_>, until: f64) -> f64 {
     if until < step.end { until } else { step.end + nearby(step.end, step.length()) }
 }
 
-/// The fraction of the step at which `value` first is negative, to the last bit of the fraction. Looked for in `parts`
+/// The fraction of the step, 0 to 1, at which `value` of the state, in any unit, first is negative, to the last bit of the fraction.
+/// Looked for in `parts`
 /// parts of the step and about every minimum that they show; of two crossings within one part the first may go unseen
-/// only where `value` has several minima there. `None` when it does not get there.
+/// only where `value` has several minima there. `None` when it does not get there; NaN is not negative.
 pub fn first_crossing(step: &mut Step<'_>, parts: u32, value: &mut dyn FnMut(&[f64]) -> f64) -> Option<f64> {
     let mut state = vec![0.0; step.before().len()];
     let mut at = |theta: f64| {
@@ -201,7 +202,8 @@ pub fn first_crossing(step: &mut Step<'_>, parts: u32, value: &mut dyn FnMut(&[f
     negative_about_minimum(from, 1.0, &mut at).map(|past| bisect(from, past, &mut at))
 }
 
-/// The first fraction of the step, between one where `value` is not negative and one where it is, at which it is negative.
+/// The first fraction of the step, between `before`, where `value` is not negative, and `past`, where it is, at which it is negative;
+/// one of them if there are several.
 pub fn crossing_between(step: &mut Step<'_>, before: f64, past: f64, value: &mut dyn FnMut(&[f64]) -> f64) -> f64 {
     let mut state = vec![0.0; step.before().len()];
     bisect(before, past, &mut |theta| {

@@ -1,4 +1,5 @@
-//! Runge-Kutta methods as data.
+//! Runge-Kutta methods as data. Weights are dimensionless; a stage is a rate, and the change of a step is `h` times the sum of
+//! weights times stages.
 
 /// Weights of the stages that count, as pairs (stage, weight); stage 0 is the rate at the start of the step.
 pub type Row = &'static [(usize, f64)];

@@ -160,9 +160,9 @@ pub fn response(
         scene::law::read(&file, section)
     };
     let model = read().map_err(|error| scene_error(py, &error))?;
-    let found = match &model {
-        jam::laws::Model::Formula(formula) => uniform::of_formula(formula, headway, speed),
-        model => uniform::steady_speed(model, headway),
+    let found = match model.is_of_paper() {
+        true => uniform::steady_speed(&model, headway),
+        false => uniform::nearest(&model, headway, speed),
     };
     let speed = found.map_err(|error| scene_error(py, &SceneError::new(&file, 0, error.to_string())))?;
     let response = model.response(headway, speed);

@@ -4,7 +4,7 @@ use crate::law;
 use files::reader::{FINITE, POSITIVE, Reader, SceneError, Section};
 use files::table::{Table, push_number};
 use jam::criteria;
-use jam::laws::{Formula, Model};
+use jam::laws::Model;
 use jam::precise::Precise;
 use jam::stability::{Linear, Waves};
 use jam::uniform::{self, steady_speed};
@@ -70,8 +70,8 @@ struct Point {
 const VALUES: [(&str, Value); 3] =
     [("margin", Value::Margin), ("criterion", Value::Criterion), ("growth_rate", Value::GrowthRate)];
 
-/// What keeps the criterion of a formula from being computed.
-const NO_CRITERION: &str = "the criterion is that of the paper, which has none for a formula";
+/// What keeps the criterion of a law that is not the paper's from being computed.
+const NO_CRITERION: &str = "the criterion is that of the paper, which has none for a formula or any further law";
 
 /// The criterion is left out where it differs by more than this from the exact one, relative to values above 1.
 pub const CRITERION_HOLDS: f64 = 1e-3;
@@ -230,7 +230,7 @@ impl Map {
     /// What keeps the map from being computed, if anything.
     fn complaint(&self) -> Option<String> {
         let has = |name| self.x.parameter == name || self.y.parameter == name;
-        if self.value == Value::Criterion && matches!(self.model, Model::Formula(_)) {
+        if self.value == Value::Criterion && !self.model.is_of_paper() {
             return Some(format!("{NO_CRITERION}; value must be \"margin\" (exact) or \"growth_rate\""));
         }
         if self.value == Value::GrowthRate && !has("k") && self.point.wave_number.is_none() {
@@ -310,8 +310,8 @@ impl Map {
                 _ => model = model.with(parameter, value)?,
             }
         }
-        if let Model::Formula(formula) = &model {
-            return self.of_formula(&model, formula, &point);
+        if !model.is_of_paper() {
+            return self.of_any_law(&model, &point);
         }
         let (criterion, linear) = stability(&model, &point)?;
         Ok(match self.value {
@@ -324,12 +324,11 @@ impl Map {
         })
     }
 
-    /// The value of a cell of a formula, whose stencil may be any.
-    fn of_formula(&self, model: &Model, formula: &Formula, point: &Point) -> Result<(f64, f64), String> {
+    /// The value of a cell of a law that is not the paper's, whose stencil may be any.
+    fn of_any_law(&self, model: &Model, point: &Point) -> Result<(f64, f64), String> {
         let headway = point.headway.ok_or("needs the headway")?;
-        let speed = uniform::of_formula(formula, headway, point.speed).map_err(|error| error.to_string())?;
-        let response =
-            formula.response(headway, speed).ok_or("the uniform flow lies on a kink, or has no derivative")?;
+        let speed = uniform::nearest(model, headway, point.speed).map_err(|error| error.to_string())?;
+        let response = model.response(headway, speed).ok_or("the uniform flow lies on a kink, or has no derivative")?;
         let precise = || Precise::new(model, headway, speed);
         match self.value {
             Value::Margin => Ok((response.margin(Waves::All).0, precise().margin())),
@@ -380,7 +379,7 @@ fn stability(model: &Model, point: &Point) -> Result<(f64, Linear), String> {
             let (headway, speed) = steady()?;
             (criteria::logarithmic(law, headway, speed), law.linearise(headway, speed))
         }
-        Model::Formula(_) | Model::Own(_) => return Err(NO_CRITERION.to_owned()),
+        _ => return Err(NO_CRITERION.to_owned()),
     })
 }
 

@@ -77,6 +77,8 @@ pub fn ci(paths: &Paths, arguments: &CiArgs) -> Result<(), Failure> {
     let mut untried = tests(paths, true)?;
     timed("verify", || verify::made(paths, &quick))?;
     if arguments.full {
+        // its warnings are errors by the lints of the workspace
+        cargo(paths, &["doc", "--locked", "--workspace", "--no-deps"])?;
         cargo(paths, &["test", "--release", "--locked", "--workspace", "--", "--ignored"])?;
         for script in &SLOW {
             untried.extend(attempt(paths, script, true)?);

@@ -32,14 +32,13 @@ fn table(text: &str) -> BTreeMap<String, Crate> {
     crates
 }
 
-/// The manifest of every package of the workspace, by name.
+/// The manifest of every package of the workspace, by its folder, which is also the name that sources use.
 fn manifests() -> BTreeMap<String, toml::Table> {
     let crates = fs::read_dir(root().join("crates")).expect("crates").flatten().map(|entry| entry.path());
     let folders = crates.chain(["figures", "xtask"].map(|name| root().join(name)));
     let read = |folder: PathBuf| {
         let text = fs::read_to_string(folder.join("Cargo.toml")).expect("a manifest");
-        let manifest: toml::Table = text.parse().expect("TOML");
-        (manifest["package"]["name"].as_str().expect("a name").to_owned(), manifest)
+        (folder.file_name().expect("a name").to_string_lossy().into_owned(), text.parse().expect("TOML"))
     };
     folders.map(read).collect()
 }

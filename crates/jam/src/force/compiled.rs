@@ -47,7 +47,8 @@ impl Reference {
 
     /// Turns to another flow. Where the law is `linear_in_speeds`, what it keeps depends on the net gap alone.
     fn turn_to<L: Law>(&mut self, law: &L, flow: Flow, linear_in_speeds: bool) {
-        if linear_in_speeds && self.flow.net_gap == flow.net_gap {
+        let is_same_tape = linear_in_speeds && self.flow.net_gap == flow.net_gap;
+        if is_same_tape && self.flow.speed.is_finite() && flow.speed.is_finite() {
             (self.flow, self.acceleration) = (flow, Reference::acceleration(law, flow));
         } else {
             *self = Reference::new(law, flow);

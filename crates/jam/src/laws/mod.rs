@@ -361,9 +361,15 @@ impl Model {
         self.has_kinks() && self.force().has_unsuited_kinks()
     }
 
+    /// Whether the law is one of the three of the paper. They have the paper's stability criteria, an acceleration with
+    /// derivatives wherever gaps are open, and a single uniform flow; nothing of this is known of another law.
+    pub fn is_of_paper(&self) -> bool {
+        matches!(self, Model::Algebraic(_) | Model::Exponential(_) | Model::Logarithmic(_))
+    }
+
     /// Whether the acceleration may have no value at some places with open gaps.
     pub fn may_be_undefined(&self) -> bool {
-        matches!(self, Model::Formula(_) | Model::Own(_))
+        !self.is_of_paper()
     }
 
     /// The response of the acceleration to spacings and speeds in this uniform flow. `None` where it has no derivative.

@@ -27,12 +27,12 @@ pub fn usual_method(form: StateVariables, model: &Model) -> Method {
 
 /// Whether a ring has a uniform flow that its state can deviate from.
 pub fn has_deviations(model: &Model, ring: Ring, steady_speed: Option<f64>) -> bool {
-    match (model, steady_speed) {
-        (_, None) => false,
-        // on a kink there is no uniform flow to be near to
-        (Model::Formula(_) | Model::Own(_), Some(speed)) => model.response(ring.headway(), speed).is_some(),
+    match steady_speed {
+        None => false,
         // what the uniform flow itself cannot hold in a number is lost in deviations from it
-        (model, Some(speed)) => model.linearise(ring.headway(), speed).phi >= LEAST_RESPONSE,
+        Some(speed) if model.is_of_paper() => model.linearise(ring.headway(), speed).phi >= LEAST_RESPONSE,
+        // on a kink there is no uniform flow to be near to
+        Some(speed) => model.response(ring.headway(), speed).is_some(),
     }
 }
 

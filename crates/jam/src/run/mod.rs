@@ -148,11 +148,11 @@ fn stops(kind: EventKind, at_overlap: AtOverlap) -> bool {
 /// # Errors
 /// A law of the paper has none; or any other several, and none is wanted.
 pub fn flow(model: &Model, ring: Ring, wanted: Option<f64>) -> Result<Option<f64>, NoUniformFlow> {
-    match model {
-        Model::Formula(_) | Model::Own(_) => match uniform::nearest(model, ring.headway(), wanted) {
-            Err(error) if error.speeds.is_empty() => Ok(None),
-            found => found.map(Some),
-        },
-        _ => uniform::steady_speed(model, ring.headway()).map(Some),
+    if model.is_of_paper() {
+        return uniform::steady_speed(model, ring.headway()).map(Some);
+    }
+    match uniform::nearest(model, ring.headway(), wanted) {
+        Err(error) if error.speeds.is_empty() => Ok(None),
+        found => found.map(Some),
     }
 }

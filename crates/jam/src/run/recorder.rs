@@ -15,7 +15,8 @@ use std::ops::ControlFlow;
 /// # Errors
 /// The integration failed before anything stopped it, with the time it reached.
 ///
-/// # Panics The time between samples is not above 0; displacements are given, but not one for each pedestrian.
+/// # Panics
+/// The time between samples, a step or a tolerance is not above 0; displacements are given, but not one for each pedestrian.
 pub fn run(run: &Run) -> Result<Outcome, Broken> {
     run_from(run, None, &mut ())
 }

@@ -18,7 +18,7 @@ fn laws_have_the_bits_that_are_listed() {
     let differences: Vec<&str> = now.lines().filter(|line| !listed.lines().any(|other| other == *line)).collect();
     assert!(
         differences.is_empty() && now.lines().count() == listed.lines().count(),
-        "other bits than in tests/bits.csv: {differences:#?}; if that is meant: {RENEW}=1 cargo test -p jam --test it bits"
+        "other bits than in tests/bits.csv: {differences:#?}; if that is meant: {RENEW}=1 cargo test -p jamming --test it bits"
     );
 }
 
@@ -33,5 +33,6 @@ fn a_law_and_its_formula_have_the_same_bits_whatever_is_asked_of_them() {
             pairs += 1;
         }
     }
-    assert_eq!(pairs, 22);
+    let formulas = lines.keys().filter(|name| name.ends_with("-formula")).count();
+    assert!(pairs == formulas && pairs >= 22, "{pairs} pairs of {formulas} formulas");
 }

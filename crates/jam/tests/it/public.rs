@@ -89,7 +89,7 @@ fn what_is_public_is_listed() {
     let (new, gone) = (missing(&now, &listed), missing(&listed, &now));
     assert!(
         new.is_empty() && gone.is_empty(),
-        "crates/jam/PUBLIC.txt: new {new:#?}, gone {gone:#?}; if that is meant: {RENEW}=1 cargo test -p jam --test it public"
+        "crates/jam/PUBLIC.txt: new {new:#?}, gone {gone:#?}; if that is meant: {RENEW}=1 cargo test -p jamming --test it public"
     );
 }
 

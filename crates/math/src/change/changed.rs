@@ -14,9 +14,9 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// A value at the reference, and the differences of `W` pedestrians from it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Changed<const W: usize> {
-    /// At the reference.
+    /// At the reference, in any unit.
     pub value: f64,
-    /// The differences.
+    /// The differences from it, in the same unit.
     pub change: Lanes<W>,
 }
 

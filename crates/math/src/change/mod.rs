@@ -3,7 +3,8 @@
 //! A formula is carried out twice. First at the reference, with [`Reference`] numbers: every operation that is not linear
 //! leaves on a [`Tape`] what it needs of the reference. Then with [`Change`]s, as often as wanted: the operations take
 //! what they find on the tape, in the same order, and give the difference to a relative error of the order of rounding,
-//! however small it is (see [`rules`]).
+//! however small it is (see [`rules`]). A difference has the unit of the value; where the reference or the changed argument lies
+//! beyond the range of a function it is NaN.
 
 mod changed;
 pub mod rules;
@@ -73,7 +74,7 @@ impl Recorder {
         Recorder(RefCell::default())
     }
 
-    /// A variable of the formula at the reference.
+    /// A variable of the formula, with its value at the reference.
     pub fn variable(&self, value: f64) -> Reference<'_> {
         Reference { tape: self, value }
     }
@@ -141,7 +142,7 @@ impl<'t> Player<'t> {
         Player { tape, next: Cell::new(0) }
     }
 
-    /// A variable of the formula, as its change.
+    /// A variable of the formula, as its change from the reference, one for each of `W` pedestrians.
     #[inline(always)]
     pub fn variable<const W: usize>(&self, change: Lanes<W>) -> Change<'_, W> {
         Change { player: self, change }

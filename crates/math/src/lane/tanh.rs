@@ -5,7 +5,7 @@ use super::exp_m1;
 /// From here on the hyperbolic tangent is 1 to the last bit.
 pub(crate) const SATURATED: f64 = 20.0;
 
-/// tanh x. Error below 3 units in the last place; NaN for NaN.
+/// tanh x. For every x; 1 and -1 at infinity. Error below 3 units in the last place; NaN for NaN.
 #[inline(always)]
 pub fn tanh(x: f64) -> f64 {
     tanh_of(x, exp_m1(twice_size(x)))

@@ -9,12 +9,12 @@ const OVERFLOW: f64 = 709.782_712_893_384;
 /// ln(2^-1075) rounded down: below it the exponential rounds to zero.
 const UNDERFLOW: f64 = -745.133_219_101_941_2;
 
-/// e^x. Infinite above 709.78, zero below -745.13.
+/// e^x for every x; infinite above 709.78, zero below -745.13.
 pub fn exp(x: f64) -> f64 {
     rounded_exp(DoubleDouble::from(x))
 }
 
-/// e^x - 1, with full relative precision near 0. Infinite above 709.78.
+/// e^x - 1 for every x, with full relative precision near 0; infinite above 709.78.
 pub fn exp_m1(x: f64) -> f64 {
     if x.is_nan() || x.abs() < 1.0 / (1u64 << 54) as f64 {
         return x; // the next term, x^2/2, is below half a unit
@@ -42,7 +42,7 @@ impl DoubleDouble {
         (p + 1.0).times(power_of_two(k / 2)).times(power_of_two(k - k / 2))
     }
 
-    /// e^x - 1 with a relative error of about 2^-80, for -708 < x < 709.78.
+    /// e^x - 1 with a relative error of about 2^-80, for -708 < x < 709.78; beyond, the result has no meaning.
     pub fn exp_m1(self) -> DoubleDouble {
         let (k, p) = reduced(self);
         if k == 0 {

@@ -4,7 +4,7 @@ use super::power_of_two;
 use super::series::{ODD_INVERSES, sum};
 use crate::double_double::DoubleDouble;
 
-/// The natural logarithm; -infinity at zero, NaN below.
+/// The natural logarithm of every x >= 0, subnormal ones included; -infinity at zero, NaN below.
 pub fn ln(x: f64) -> f64 {
     if !(x > 0.0 && x < f64::INFINITY) {
         return beyond(x);
@@ -12,7 +12,7 @@ pub fn ln(x: f64) -> f64 {
     DoubleDouble::from(x).ln().into()
 }
 
-/// ln(1 + x), with full relative precision near 0; -infinity at -1, NaN below.
+/// ln(1 + x) for every x >= -1, with full relative precision near 0; -infinity at -1, NaN below.
 pub fn ln_1p(x: f64) -> f64 {
     if x.abs() < 1.0 / (1u64 << 54) as f64 {
         return x; // the next term, x^2/2, is below half a unit
@@ -23,7 +23,7 @@ pub fn ln_1p(x: f64) -> f64 {
     DoubleDouble::from(x).ln_1p().into()
 }
 
-/// The logarithm to base 10; -infinity at zero, NaN below.
+/// The logarithm to base 10 of every x >= 0; -infinity at zero, NaN below.
 pub fn log10(x: f64) -> f64 {
     if !(x > 0.0 && x < f64::INFINITY) {
         return beyond(x);

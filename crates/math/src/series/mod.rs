@@ -3,6 +3,9 @@
 //! Each operation has a recurrence for its next coefficient ([`recurrences`]). A formula is carried out once for each
 //! order, with [`Jet`]s that hold the coefficients of this order: linear operations act on these, the others read and
 //! write the earlier ones in a [`OrderMemory`].
+//!
+//! The coefficient of order `k` is that of `(t / u)^k`, with any unit of time `u` that all variables share: it has the unit of
+//! the value. At order 0 functions have the range of their [lanes](crate::lane); NaN there makes all later orders NaN.
 
 pub mod recurrences;
 
@@ -96,7 +99,9 @@ pub struct OrderMemory<'t, C: Copy> {
 }
 
 impl<'t, C: Coefficient> OrderMemory<'t, C> {
-    /// For the coefficients of this order of series of `length`.
+    /// For the coefficients of this `order`, from 0, of series of `length` coefficients (`order < length`). `memory` holds [`ROWS`]
+    /// times `length` blocks for each operation of the formula that is not linear
+    /// ([`Tape::histories`](crate::change::Tape::histories)); less of it panics. Orders are computed one after the other, from 0.
     #[inline(always)]
     pub fn new(memory: &'t [Block<C>], length: usize, order: usize) -> OrderMemory<'t, C> {
         OrderMemory { memory, length, order, next: Cell::new(0) }

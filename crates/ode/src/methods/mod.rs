@@ -90,7 +90,7 @@ impl Method {
         }
     }
 
-    /// The order of convergence.
+    /// The order of convergence `p`: the error at a given time falls with `h^p`. Of Taylor's method the highest that it takes.
     pub fn order(self) -> usize {
         match self {
             Method::Ballistic => 1,
@@ -118,7 +118,7 @@ impl Method {
         !self.needs_series() || system.has_series()
     }
 
-    /// The coefficients of a Runge-Kutta method.
+    /// The coefficients of a Runge-Kutta method; `None` of others.
     pub fn tableau(self) -> Option<&'static Tableau> {
         match self {
             Method::Euler => Some(&EULER),

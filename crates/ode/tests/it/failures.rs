@@ -178,3 +178,16 @@ fn without_a_size_or_a_rate_the_first_step_is_a_thousandth() {
         .expect("nothing stands in the way");
     assert!((lengths[0] - 0.03).abs() < 1e-16, "{}", lengths[0]);
 }
+
+#[test]
+fn steps_and_tolerances_that_are_not_above_0_are_refused() {
+    let fixed = [0.0, -0.1, f64::NAN, f64::INFINITY].map(|step| (Method::Rk4, Control::Fixed { step }, "the step is"));
+    let adaptive = [0.0, -1.0, f64::NAN, f64::INFINITY]
+        .map(|tolerance| (Method::Dop853, Control::Adaptive { tolerance }, "the tolerance is"));
+    for (method, control, said) in fixed.into_iter().chain(adaptive) {
+        let solve = || solve(&oscillator(), &[1.0, 0.0], 1.0, method, control);
+        let panic = std::panic::catch_unwind(solve).expect_err("refused");
+        let message = panic.downcast_ref::<String>().expect("a message");
+        assert!(message.contains(said) && message.contains("above 0"), "{message}");
+    }
+}
