@@ -216,6 +216,7 @@ def main(options):
     if options.before:
         simulate[BEFORE] = options.before.resolve()
     with tempfile.TemporaryDirectory(dir=scratch) as folder:
+        programs, simulate = (build.copies(paths, Path(folder)) for paths in (programs, simulate))
         tables, truths = compare(Runner(Path(folder), programs, python, simulate), options)
     facts = {
         "processor": processor(),
