@@ -297,6 +297,13 @@ pub(crate) struct Change<'a, const WHOLE: bool> {
 }
 
 impl<const WHOLE: bool> Change<'_, WHOLE> {
+    /// Where the second wide block begins: as far behind the first as it can where rows begin a line of the cache.
+    #[inline(always)]
+    fn second(&self) -> usize {
+        let to_line = self.rows[self.from..].as_ptr().align_offset(LINE * size_of::<f64>());
+        if self.n.is_multiple_of(LINE) && to_line < LINE { WIDE - (WIDE - to_line) % LINE } else { WIDE }
+    }
+
     #[inline(always)]
     fn lanes<const LANES: usize>(&mut self, from: usize) {
         let mut sum = [0.0; LANES];
@@ -329,7 +336,8 @@ impl<const WHOLE: bool> Kernel for Change<'_, WHOLE> {
         }
         if n >= WIDE {
             // each sum waits for itself: more of them at a time
-            for from in (0..n).step_by(WIDE) {
+            self.lanes::<WIDE>(0);
+            for from in (self.second()..n).step_by(WIDE) {
                 self.lanes::<WIDE>(from.min(n - WIDE));
             }
             return;

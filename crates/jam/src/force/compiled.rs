@@ -46,6 +46,7 @@ impl Reference {
     }
 
     /// Turns to another flow. Where the law is `linear_in_speeds`, what it keeps depends on the net gap alone.
+    #[cold]
     fn turn_to<L: Law>(&mut self, law: &L, flow: Flow, linear_in_speeds: bool) {
         let is_same_tape = linear_in_speeds && self.flow.net_gap == flow.net_gap;
         if is_same_tape && self.flow.speed.is_finite() && flow.speed.is_finite() {

@@ -235,7 +235,8 @@ impl<L: Law, const PLAIN: bool, const W: usize> Coefficients<'_, '_, L, PLAIN, W
             let InBlocks { histories, now, next } = &mut *memory;
             let (now, next, mut left) = (now.numbers(), next.numbers_mut(), &histories[..]);
             for index in 0..blocks {
-                let (own, others) = left.split_at(size);
+                // else the compiler keeps a pointer for each sum, and advances a dozen of them in memory for every block
+                let (own, others) = std::hint::black_box(left).split_at(size);
                 left = others;
                 let (from, place) = (begin::<W>(index, n), OrderMemory::new(own, order, k));
                 let [s, v, w] = block::<W>(now, from);
