@@ -60,6 +60,9 @@ const SPEEDS: usize = 6;
 /// A term of the series that is smaller than this part of the sum ends it: an error is asked to a factor of 3.
 const REST: f32 = 1e-2;
 
+/// The same where slopes change: who is thrown back by a wall goes on with a small difference of what came.
+const REST_IF_GROWS: f32 = 1e-3;
+
 /// Smaller differences are carried in this unit.
 const LEAST: f64 = 1e-290;
 
@@ -133,10 +136,9 @@ fn sum<const GROWS: bool>(blocks: &mut [Block], n: usize, unit: f64, turns: f32)
         moved = (blocks[0][SPEED][0] + half * moved) * share;
         way += moved;
         next_term::<GROWS>(blocks, new, [half, share]);
-        // terms grow at first
-        if order >= turns {
+        if order >= FIRST_LOOK * turns {
             if least.is_infinite() {
-                least = REST * size(blocks, [SPACINGS, SPEEDS]);
+                least = if GROWS { REST_IF_GROWS } else { REST } * size(blocks, [SPACINGS, SPEEDS]);
             }
             if size(blocks, [SPACING, SPEED]) <= least {
                 break;
@@ -215,6 +217,9 @@ fn largest(numbers: &[f64]) -> f64 {
     }
     most.into_iter().fold(0.0, |most, one| if one > most { one } else { most })
 }
+
+/// Terms grow up to the order that `turns` is, and are looked at from this multiple of it on.
+const FIRST_LOOK: f32 = 1.5;
 
 /// More terms than any finite series over a piece needs.
 const MOST_TERMS: f32 = 100.0;
