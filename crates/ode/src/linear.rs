@@ -1,166 +1,152 @@
 //! Propagates a small difference from a solution by the linearised equations, for systems that provide them
-//! ([`crate::System::tangent`]). A step may be too long for a difference when the solution itself has become slow. The
-//! difference is then computed with more orders than the step, or in several pieces.
+//! ([`crate::System::tangent`]).
 
 use crate::dense::Step;
 use crate::system::{System, Tangent};
-use crate::taylor::{Change, forced};
-use crate::vector::largest;
-use math::lane;
+use crate::taylor::forced;
 use math::simd::{Kernel, dispatch};
 use std::cell::RefCell;
 use std::ops::Range;
 
-/// The series of a difference over the step looked at last.
+/// The linearised equations over the step looked at last.
 #[derive(Clone, Debug)]
 pub(crate) struct Linear {
-    /// The coefficients of the equations at the start of the step or of its last piece, at its end, and their growth over a
-    /// piece.
+    /// Their coefficients at the start of the step and at its end.
     start: Vec<f64>,
     end: Vec<f64>,
-    growth: Vec<f64>,
-    /// How fast differences move at most, at the end of the step.
+    /// How fast differences move at most: at the end of the step, and in the whole of it.
+    fastest_at_end: f64,
     fastest: f64,
     /// Whether `end` is known from the step before, and for how many more steps it may stand for theirs.
     is_known: bool,
     is_steady: bool,
     steady_for: u32,
-    /// The rows of all pieces, which are equally long; what follows them is unused.
-    rows: Vec<f64>,
+    /// Whether they change so much over the step that a shift in time is carried apart.
+    is_thrown: bool,
     /// How late the solution is: this part of the difference, a shift along the solution, is carried exactly. Of a motion
     /// that is thrown back by a wall all but a small rest is of this kind.
     late: f64,
     /// The components concerned.
     forced: Vec<Range<usize>>,
-    /// Scratch for states and rates.
-    state: RefCell<[Vec<f64>; 2]>,
-    /// What fading leaves over a piece, and its logarithm.
-    left: f64,
-    fading: f64,
-    /// How many numbers the rows of a piece are.
-    length: usize,
-    pieces: usize,
+    scratch: RefCell<Scratch>,
 }
 
-/// Terms of a series from the first that is smaller than this part are left out: an error is asked to a factor of 3.
-const REST: f64 = 2e-2;
+#[derive(Clone, Debug, Default)]
+struct Scratch {
+    state: Vec<f64>,
+    rates: Vec<f64>,
+    /// The coefficients at a place within the step.
+    there: Vec<f64>,
+    room: Vec<f32>,
+}
 
-/// A piece is at most so long, in units of the time in which differences move: terms of longer ones would cancel.
-const LONGEST: f64 = 10.0;
-
-/// More pieces than this would cost more than the step.
-const MOST_PIECES: f64 = 100.0;
+/// Differences that move by more than this within a step would cost more than the step.
+const MOST_TURNS: f64 = 1000.0;
 
 /// Coefficients that change by at most this fraction over a step are reused for a few more steps.
 const STEADY: f64 = 0.01;
 const STEADY_FOR: u32 = 3;
 
+/// Where coefficients change by more than this fraction over a step, they do not do so linearly.
+const THROWN: f64 = 0.1;
+
 impl Linear {
     /// For a system; `None` if it does not provide its linearised equations.
     pub(crate) fn new(system: &dyn System) -> Option<Linear> {
-        let size = system.tangent_size();
-        let zeros = || vec![0.0; size];
+        let (size, zeros) = (system.tangent_size(), vec![0.0; system.dimension()]);
         (size > 0).then(|| Linear {
-            start: zeros(),
-            end: zeros(),
-            growth: zeros(),
+            start: vec![0.0; size],
+            end: vec![0.0; size],
+            fastest_at_end: 0.0,
             fastest: 0.0,
             is_known: false,
             is_steady: false,
             steady_for: 0,
-            rows: Vec::new(),
+            is_thrown: false,
             late: 0.0,
             forced: forced(system),
-            state: RefCell::new([vec![0.0; system.dimension()], vec![0.0; system.dimension()]]),
-            left: 1.0,
-            fading: 0.0,
-            length: 0,
-            pieces: 0,
+            scratch: RefCell::new(Scratch { state: zeros.clone(), rates: zeros, ..Scratch::default() }),
         })
     }
 
     /// Carries a difference, known at the start of a step, over the step; false where it moves too fast.
-    pub(crate) fn expand(&mut self, step: &Step<'_>, error: &[f64]) -> bool {
-        let fastest = self.look(step);
-        let turns = fastest * step.length();
-        let pieces = (turns / LONGEST).ceil();
-        if pieces.is_nan() || pieces > MOST_PIECES {
-            return false;
+    pub(crate) fn carry(&mut self, step: &Step<'_>, error: &[f64], after: &mut [f64]) -> bool {
+        self.look(step);
+        let is_slow = self.fastest * step.length() <= MOST_TURNS;
+        if is_slow {
+            let rates = step.rates_before();
+            self.late = if self.is_thrown { lateness(&self.forced, rates, error) } else { 0.0 };
+            self.over(step, 1.0, error, after);
         }
-        self.pieces = if pieces > 1.0 { pieces as usize } else { 1 };
-        let share = 1.0 / self.pieces as f64;
-        let (unit, dimension) = (step.length() * share, error.len());
-        self.fading = step.system.fading() * unit;
-        self.left = lane::exp(self.fading);
-        let order = order(turns * share, REST / self.left);
-        self.length = (order + 1) * dimension;
-        if self.rows.len() < self.pieces * self.length {
-            self.rows.resize(self.pieces * self.length, 0.0);
-        }
-        let rates = step.rates_before();
-        // a motion that is all but uniform is thrown back by nothing
-        self.late = if self.is_steady { 0.0 } else { lateness(&self.forced, rates, error) };
-        dispatch(Unshifted { error, rates, late: self.late, result: &mut self.rows[..dimension] });
-        if self.pieces > 1 {
-            self.growth.iter_mut().for_each(|growth| *growth *= share);
-        }
-        for piece in 0..self.pieces {
-            let (done, rest) = self.rows.split_at_mut(piece * self.length);
-            let rows = &mut rest[..self.length];
-            if piece > 0 {
-                whole(&done[done.len() - self.length..], dimension, 1.0, &mut rows[..dimension]);
-                rows[..dimension].iter_mut().for_each(|difference| *difference *= self.left);
-                if !self.is_steady {
-                    self.start.iter_mut().zip(&self.growth).for_each(|(start, growth)| *start += growth);
-                }
-            }
-            let growth = if self.is_steady { &[][..] } else { &self.growth[..] };
-            step.system.difference(Tangent { start: &self.start, growth }, order, unit, rows);
-        }
-        true
+        is_slow
     }
 
-    /// Finds the coefficients at the start of the step and their growth; returns how fast differences move at most.
-    fn look(&mut self, step: &Step<'_>) -> f64 {
-        let before = if self.is_known { self.fastest } else { step.system.tangent(step.before(), &mut self.end) };
-        self.start.copy_from_slice(&self.end);
+    /// Finds the coefficients at both ends of the step.
+    fn look(&mut self, step: &Step<'_>) {
+        if !self.is_known {
+            self.fastest_at_end = step.system.tangent(step.before(), &mut self.end);
+            self.is_known = true;
+        }
+        let fastest = self.fastest_at_end;
+        self.fastest = fastest;
         self.is_steady = self.steady_for > 0;
         if self.is_steady {
-            self.steady_for -= 1;
-            return before;
+            // `end` is that of an earlier step, near enough
+            (self.steady_for, self.is_thrown) = (self.steady_for - 1, false);
+            return;
         }
-        // after steady steps `end` is that of an earlier one, near enough
-        self.fastest = step.system.tangent(step.after(), &mut self.end);
-        self.is_known = true;
-        for (growth, (start, end)) in self.growth.iter_mut().zip(self.start.iter().zip(&self.end)) {
-            *growth = end - start;
-        }
-        self.steady_for = if largest(&self.growth) <= STEADY * largest(&self.end) { STEADY_FOR } else { 0 };
-        if self.fastest > before { self.fastest } else { before }
+        std::mem::swap(&mut self.start, &mut self.end);
+        self.fastest_at_end = step.system.tangent(step.after(), &mut self.end);
+        self.fastest = if self.fastest_at_end <= fastest { fastest } else { self.fastest_at_end };
+        let [change, size] = dispatch(Largest { one: &self.end, other: &self.start });
+        self.steady_for = if change <= STEADY * size { STEADY_FOR } else { 0 };
+        self.is_thrown = change > THROWN * size;
     }
 
-    /// Writes the difference at the end of the step, of what was there at its start, and what the step has added.
-    pub(crate) fn end(&self, step: &Step<'_>, added: &[f64], result: &mut [f64]) {
-        let left = self.rest(1.0, result);
-        dispatch(Shifted { left, late: self.late, rates: step.rates_after(), added, result });
+    /// Writes the difference at the fraction `theta` of the step, less what the solution is late, of what was there at its
+    /// start.
+    fn over(&self, step: &Step<'_>, theta: f64, error: &[f64], result: &mut [f64]) {
+        if self.late == 0.0 {
+            result.copy_from_slice(error);
+        } else {
+            dispatch(Unshifted { error, rates: step.rates_before(), late: self.late, result });
+        }
+        let Scratch { there, room, .. } = &mut *self.scratch.borrow_mut();
+        let (start, end) = match (self.is_steady, theta == 1.0) {
+            (true, _) => (&self.end[..], &[][..]),
+            (false, true) => (&self.start[..], &self.end[..]),
+            (false, false) => {
+                there.clear();
+                there.extend(self.start.iter().zip(&self.end).map(|(start, end)| start + theta * (end - start)));
+                (&self.start[..], &there[..])
+            }
+        };
+        let length = theta * step.length();
+        step.system.carry(Tangent { start, end, length, fastest: self.fastest, room }, result);
     }
 
-    /// The same at the fraction `theta` of the step.
-    pub(crate) fn at(&self, step: &mut Step<'_>, theta: f64, result: &mut [f64]) {
-        let [state, rates] = &mut *self.state.borrow_mut();
+    /// Adds to the difference that was carried over the step what the solution is late, and what the step has added: its own
+    /// error, and this part of its change with the sign of the error at its start.
+    pub(crate) fn end(&self, step: &Step<'_>, own: &[f64], rounding: f64, error: &[f64], after: &mut [f64]) {
+        let (states, rates) = ([step.before(), step.after()], step.rates_after());
+        if self.late == 0.0 {
+            dispatch(Arrived::<false> { late: 0.0, rates, own, rounding, states, error, after });
+        } else {
+            dispatch(Arrived::<true> { late: self.late, rates, own, rounding, states, error, after });
+        }
+        // what does not belong there grows by roundings
+        if !self.is_steady {
+            step.system.constrain(after);
+        }
+    }
+
+    /// Writes the difference at the fraction `theta` of the step, of what was there at its start.
+    pub(crate) fn at(&self, step: &mut Step<'_>, theta: f64, error: &[f64], result: &mut [f64]) {
+        self.over(step, theta, error, result);
+        let Scratch { state, rates, .. } = &mut *self.scratch.borrow_mut();
         step.at_fraction(theta, state);
         step.rates_of(state, rates);
-        let left = self.rest(theta, result);
-        result.iter_mut().zip(rates).for_each(|(result, rate)| *result = *result * left + self.late * *rate);
-    }
-
-    /// Writes the series there; returns what fading leaves of it.
-    fn rest(&self, theta: f64, result: &mut [f64]) -> f64 {
-        let place = theta * self.pieces as f64;
-        let piece = (place as usize).min(self.pieces - 1);
-        let within = place - piece as f64;
-        whole(&self.rows[piece * self.length..][..self.length], result.len(), within, result);
-        if within == 1.0 { self.left } else { lane::exp(self.fading * within) }
+        result.iter_mut().zip(rates).for_each(|(result, rate)| *result += self.late * *rate);
     }
 }
 
@@ -170,8 +156,9 @@ const MOST_LATE: f64 = 10.0;
 
 /// The shift in time that makes most of a difference.
 fn lateness(components: &[Range<usize>], rates: &[f64], error: &[f64]) -> f64 {
+    let sizes = |range: Range<usize>| dispatch(Sizes { one: &rates[range.clone()], other: &error[range] });
     let scale = components.iter().fold(0.0, |scale, range| {
-        let own = largest(&rates[range.clone()]);
+        let own = sizes(range.clone())[0];
         if own <= scale { scale } else { own }
     });
     let share = 1.0 / scale;
@@ -182,8 +169,65 @@ fn lateness(components: &[Range<usize>], rates: &[f64], error: &[f64]) -> f64 {
     }
     let late = along / squares * share;
     // of a slow motion it may be far more than the error of what moves on
-    let is_part = late.abs() * largest(rates) <= MOST_LATE * largest(error);
+    let [fastest, largest] = sizes(0..rates.len());
+    let is_part = late.abs() * fastest <= MOST_LATE * largest;
     if is_part { late } else { 0.0 }
+}
+
+/// Numbers per iteration.
+const LANES: usize = 8;
+
+/// The largest absolute values of two rows; NaN counts for nothing.
+struct Sizes<'a> {
+    one: &'a [f64],
+    other: &'a [f64],
+}
+
+impl Kernel for Sizes<'_> {
+    type Output = [f64; 2];
+
+    #[inline(always)]
+    fn run(self) -> [f64; 2] {
+        in_lanes(self.one, self.other, |one, other| [one, other])
+    }
+}
+
+/// The largest absolute values of the difference of two rows and of the first; NaN counts for nothing.
+struct Largest<'a> {
+    one: &'a [f64],
+    other: &'a [f64],
+}
+
+impl Kernel for Largest<'_> {
+    type Output = [f64; 2];
+
+    #[inline(always)]
+    fn run(self) -> [f64; 2] {
+        in_lanes(self.one, self.other, |one, other| [one - other, one])
+    }
+}
+
+/// The largest absolute values of two functions of two rows.
+#[inline(always)]
+fn in_lanes(one: &[f64], other: &[f64], of: impl Fn(f64, f64) -> [f64; 2]) -> [f64; 2] {
+    let mut most = [[0.0; LANES]; 2];
+    let mut take = |lane: usize, one: f64, other: f64| {
+        for (most, value) in most.iter_mut().zip(of(one, other)) {
+            let size = value.abs();
+            most[lane] = if size > most[lane] { size } else { most[lane] };
+        }
+    };
+    let (ones, rest) = one.as_chunks::<LANES>();
+    let (others, other_rest) = other.as_chunks::<LANES>();
+    for (one, other) in ones.iter().zip(others) {
+        for lane in 0..LANES {
+            take(lane, one[lane], other[lane]);
+        }
+    }
+    for (one, other) in rest.iter().zip(other_rest) {
+        take(0, *one, *other);
+    }
+    most.map(|most| most.into_iter().fold(0.0, |largest, one| if one > largest { one } else { largest }))
 }
 
 /// The sums of rates times errors and of squares of rates, these in units in which the largest is 1.
@@ -198,14 +242,21 @@ impl Kernel for Products<'_> {
 
     #[inline(always)]
     fn run(self) -> [f64; 2] {
-        const LANES: usize = 8;
         let (mut along, mut squares) = ([0.0; LANES], [0.0; LANES]);
-        for (rates, error) in self.rates.chunks(LANES).zip(self.error.chunks(LANES)) {
-            for i in 0..rates.len().min(error.len()) {
-                let share = rates[i] * self.share;
-                along[i] += share * error[i];
-                squares[i] += share * share;
+        let mut take = |lane: usize, rate: f64, error: f64| {
+            let rate = rate * self.share;
+            along[lane] += rate * error;
+            squares[lane] += rate * rate;
+        };
+        let (rates, rest) = self.rates.as_chunks::<LANES>();
+        let (errors, other_rest) = self.error.as_chunks::<LANES>();
+        for (rate, error) in rates.iter().zip(errors) {
+            for lane in 0..LANES {
+                take(lane, rate[lane], error[lane]);
             }
+        }
+        for (rate, error) in rest.iter().zip(other_rest) {
+            take(0, *rate, *error);
         }
         [along, squares].map(|sums| sums.iter().sum())
     }
@@ -230,37 +281,28 @@ impl Kernel for Unshifted<'_> {
     }
 }
 
-/// Takes what is left of a difference and adds `late * rates + added`.
-struct Shifted<'a> {
-    left: f64,
+/// Adds `late * rates` if `LATE`, the own error and the rounding of a step to a difference.
+struct Arrived<'a, const LATE: bool> {
     late: f64,
     rates: &'a [f64],
-    added: &'a [f64],
-    result: &'a mut [f64],
+    own: &'a [f64],
+    rounding: f64,
+    states: [&'a [f64]; 2],
+    error: &'a [f64],
+    after: &'a mut [f64],
 }
 
-impl Kernel for Shifted<'_> {
+impl<const LATE: bool> Kernel for Arrived<'_, LATE> {
     type Output = ();
 
     #[inline(always)]
     fn run(self) {
-        for (result, (rate, added)) in self.result.iter_mut().zip(self.rates.iter().zip(self.added)) {
-            *result = (self.left * *result + self.late * rate) + added;
+        let Arrived { late, rates, own, rounding, states: [before, now], error, after } = self;
+        let states = before.iter().zip(now).zip(error);
+        let added = rates.iter().zip(own).zip(states);
+        for (after, ((rate, own), ((before, now), error))) in after.iter_mut().zip(added) {
+            let carried = if LATE { *after + late * rate } else { *after };
+            *after = carried + (own + (rounding * (now - before).abs()).copysign(*error));
         }
     }
-}
-
-/// The sum of a series.
-fn whole(rows: &[f64], n: usize, h: f64, result: &mut [f64]) {
-    dispatch(Change::<true> { rows, n, from: 0, h, result });
-}
-
-/// The last order whose term is above `rest`, where each is `turns / k` times the one before; terms grow at first.
-fn order(turns: f64, rest: f64) -> usize {
-    let (mut order, mut term) = (1, turns);
-    while term > rest || (order as f64) < turns {
-        order += 1;
-        term *= turns / order as f64;
-    }
-    order
 }

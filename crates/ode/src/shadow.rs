@@ -114,10 +114,10 @@ impl Shadow {
         }
         self.advance(step);
         self.power = step.stepper.error_power() + 1;
-        let (before, after) = (step.ends.before, step.ends.after);
-        dispatch(Rounded { before, after, error: &self.error, own: &mut self.own });
         self.round(step, rounding);
-        if !self.arrive(step) {
+        if !self.arrive(step, ROUNDING) {
+            let (before, after) = (step.ends.before, step.ends.after);
+            dispatch(Rounded { before, after, error: &self.error, own: &mut self.own });
             self.added.iter_mut().zip(&self.own).for_each(|(added, own)| *added += own);
         }
         true
@@ -128,12 +128,10 @@ impl Shadow {
         if rounding == 0.0 {
             return;
         }
+        let push = self.length * rounding;
         for range in forced(step.system) {
-            for own in &mut self.own[range] {
-                // Knuth's generator of 64 bits
-                self.lot = self.lot.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-                let push = self.length * if self.lot >> 63 == 0 { rounding } else { -rounding };
-                *own += push;
+            for own in self.own[range].chunks_mut(u64::BITS as usize) {
+                dispatch(Pushed { lot: drawn(&mut self.lot), push, own });
             }
         }
     }
@@ -148,13 +146,13 @@ impl Shadow {
     pub fn carry(&mut self, step: &mut Step<'_>) {
         self.advance(step);
         self.own.fill(0.0);
-        self.arrive(step);
+        self.arrive(step, 0.0);
     }
 
     /// Computes the error at the end of a step that is propagated separately.
-    fn arrive(&mut self, step: &Step<'_>) -> bool {
+    fn arrive(&mut self, step: &Step<'_>, rounding: f64) -> bool {
         let Some(linear) = self.linear.as_ref().filter(|_| self.has_rows) else { return false };
-        linear.end(step, &self.own, &mut self.after);
+        linear.end(step, &self.own, rounding, &self.error, &mut self.after);
         true
     }
 
@@ -181,12 +179,11 @@ impl Shadow {
     fn expand_linear(&mut self, step: &Step<'_>) {
         if self.has_rows {
             std::mem::swap(&mut self.error, &mut self.after);
-            step.system.constrain(&mut self.error);
         } else {
             self.after.clone_from(&self.error);
         }
         if let Some(linear) = &mut self.linear {
-            self.has_rows = linear.expand(step, &self.error);
+            self.has_rows = linear.carry(step, &self.error, &mut self.after);
             self.is_sure &= self.has_rows;
         }
     }
@@ -254,7 +251,7 @@ impl Shadow {
         match self.linear.as_ref().filter(|_| self.has_rows) {
             Some(_) if theta == 1.0 => result.copy_from_slice(&self.after),
             Some(linear) => {
-                linear.at(step, theta, result);
+                linear.at(step, theta, &self.error, result);
                 let share = self.own_share(theta);
                 result.iter_mut().zip(&self.own).for_each(|(result, own)| *result += share * own);
             }
@@ -320,6 +317,33 @@ impl Kernel for Rounded<'_> {
         let states = self.before.iter().zip(self.after);
         for ((error, own), (before, after)) in self.error.iter().zip(self.own).zip(states) {
             *own += (ROUNDING * (after - before).abs()).copysign(*error);
+        }
+    }
+}
+
+/// The next 64 bits drawn by lot: Vigna's SplitMix64.
+fn drawn(lot: &mut u64) -> u64 {
+    *lot = lot.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let mixed = (*lot ^ (*lot >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    mixed ^ (mixed >> 31)
+}
+
+/// Pushes up to 64 components, each one way or the other as its bit says.
+struct Pushed<'a> {
+    lot: u64,
+    push: f64,
+    own: &'a mut [f64],
+}
+
+impl Kernel for Pushed<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        for (bit, own) in (0..u64::BITS).zip(self.own) {
+            let sign = (self.lot >> bit) << (u64::BITS - 1);
+            *own += f64::from_bits(self.push.to_bits() ^ sign);
         }
     }
 }

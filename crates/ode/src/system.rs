@@ -51,12 +51,6 @@ pub trait System {
         0
     }
 
-    /// The rate, at most 0, at which all small differences fade on top of what distinguishes them: the middle of the
-    /// eigenvalues of the linearised equations.
-    fn fading(&self) -> f64 {
-        0.0
-    }
-
     /// Takes out of a difference of two states what no two of them differ by. Roundings put it in, and where all else
     /// fades it would stay.
     fn constrain(&self, _difference: &mut [f64]) {}
@@ -67,10 +61,9 @@ pub trait System {
         0.0
     }
 
-    /// Writes the Taylor series of a small difference from a solution near which they change linearly with time, but for
-    /// their fading: the series of `exp(-fading t)` times the difference, in the form of [`System::series`]. The first row
-    /// is given. Such a series needs fewer orders.
-    fn difference(&self, _tangent: Tangent<'_>, _order: usize, _unit: f64, _coefficients: &mut [f64]) {}
+    /// Carries a small difference over a time in which the coefficients change linearly, to two digits of its largest
+    /// component.
+    fn carry(&self, _tangent: Tangent<'_>, _difference: &mut [f64]) {}
 
     /// In how many places the rates can bend sharply, as a smooth ramp does.
     fn bends(&self) -> usize {
@@ -98,13 +91,19 @@ pub trait System {
     }
 }
 
-/// Coefficients of linearised equations: at the start, and by how much they grow in a unit of time.
-#[derive(Clone, Copy, Debug)]
+/// Linearised equations over a time.
+#[derive(Debug)]
 pub struct Tangent<'a> {
-    /// At the start.
+    /// The coefficients at the start of it.
     pub start: &'a [f64],
-    /// Their growth; empty: they do not change.
-    pub growth: &'a [f64],
+    /// Those at its end; empty: they do not change.
+    pub end: &'a [f64],
+    /// The time.
+    pub length: f64,
+    /// How fast differences move at most, as [`System::tangent`] says.
+    pub fastest: f64,
+    /// Scratch, which the caller keeps.
+    pub room: &'a mut Vec<f32>,
 }
 
 /// The result of a batch of steps (see [`System::heun`]).

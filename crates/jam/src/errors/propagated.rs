@@ -12,6 +12,7 @@ use super::{Errors, ROUNDINGS, largest, largest_std, loses_shift, of_headway, un
 use crate::events::{Event, EventKind};
 use crate::run::{Outcome, Run, RunObserver, Sight};
 use crate::states::StateVariables;
+use math::simd::{Kernel, dispatch};
 use ode::{Shadow, Step};
 
 /// Observes a run from its start, and returns the errors at its end if the steps estimate theirs.
@@ -233,13 +234,13 @@ impl Propagated {
         let Some(shadow) = self.shadow.as_ref().filter(|_| self.is_singular && state.len() == 2 * n + 1) else {
             return;
         };
-        let fastest = largest(&state[n..2 * n]);
+        let fastest = ode::largest(&state[n..2 * n]);
         if fastest < THROWN * self.desired {
             return;
         }
         let (Some(error), rates) = (shadow.after(), step.rates_after()) else { return };
-        let part = largest(&error[n..2 * n]) / fastest;
-        let late = largest(&error[..n]) / largest(&rates[..n]);
+        let part = ode::largest(&error[n..2 * n]) / fastest;
+        let late = ode::largest(&error[..n]) / ode::largest(&rates[..n]);
         // speeds double at every throw: the end is about as near as the ring is long over the largest
         let guess = late + part * (self.headway * n as f64 / fastest);
         if part < SMALL && self.last_known.is_none_or(|known| guess <= known.guess) {
@@ -367,25 +368,83 @@ fn in_gaps(error: &[f64], n: usize) -> Vec<f64> {
 /// is not sure of these errors. They may all but cancel in the sum, what is not sure of them does not. Scaled: speeds of
 /// 1e-200 have squares.
 pub(super) fn std_error(speeds: &[f64], errors: &[f64]) -> f64 {
-    let (count, scale) = (speeds.len() as f64, math::larger(largest(speeds), largest(errors)));
+    let (count, scale) = (speeds.len() as f64, math::larger(ode::largest(speeds), ode::largest(errors)));
     if scale < SMALLEST || !scale.is_finite() {
         // numbers without digits, or none: none is off by more than all of it
         return scale;
     }
-    let share = 1.0 / (scale * count);
-    let (mean, shift) = (speeds.iter().sum::<f64>() * share, errors.iter().sum::<f64>() * share);
-    let (mut squares, mut others, mut between, mut offs) = (0.0, 0.0, 0.0, 0.0);
-    for (speed, error) in speeds.iter().zip(errors) {
-        let (own, off) = (speed / scale - mean, error / scale - shift);
-        squares += own * own;
-        others += (own - off) * (own - off);
-        between += off * (2.0 * own - off);
-        offs += off * off;
-    }
-    let deviations = (squares / count).sqrt() + (others / count).sqrt();
+    let [mean, shift] = dispatch(Sums { speeds, errors }).map(|sum| sum / scale / count);
+    let [squares, between, offs] = dispatch(Squares { speeds, errors, share: 1.0 / scale, mean, shift });
+    // the squares of what remains without the errors
+    let others = squares - between;
+    let deviations = (squares / count).sqrt() + math::larger(others / count, 0.0).sqrt();
     let difference = if between == 0.0 { 0.0 } else { (between / count).abs() / deviations };
     scale * (difference + UNSURE * (offs / count).sqrt())
 }
+
+/// The sums of speeds and of their errors.
+struct Sums<'a> {
+    speeds: &'a [f64],
+    errors: &'a [f64],
+}
+
+impl Kernel for Sums<'_> {
+    type Output = [f64; 2];
+
+    #[inline(always)]
+    fn run(self) -> [f64; 2] {
+        [self.speeds, self.errors].map(|values| {
+            let mut sums = [0.0; LANES];
+            let (eights, rest) = values.as_chunks::<LANES>();
+            for eight in eights {
+                for lane in 0..LANES {
+                    sums[lane] += eight[lane];
+                }
+            }
+            rest.iter().chain(&sums).sum()
+        })
+    }
+}
+
+/// The sums, in these units and over the deviations `d` from the mean and `e` of the errors from theirs, of `d^2`, of `d^2 -
+/// (d - e)^2` and of `e^2`.
+struct Squares<'a> {
+    speeds: &'a [f64],
+    errors: &'a [f64],
+    share: f64,
+    mean: f64,
+    shift: f64,
+}
+
+impl Kernel for Squares<'_> {
+    type Output = [f64; 3];
+
+    #[inline(always)]
+    fn run(self) -> [f64; 3] {
+        let Squares { speeds, errors, share, mean, shift } = self;
+        let (mut squares, mut between, mut offs) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        let (eights, rest) = speeds.as_chunks::<LANES>();
+        let (error_eights, error_rest) = errors.as_chunks::<LANES>();
+        for (speeds, errors) in eights.iter().zip(error_eights) {
+            for lane in 0..LANES {
+                let (own, off) = (speeds[lane] * share - mean, errors[lane] * share - shift);
+                squares[lane] += own * own;
+                between[lane] += off * (2.0 * own - off);
+                offs[lane] += off * off;
+            }
+        }
+        for (speed, error) in rest.iter().zip(error_rest) {
+            let (own, off) = (speed * share - mean, error * share - shift);
+            squares[0] += own * own;
+            between[0] += off * (2.0 * own - off);
+            offs[0] += off * off;
+        }
+        [squares, between, offs].map(|sums| sums.iter().sum())
+    }
+}
+
+/// Numbers per iteration.
+const LANES: usize = 8;
 
 /// Shares of smaller numbers are no doubles.
 const SMALLEST: f64 = 1e-300;

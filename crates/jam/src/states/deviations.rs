@@ -4,10 +4,12 @@
 //! distance `X` and speed `V` of the uniform flow, `dX/dt = V`, `dV/dt = f(V, V, Delta y)`. A perturbation of any size
 //! keeps all its digits, and an error is one of the perturbation, not of the state.
 
-use super::tangent::{FADING, fastest, series};
+use super::tangent::{Centred, carry, fastest};
 use super::{FlowAlong, LEAST_SIZE, RingSystem, closing_rates, displace};
 use crate::force::{Flow, Force, Motion};
 use crate::ring::{Ring, Start};
+use math::lane;
+use math::simd::dispatch;
 use ode::{Group, Measure, System, Tangent};
 use std::ops::Range;
 
@@ -106,15 +108,9 @@ impl System for Deviations {
         if self.force.has_slopes() { self.pedestrians } else { 0 }
     }
 
-    fn fading(&self) -> f64 {
-        FADING
-    }
-
     /// Deviations of the spacings add up to nothing: the ring has one length.
     fn constrain(&self, difference: &mut [f64]) {
-        let spacings = &mut difference[..self.pedestrians];
-        let mean = spacings.iter().fold(0.0, |sum, spacing| sum + spacing) / self.pedestrians as f64;
-        spacings.iter_mut().for_each(|spacing| *spacing -= mean);
+        dispatch(Centred(&mut difference[..self.pedestrians]));
     }
 
     fn tangent(&self, state: &[f64], tangent: &mut [f64]) -> f64 {
@@ -122,21 +118,15 @@ impl System for Deviations {
         fastest(tangent)
     }
 
-    fn difference(&self, tangent: Tangent<'_>, order: usize, unit: f64, coefficients: &mut [f64]) {
-        let (n, dimension) = (self.pedestrians, self.dimension());
-        series(tangent, order, unit, coefficients);
+    fn carry(&self, tangent: Tangent<'_>, difference: &mut [f64]) {
         let (first, distance, speed) = self.extras();
-        let mut rows = coefficients.chunks_exact_mut(dimension);
-        let Some(start) = rows.next() else { return };
-        let mut before = [n, first, distance, speed].map(|i| start[i]);
-        for (k, row) in rows.take(order).enumerate() {
-            let share = unit / (k + 1) as f64;
-            let [own, moved, walked, flow] = before;
-            row[first] = (own - FADING * moved) * share;
-            row[distance] = (flow - FADING * walked) * share;
-            row[speed] = (-1.0 - FADING) * flow * share;
-            before = [n, first, distance, speed].map(|i| row[i]);
-        }
+        let time = tangent.length;
+        let (ring, extras) = difference.split_at_mut(first);
+        extras[0] += carry(tangent, ring);
+        // the uniform flow relaxes at rate 1
+        let left = lane::exp(-time);
+        extras[distance - first] += (1.0 - left) * extras[speed - first];
+        extras[speed - first] *= left;
     }
 
     fn positions(&self) -> Vec<Range<usize>> {

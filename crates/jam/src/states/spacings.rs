@@ -1,7 +1,7 @@
 //! Spacings and speeds, `[s_0 - s_c .. s_{N-1} - s_c, v_0 .. v_{N-1}, x_0]`, with the spacing `s_c` at contact (2, or 0
 //! for the logarithmic law). A gap that closes keeps all its digits.
 
-use super::tangent::{FADING, fastest, series};
+use super::tangent::{carry, fastest};
 use super::{LEAST_SIZE, RingSystem, closing_rates, displace};
 use crate::force::{Flow, Force, Motion};
 use crate::ring::{Ring, Start};
@@ -61,22 +61,14 @@ impl System for Spacings {
         if self.force.has_slopes() { self.pedestrians } else { 0 }
     }
 
-    fn fading(&self) -> f64 {
-        FADING
-    }
-
     fn tangent(&self, state: &[f64], tangent: &mut [f64]) -> f64 {
         self.force.slopes(0.0, &state[..self.pedestrians], tangent);
         fastest(tangent)
     }
 
-    fn difference(&self, tangent: Tangent<'_>, order: usize, unit: f64, coefficients: &mut [f64]) {
-        let (n, dimension) = (self.pedestrians, self.dimension());
-        series(tangent, order, unit, coefficients);
-        for k in 0..order {
-            let (done, next) = coefficients[k * dimension..].split_at_mut(dimension);
-            next[2 * n] = (done[n] - FADING * done[2 * n]) * (unit / (k + 1) as f64);
-        }
+    fn carry(&self, tangent: Tangent<'_>, difference: &mut [f64]) {
+        let (ring, first) = difference.split_at_mut(2 * self.pedestrians);
+        first[0] += carry(tangent, ring);
     }
 
     fn positions(&self) -> Vec<Range<usize>> {

@@ -34,8 +34,6 @@ fn a_small_difference_moves_as_the_tangent_says() {
                 // eigenvalues of the shortest wave, and of relaxation, from their middle
                 let shortest = (2.0 * ode::largest(&tangent) - 0.25).abs().sqrt();
                 assert!(fastest >= 0.5 && fastest >= shortest, "{model:?}: {fastest}");
-                let mut rows = [&difference[..], &vec![0.0; difference.len()]].concat();
-                form.difference(Tangent { start: &tangent, growth: &[] }, 1, 1.0, &mut rows);
                 let rates = |factor: f64| {
                     let near: Vec<f64> = state.iter().zip(&difference).map(|(x, d)| x + factor * d).collect();
                     let mut rates = vec![0.0; near.len()];
@@ -43,12 +41,14 @@ fn a_small_difference_moves_as_the_tangent_says() {
                     rates
                 };
                 let h = 1e-6;
-                let near = rates(h).into_iter().zip(rates(-h)).zip(&difference);
-                for (((more, less), difference), row) in near.zip(&rows[difference.len()..]) {
-                    let measured = (more - less) / (2.0 * h) - form.fading() * difference;
+                let (more, less) = (rates(h), rates(-h));
+                let n = ring.pedestrians;
+                for i in 0..n {
+                    let measured = (more[n + i] - less[n + i]) / (2.0 * h);
+                    let told = tangent[i] * difference[i] - difference[n + i];
                     // curvature of steep ramps
                     let allowed = 1e-6 + 1e-4 * (1.0 + fastest * fastest);
-                    assert!((row - measured).abs() < allowed, "{model:?} {kind:?}: {row} not {measured}");
+                    assert!((told - measured).abs() < allowed, "{model:?} {kind:?}: {told} not {measured}");
                 }
             }
         }
@@ -56,38 +56,74 @@ fn a_small_difference_moves_as_the_tangent_says() {
     assert!(told > 50 && untold > 50, "{told} {untold}");
 }
 
-/// The series solves `du_n/dt = w_{n+1} - w_n`, `dw_n/dt = phi_n(t) u_n - w_n` with slopes that grow, but for the fading.
-#[test]
-fn the_series_of_a_difference_solves_the_linearised_equations() {
-    let model = jam::laws::Model::Logarithmic(jam::laws::Logarithmic { a_v: 0.0, v0: 1.0, epsilon: 0.01 });
-    let (pedestrians, order, unit) = (5, 14, 0.5);
-    let ring = Ring { pedestrians, length: 8.0 };
-    let mut random = Random(7);
-    for kind in [StateVariables::Deviations, StateVariables::Spacings] {
-        let form = kind.build(&model, ring);
-        let dimension = form.dimension();
-        let start: Vec<f64> = (0..pedestrians).map(|_| random.uniform(-0.5, 1.5)).collect();
-        let growth: Vec<f64> = (0..pedestrians).map(|_| random.uniform(-1.0, 1.0)).collect();
-        let mut rows: Vec<f64> = (0..dimension * (order + 1)).map(|_| random.uniform(-1.0, 1.0)).collect();
-        form.difference(Tangent { start: &start, growth: &growth }, order, unit, &mut rows);
-        let time = 0.4;
-        let sum = |i: usize, slope: bool| {
-            let terms = (usize::from(slope)..=order).map(|k| {
-                let power = (0..k - usize::from(slope)).fold(1.0, |power, _| power * time);
-                rows[k * dimension + i] * power * if slope { k as f64 / unit } else { 1.0 }
-            });
-            terms.sum::<f64>()
-        };
-        for n in 0..pedestrians {
-            let speed = |n: usize| sum(pedestrians + n % pedestrians, false);
-            let phi = start[n] + time * growth[n];
-            let slope = |i: usize| sum(i, true) + form.fading() * sum(i, false);
-            assert!((slope(n) - (speed(n + 1) - speed(n))).abs() < 1e-9, "{kind:?} {n}");
-            assert!((slope(pedestrians + n) - (phi * sum(n, false) - speed(n))).abs() < 1e-9, "{kind:?} {n}");
+/// `du_n/dt = w_{n+1} - w_n`, `dw_n/dt = phi_n(t) u_n - w_n` with slopes that change linearly, and the way by the first one's
+/// speed, by the classical scheme of Runge and Kutta.
+fn solved([start, end]: [&[f64]; 2], length: f64, difference: &[f64]) -> Vec<f64> {
+    const STEPS: usize = 20_000;
+    let (n, h) = (start.len(), length / STEPS as f64);
+    let rates = |state: &[f64], part: f64| {
+        let closing = (0..n).map(|i| state[n + (i + 1) % n] - state[n + i]);
+        let pushed = (0..n).map(|i| (start[i] + part * (end[i] - start[i])) * state[i] - state[n + i]);
+        closing.chain(pushed).chain([state[n]]).collect::<Vec<f64>>()
+    };
+    let moved = |state: &[f64], by: f64, rates: &[f64]| {
+        state.iter().zip(rates).map(|(state, rate)| state + by * rate).collect::<Vec<f64>>()
+    };
+    let mut state = difference[..2 * n + 1].to_vec();
+    for step in 0..STEPS {
+        let part = |more: f64| (step as f64 + more) / STEPS as f64;
+        let first = rates(&state, part(0.0));
+        let second = rates(&moved(&state, 0.5 * h, &first), part(0.5));
+        let third = rates(&moved(&state, 0.5 * h, &second), part(0.5));
+        let fourth = rates(&moved(&state, h, &third), part(1.0));
+        for (by, rates) in [(1.0, first), (2.0, second), (2.0, third), (1.0, fourth)] {
+            state = moved(&state, by * h / 6.0, &rates);
         }
-        // the first one's place, by the own speed
-        let place = 2 * pedestrians;
-        let slope = sum(place, true) + form.fading() * sum(place, false);
-        assert!((slope - sum(pedestrians, false)).abs() < 1e-9, "{kind:?}");
+    }
+    state
+}
+
+/// Of rings shorter than a vector register, longer, and a multiple of it; over short times and over several pieces; also where
+/// slopes do not change; of any size.
+#[test]
+fn a_difference_is_carried_as_the_linearised_equations_say() {
+    let model = jam::laws::Model::Logarithmic(jam::laws::Logarithmic { a_v: 0.0, v0: 1.0, epsilon: 0.01 });
+    let (mut random, mut room) = (Random(7), Vec::new());
+    for (pedestrians, length, size) in [
+        (2, 1.0, 1.0),
+        (5, 0.4, 1.0),
+        (7, 6.0, 1e-200),
+        (8, 3.0, 1.0),
+        (13, 25.0, 1e-12),
+        (16, 5.0, 1e90),
+        (37, 8.0, 1.0),
+    ] {
+        let ring = Ring { pedestrians, length: 1.6 * pedestrians as f64 };
+        for (kind, is_steady) in [(StateVariables::Deviations, true), (StateVariables::Spacings, false)] {
+            let form = kind.build(&model, ring);
+            let start: Vec<f64> = (0..pedestrians).map(|_| random.uniform(-0.2, 1.0)).collect();
+            let end: Vec<f64> =
+                start.iter().map(|slope| if is_steady { *slope } else { slope + random.uniform(-0.5, 0.5) }).collect();
+            let drawn: Vec<f64> = (0..form.dimension()).map(|_| random.uniform(-1.0, 1.0)).collect();
+            let right = solved([&start, &end], length, &drawn);
+            let mut carried: Vec<f64> = drawn.iter().map(|component| size * component).collect();
+            let fastest = 1.1 * (2.0 * math::larger(ode::largest(&start), ode::largest(&end))).sqrt();
+            let told = if is_steady { &[][..] } else { &end[..] };
+            form.carry(Tangent { start: &start, end: told, length, fastest, room: &mut room }, &mut carried);
+            let largest = ode::largest(&right);
+            for (carried, right) in carried.iter().zip(&right) {
+                let apart = (carried / size - right).abs();
+                assert!(apart < 0.02 * largest, "{kind:?} {pedestrians} {length}: {carried} not {size:e} * {right}");
+            }
+            if kind == StateVariables::Deviations {
+                // the uniform flow relaxes, and walks on
+                let [walked, speed] = [1, 2].map(|i| drawn[2 * pedestrians + i]);
+                let left = math::exp(-length);
+                let expected = [walked + (1.0 - left) * speed, left * speed];
+                for (carried, expected) in carried[2 * pedestrians + 1..].iter().zip(expected) {
+                    assert!((carried / size - expected).abs() < 1e-12, "{carried} not {size:e} * {expected}");
+                }
+            }
+        }
     }
 }

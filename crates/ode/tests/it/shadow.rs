@@ -52,11 +52,13 @@ impl System for Pendulum {
         1.0
     }
 
-    fn difference(&self, tangent: Tangent<'_>, order: usize, unit: f64, c: &mut [f64]) {
-        for k in 0..order {
-            let share = unit / (k + 1) as f64;
-            c[2 * k + 2] = share * c[2 * k + 1];
-            c[2 * k + 3] = share * (tangent.start[0] * c[2 * k] - 2.0 * self.friction * c[2 * k + 1]);
+    fn carry(&self, tangent: Tangent<'_>, difference: &mut [f64]) {
+        let [mut x, mut v] = [difference[0], difference[1]];
+        for k in 1..30 {
+            let share = tangent.length / f64::from(k);
+            (x, v) = (share * v, share * (tangent.start[0] * x - 2.0 * self.friction * v));
+            difference[0] += x;
+            difference[1] += v;
         }
     }
 }
