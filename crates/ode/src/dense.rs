@@ -68,7 +68,7 @@ pub(crate) trait Stepper {
         1.0
     }
 
-    /// Whether an accepted step is finite everywhere because it is so at its ends.
+    /// Whether the solution within an accepted step is finite where both its ends are.
     fn is_finite_between(&self) -> bool {
         false
     }
@@ -79,16 +79,17 @@ pub(crate) trait Stepper {
     /// Writes components of the solution at the fraction `theta` of the accepted step; returns the evaluations this took.
     fn interpolate(&mut self, system: &dyn System, ends: &Ends<'_>, theta: f64, part: Part<'_>) -> u64;
 
-    /// Does so at two fractions inside the step, for the components from `from` on, and returns true if the method has a
-    /// way that is quicker than one after the other and takes no evaluations.
+    /// Does so at two fractions inside the step, for the components from `from` on, and returns the evaluations this took, if the method has a
+    /// way that is quicker than one after the other.
     fn interpolate_both(
         &mut self,
+        _system: &dyn System,
         _ends: &Ends<'_>,
         _thetas: [f64; 2],
         _from: usize,
         _results: [&mut [f64]; 2],
-    ) -> bool {
-        false
+    ) -> Option<u64> {
+        None
     }
 }
 
@@ -187,10 +188,12 @@ impl Step<'_> {
         let thetas = times.map(|t| self.fraction(t));
         let [one, other] = states.map(|state| &mut state[range.clone()]);
         let is_inside = |theta: &f64| !is_same(*theta, 0.0) && !is_same(*theta, 1.0);
-        if thetas.iter().all(is_inside)
-            && self.stepper.interpolate_both(&self.ends, thetas, range.start, [&mut *one, &mut *other])
-        {
-            return;
+        if thetas.iter().all(is_inside) {
+            let results = [&mut *one, &mut *other];
+            if let Some(count) = self.stepper.interpolate_both(self.system, &self.ends, thetas, range.start, results) {
+                self.evaluations += count;
+                return;
+            }
         }
         for (theta, values) in thetas.into_iter().zip([one, other]) {
             self.part_at_fraction(theta, Part { from: range.start, values });
@@ -233,23 +236,21 @@ impl Step<'_> {
             let part = Part { from, values: &mut *values };
             self.evaluations += self.stepper.interpolate(self.system, &self.ends, theta, part);
             if !self.stepper.is_finite_between() {
-                self.mend(theta, Part { from, values });
+                mend(&self.ends, theta, Part { from, values });
             }
         }
     }
 }
 
-impl Step<'_> {
-    /// Takes the chord where the interpolant is not finite: a step of fixed length may end where the rates are not.
-    fn mend(&self, theta: f64, part: Part<'_>) {
-        if largest(part.values).is_finite() {
-            return;
-        }
-        let (before, after) = (&self.ends.before[part.range()], &self.ends.after[part.range()]);
-        for (value, (before, after)) in part.values.iter_mut().zip(before.iter().zip(after)) {
-            if !value.is_finite() {
-                *value = before + theta * (after - before);
-            }
+/// Takes the chord where the interpolant is not finite: a step of fixed length may end where the rates are not.
+pub(crate) fn mend(ends: &Ends<'_>, theta: f64, part: Part<'_>) {
+    if largest(part.values).is_finite() {
+        return;
+    }
+    let (before, after) = (&ends.before[part.range()], &ends.after[part.range()]);
+    for (value, (before, after)) in part.values.iter_mut().zip(before.iter().zip(after)) {
+        if !value.is_finite() {
+            *value = before + theta * (after - before);
         }
     }
 }

@@ -254,10 +254,12 @@ impl<'a> Run<'a> {
                 return Err(Failure::StepTooSmall { time: time[0], step: h });
             }
             let mut error = self.try_step(length, Some(&norm));
-            // without the compensation: with it a step of no length could come ever nearer to the end of the domain
-            add(&self.state, &self.change, &mut self.next);
-            if !self.system.in_domain(&self.next) {
-                error = f64::INFINITY;
+            if self.stepper.rates_at_end().is_none() {
+                // without the compensation: with it a step of no length could come ever nearer to the end of the domain
+                add(&self.state, &self.change, &mut self.next);
+                if !self.system.in_domain(&self.next) {
+                    error = f64::INFINITY;
+                }
             }
             if error.is_nan() || error > 1.0 {
                 self.statistics.rejected += 1;

@@ -65,6 +65,7 @@ mod control;
 mod dense;
 mod extrapolation;
 mod failure;
+mod inside;
 mod integrate;
 mod kinks;
 mod linear;

@@ -1,24 +1,32 @@
 //! One step of an explicit Runge-Kutta method, and its interpolant.
 
 use crate::control::Norm;
-use crate::dense::{Ends, Part, Stepper, Trial, cubic};
+use crate::dense::{Ends, Part, Stepper, Trial};
+use crate::inside::Inside;
 use crate::system::System;
 use crate::tableau::{Interpolant, Row, Tableau};
-use crate::vector::{add, add_nested, add_weighted_sum, weighted_sum};
+use crate::vector::{Rows, add, add_weighted_sum, weighted_sum};
+use std::ops::Range;
 
 pub(crate) struct RungeKutta {
     tableau: &'static Tableau,
-    n: usize,
     /// All stages one after another: those of the step, the rate at its end, those of the interpolant.
-    stages: Vec<f64>,
-    state: Vec<f64>,
-    sum: Vec<f64>,
+    stages: Rows,
+    /// The state of a stage, and an error.
+    scratch: Rows,
     /// `r_0, r_1, ...` of a nested interpolant, once they are wanted.
-    nested: Vec<f64>,
-    nested_is_ready: bool,
+    nested: Rows,
+    /// The components that they are known for.
+    known: Range<usize>,
+    /// Whether the stages of the interpolant have been evaluated.
+    is_continued: bool,
     /// Whether the error of the last step took the rate at its end, which then need not be evaluated again.
     end_is_known: bool,
 }
+
+/// Rows of the scratch.
+const STATE: usize = 0;
+const ERROR: usize = 1;
 
 impl RungeKutta {
     pub(crate) fn new(tableau: &'static Tableau, n: usize) -> RungeKutta {
@@ -28,32 +36,29 @@ impl RungeKutta {
         };
         RungeKutta {
             tableau,
-            n,
-            stages: vec![0.0; (tableau.stages() + 1 + further) * n],
-            state: vec![0.0; n],
-            sum: vec![0.0; n],
-            nested: vec![0.0; rows * n],
-            nested_is_ready: false,
+            stages: Rows::new(tableau.stages() + 1 + further, n),
+            scratch: Rows::new(2, n),
+            nested: Rows::new(rows, n),
+            known: 0..0,
+            is_continued: false,
             end_is_known: false,
         }
     }
 
-    /// Evaluates stage `i` at `start + h * (row of earlier stages)`, a state that is left in `self.state`.
+    /// Evaluates stage `i` at `start + h * (row of earlier stages)`, a state that is left in the scratch.
     fn stage(&mut self, system: &dyn System, start: &[f64], h: f64, row: Row, i: usize) {
-        let (earlier, later) = self.stages.split_at_mut(i * self.n);
-        add_weighted_sum(start, h, row, earlier, &mut self.state);
-        system.rates(&self.state, &mut later[..self.n]);
+        add_weighted_sum(start, h, row, &self.stages, self.scratch.row_mut(STATE));
+        system.rates(self.scratch.row(STATE), self.stages.row_mut(i));
     }
 
     /// Evaluates the rate at the end of the step, if the estimate counts it as a stage; false outside the domain.
     fn end(&mut self, system: &dyn System, start: &[f64], change: &[f64]) -> bool {
         if self.tableau.estimates_with_end() {
-            add(start, change, &mut self.state);
-            if !system.in_domain(&self.state) {
+            add(start, change, self.scratch.row_mut(STATE));
+            if !system.in_domain(self.scratch.row(STATE)) {
                 return false;
             }
-            let end = self.tableau.stages() * self.n;
-            system.rates(&self.state, &mut self.stages[end..end + self.n]);
+            system.rates(self.scratch.row(STATE), self.stages.row_mut(self.tableau.stages()));
             self.end_is_known = true;
         }
         true
@@ -64,8 +69,9 @@ impl RungeKutta {
     fn error(&mut self, h: f64, norm: &Norm) -> f64 {
         let mut estimates = [0.0; 2];
         for (estimate, weights) in estimates.iter_mut().zip(self.tableau.errors) {
-            weighted_sum(h, weights, &self.stages, &mut self.sum);
-            *estimate = norm.of(&self.sum);
+            let error = self.scratch.row_mut(ERROR);
+            weighted_sum(h, weights, &self.stages, 0..error.len(), error);
+            *estimate = norm.of(error);
         }
         match (self.tableau.errors.len(), estimates) {
             (2, [fine, coarse]) if fine > 0.0 => fine * (fine / (fine * fine + 0.01 * coarse * coarse).sqrt()),
@@ -73,35 +79,50 @@ impl RungeKutta {
         }
     }
 
-    fn prepare_nested(&mut self, system: &dyn System, ends: &Ends<'_>) {
-        let Interpolant::Nested { stages, rows } = self.tableau.interpolant else { return };
-        let h = ends.h;
-        let end = self.tableau.stages();
-        self.stages[end * self.n..(end + 1) * self.n].copy_from_slice(ends.rates_after);
-        for (i, row) in stages.iter().enumerate() {
-            // inside an accepted step: the solution is in the domain at both ends
-            self.stage(system, ends.before, h, row, end + 1 + i);
+    /// Makes the nested interpolant ready for these components; returns the evaluations that this took.
+    fn prepare_nested(&mut self, system: &dyn System, ends: &Ends<'_>, range: Range<usize>) -> u64 {
+        let Interpolant::Nested { stages, rows } = self.tableau.interpolant else { return 0 };
+        if self.known.start <= range.start && range.end <= self.known.end {
+            return 0;
         }
-        for (row, nested) in rows.iter().zip(self.nested.chunks_exact_mut(self.n)) {
-            weighted_sum(h, row, &self.stages, nested);
+        let is_first = !self.is_continued;
+        if is_first {
+            let end = self.tableau.stages();
+            if !self.end_is_known {
+                self.stages.row_mut(end).copy_from_slice(ends.rates_after);
+            }
+            for (i, row) in stages.iter().enumerate() {
+                // inside an accepted step: the solution is in the domain at both ends
+                self.stage(system, ends.before, ends.h, row, end + 1 + i);
+            }
+            self.is_continued = true;
         }
-        self.nested_is_ready = true;
+        // whoever has asked for some of them and now asks for others gets all
+        self.known = if is_first { range } else { 0..ends.before.len() };
+        for (r, row) in rows.iter().enumerate() {
+            weighted_sum(ends.h, row, &self.stages, self.known.clone(), self.nested.row_mut(r));
+        }
+        if is_first { stages.len() as u64 } else { 0 }
+    }
+
+    fn inside<'a, const COUNT: usize>(&'a self, ends: &'a Ends<'a>, thetas: [f64; COUNT]) -> Inside<'a, COUNT> {
+        Inside { ends, thetas, nested: &self.nested }
     }
 }
 
 impl Stepper for RungeKutta {
     fn try_step(&mut self, system: &dyn System, from: Trial<'_>, change: &mut [f64], norm: Option<&Norm>) -> f64 {
-        (self.nested_is_ready, self.end_is_known) = (false, false);
-        self.stages[..self.n].copy_from_slice(from.rates);
+        (self.known, self.is_continued, self.end_is_known) = (0..0, false, false);
+        self.stages.row_mut(0).copy_from_slice(from.rates);
         let mut is_beyond = false;
         for (i, row) in self.tableau.rows.iter().enumerate() {
             self.stage(system, from.state, from.h, row, i + 1);
-            is_beyond |= !system.in_domain(&self.state);
+            is_beyond |= !system.in_domain(self.scratch.row(STATE));
             if is_beyond && norm.is_some() {
                 return f64::INFINITY;
             }
         }
-        weighted_sum(from.h, self.tableau.weights, &self.stages, change);
+        weighted_sum(from.h, self.tableau.weights, &self.stages, 0..change.len(), change);
         let Some(norm) = norm else { return if is_beyond { f64::INFINITY } else { 0.0 } };
         if self.end(system, from.state, change) { self.error(from.h, norm) } else { f64::INFINITY }
     }
@@ -111,8 +132,7 @@ impl Stepper for RungeKutta {
     }
 
     fn rates_at_end(&self) -> Option<&[f64]> {
-        let end = self.tableau.stages() * self.n;
-        self.end_is_known.then(|| &self.stages[end..end + self.n])
+        self.end_is_known.then(|| self.stages.row(self.tableau.stages()))
     }
 
     /// An embedded solution of order `q` errs by `step^(q + 1)` in one step. All pairs here have `q + 1 = order`, and the
@@ -121,15 +141,27 @@ impl Stepper for RungeKutta {
         self.tableau.order
     }
 
+    /// [`Inside`] sees to it.
+    fn is_finite_between(&self) -> bool {
+        true
+    }
+
     fn interpolate(&mut self, system: &dyn System, ends: &Ends<'_>, theta: f64, part: Part<'_>) -> u64 {
-        let (from, values) = (part.from, part.values);
-        cubic(ends, theta, Part { from, values: &mut *values });
-        let Interpolant::Nested { stages, .. } = self.tableau.interpolant else { return 0 };
-        let evaluations = if self.nested_is_ready { 0 } else { stages.len() as u64 };
-        if !self.nested_is_ready {
-            self.prepare_nested(system, ends);
-        }
-        add_nested(theta, &self.nested, self.n, from, values);
+        let evaluations = self.prepare_nested(system, ends, part.range());
+        self.inside(ends, [theta]).write(part.from, [part.values]);
         evaluations
+    }
+
+    fn interpolate_both(
+        &mut self,
+        system: &dyn System,
+        ends: &Ends<'_>,
+        thetas: [f64; 2],
+        from: usize,
+        results: [&mut [f64]; 2],
+    ) -> Option<u64> {
+        let evaluations = self.prepare_nested(system, ends, from..from + results[0].len());
+        self.inside(ends, thetas).write(from, results);
+        Some(evaluations)
     }
 }

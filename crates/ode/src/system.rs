@@ -42,8 +42,13 @@ pub trait System {
 
     /// Writes the coefficients of the Taylor series of the solution through a state, in powers of the time divided by
     /// `unit`: `order + 1` rows of `dimension()` numbers, of which the first two, the state and `unit` times its rates,
-    /// are given.
+    /// are given. Rows may also have [`System::row_length`] places each; what lies behind the numbers has no meaning.
     fn series(&self, _order: usize, _unit: f64, _coefficients: &mut [f64]) {}
+
+    /// The length of the rows of a series that suits the system best, at least `dimension()`.
+    fn row_length(&self) -> usize {
+        self.dimension()
+    }
 
     /// The number of coefficients of the linearised equations at a state; 0 for a system that does not provide them.
     fn tangent_size(&self) -> usize {

@@ -25,8 +25,12 @@ pub(crate) struct Taylor {
     proposed: f64,
     /// The kinks on which steps end, if the system has any.
     kinks: Option<Kinks>,
-    /// Rows of coefficients, that of order 0 first.
+    /// Rows of coefficients, that of order 0 first, from `begin` on.
     coefficients: Vec<f64>,
+    /// So that the components with a force, of which samples and defects are computed, begin with a line of the cache.
+    begin: usize,
+    /// Length of a row.
+    row: usize,
     /// The size of the row of the last order, in units of the tolerance.
     last_size: f64,
     /// The components that are not position-like: the others' rates bend nowhere.
@@ -62,9 +66,13 @@ const OFFSET: f64 = 6.0;
 
 impl Taylor {
     pub(crate) fn new(system: &dyn System, control: Control) -> Taylor {
-        let (order, dimension) = (order(control), system.dimension());
+        let (order, dimension, row) = (order(control), system.dimension(), system.row_length());
         let zeros = |count: usize| vec![0.0; count];
-        let (coefficients, defect, missing) = (zeros((order + 1) * dimension), zeros(dimension), zeros(dimension));
+        let forced = forced(system);
+        let mut coefficients = zeros((order + 1) * row + LINE - 1);
+        let begin = aligned(&coefficients, forced.first().map_or(0, |range| range.start));
+        coefficients.truncate(begin + (order + 1) * row);
+        let (defect, missing) = (zeros(dimension), zeros(dimension));
         Taylor {
             order,
             dimension,
@@ -73,8 +81,10 @@ impl Taylor {
             proposed: 1.0,
             kinks: Kinks::new(system, order),
             coefficients,
+            begin,
+            row,
             last_size: 0.0,
-            forced: forced(system),
+            forced,
             defect,
             has_defect: false,
             missing,
@@ -84,13 +94,18 @@ impl Taylor {
     fn expand(&mut self, system: &dyn System, state: &[f64], rates: &[f64]) {
         let n = self.dimension;
         self.unit = self.next_unit;
-        let (states, others) = self.coefficients.split_at_mut(n);
-        dispatch(Begin { state, rates, unit: self.unit, first: [states, &mut others[..n]] });
-        system.series(self.order, self.unit, &mut self.coefficients);
+        let rows = &mut self.coefficients[self.begin..];
+        let (states, others) = rows.split_at_mut(self.row);
+        dispatch(Begin { state, rates, unit: self.unit, first: [&mut states[..n], &mut others[..n]] });
+        system.series(self.order, self.unit, rows);
+    }
+
+    fn rows(&self) -> &[f64] {
+        &self.coefficients[self.begin..]
     }
 
     fn row(&self, k: usize) -> &[f64] {
-        &self.coefficients[k * self.dimension..(k + 1) * self.dimension]
+        &self.rows()[k * self.row..][..self.dimension]
     }
 }
 
@@ -106,7 +121,7 @@ impl Stepper for Taylor {
             self.next_unit = power_of_two(from.h);
         }
         let h = from.h / self.unit;
-        dispatch(Change::<false> { rows: &self.coefficients, n: self.dimension, from: 0, h, result: change });
+        dispatch(Change::<false> { rows: self.rows(), n: self.row, from: 0, h, result: change });
         norm.map_or(0.0, |_| (0..self.order).fold(self.last_size, |error, _| error * h))
     }
 
@@ -140,10 +155,11 @@ impl Stepper for Taylor {
 
     fn defect(&mut self, ends: &Ends<'_>, norm: &Norm) -> f64 {
         let h = ends.h / self.unit;
-        let coefficients = &self.coefficients[self.dimension..];
+        let rows = &self.coefficients[self.begin + self.row..];
         let (Some(first), Some(last)) = (self.forced.first(), self.forced.last()) else { return 0.0 };
         let range = first.start..last.end;
-        dispatch(Defect { coefficients, range, h, length: ends.h, rates: ends.rates_after, defect: &mut self.defect });
+        let (n, length, rates) = (self.row, ends.h, ends.rates_after);
+        dispatch(Defect { rows, n, range, h, length, rates, defect: &mut self.defect });
         for pair in self.forced.windows(2) {
             self.defect[pair[0].end..pair[1].start].fill(0.0);
         }
@@ -158,11 +174,11 @@ impl Stepper for Taylor {
         if !self.has_defect {
             return false;
         }
-        let (n, next) = (self.dimension, (self.order + 1) as f64);
+        let next = (self.order + 1) as f64;
         let h = ends.h / self.unit;
         let first = (0..self.order).fold(-ends.h / next, |power, _| power * h);
         let second = ends.h / ((next + 1.0) * next);
-        let last = &self.coefficients[self.order * n..];
+        let last = &self.coefficients[self.begin + self.order * self.row..];
         for range in self.forced.iter().cloned() {
             let (defect, last) = (&self.defect[range.clone()], &last[range.clone()]);
             let (error, missing) = (&mut error[range.clone()], &mut self.missing[range]);
@@ -182,8 +198,10 @@ impl Stepper for Taylor {
         system.rates(states, &mut rates[..n]);
         rates[..n].iter_mut().for_each(|rate| *rate *= self.unit);
         system.series(order, self.unit, rows);
-        for (row, coefficient) in rows[n..].iter_mut().zip(&self.coefficients[n..]) {
-            *row -= coefficient;
+        for (row, own) in rows.chunks_exact_mut(n).zip(self.rows().chunks_exact(self.row)).skip(1) {
+            for (coefficient, own) in row.iter_mut().zip(own) {
+                *coefficient -= own;
+            }
         }
         self.unit
     }
@@ -201,14 +219,21 @@ impl Stepper for Taylor {
         let h = theta * (ends.h / self.unit);
         // row 0 is the state at the start of the step
         let Part { from, values: result } = part;
-        dispatch(Change::<true> { rows: &self.coefficients, n: self.dimension, from, h, result });
+        dispatch(Change::<true> { rows: self.rows(), n: self.row, from, h, result });
         0
     }
 
-    fn interpolate_both(&mut self, ends: &Ends<'_>, thetas: [f64; 2], from: usize, results: [&mut [f64]; 2]) -> bool {
+    fn interpolate_both(
+        &mut self,
+        _system: &dyn System,
+        ends: &Ends<'_>,
+        thetas: [f64; 2],
+        from: usize,
+        results: [&mut [f64]; 2],
+    ) -> Option<u64> {
         let h = thetas.map(|theta| theta * (ends.h / self.unit));
-        dispatch(Both { rows: &self.coefficients, n: self.dimension, from, h, results });
-        true
+        dispatch(Both { rows: self.rows(), n: self.row, from, h, results });
+        Some(0)
     }
 }
 
@@ -394,7 +419,10 @@ impl Kernel for OwnError<'_> {
 /// Writes `c_1 h + 2 c_2 h^2 + 3 c_3 h^3 + ...`, the length of the step times the slope of the series, minus `length` times
 /// the rates.
 struct Defect<'a> {
-    coefficients: &'a [f64],
+    /// That of order 1 first.
+    rows: &'a [f64],
+    /// Length of a row.
+    n: usize,
     range: Range<usize>,
     h: f64,
     length: f64,
@@ -405,9 +433,9 @@ struct Defect<'a> {
 impl Defect<'_> {
     #[inline(always)]
     fn lanes<const LANES: usize>(&mut self, from: usize) {
-        let (n, mut sum) = (self.defect.len(), [0.0; LANES]);
-        let order = self.coefficients.len() / n;
-        for (k, row) in (1..=order).rev().zip(self.coefficients.rchunks_exact(n)) {
+        let mut sum = [0.0; LANES];
+        let order = self.rows.len() / self.n;
+        for (k, row) in (1..=order).rev().zip(self.rows.rchunks_exact(self.n)) {
             let k = k as f64;
             for (sum, coefficient) in sum.iter_mut().zip(&row[from..][..LANES]) {
                 *sum = (*sum + k * coefficient) * self.h;
@@ -453,6 +481,16 @@ pub(crate) fn forced(system: &dyn System) -> Vec<Range<usize>> {
     starts.zip(ends).map(|(start, end)| start..end).filter(|range| !range.is_empty()).collect()
 }
 
+/// The least number of numbers to leave out of these, fewer than [`LINE`], so that the one of this index behind them begins a
+/// line of the cache.
+fn aligned(numbers: &[f64], index: usize) -> usize {
+    let offset = numbers[index % LINE..].as_ptr().align_offset(LINE * size_of::<f64>());
+    // where that is not known, anywhere will do
+    if offset < LINE { offset } else { 0 }
+}
+
+/// Doubles of a line of the cache: what lies across two of them is read and written in two goes.
+const LINE: usize = 8;
 /// Components per iteration.
 const LANES: usize = 16;
 /// Components per iteration of a sum over all orders.

@@ -2,15 +2,73 @@
 
 use crate::tableau::Row;
 use math::simd::{Kernel, dispatch};
+use std::ops::Range;
 
-/// Writes `sum = factor * (w_a k_a + w_b k_b + ...)` where stage `j` is `stages[j * n .. (j + 1) * n]`, `n = sum.len()`.
-pub(crate) fn weighted_sum(factor: f64, weights: Row, stages: &[f64], sum: &mut [f64]) {
-    dispatch(WeightedSum::<false> { start: &[], factor, weights, stages, result: sum });
+/// Rows of equal length, each of which begins where a line of the cache does: what lies across two of them is read in two
+/// goes.
+pub(crate) struct Rows {
+    memory: Vec<f64>,
+    begin: usize,
+    count: usize,
+    n: usize,
+    stride: usize,
+}
+
+/// Doubles of a line.
+const LINE: usize = 8;
+
+impl Rows {
+    /// So many rows of `n` zeros.
+    pub(crate) fn new(count: usize, n: usize) -> Rows {
+        let stride = n.max(1).next_multiple_of(LINE);
+        let memory = vec![0.0; count * stride + LINE - 1];
+        let begin = memory.as_ptr().align_offset(LINE * size_of::<f64>());
+        // where that is not known, anywhere will do
+        Rows { begin: if begin < LINE { begin } else { 0 }, memory, count, n, stride }
+    }
+
+    /// How many.
+    #[inline(always)]
+    pub(crate) fn count(&self) -> usize {
+        self.count
+    }
+
+    #[inline(always)]
+    pub(crate) fn row(&self, j: usize) -> &[f64] {
+        &self.memory[self.begin + j * self.stride..][..self.n]
+    }
+
+    pub(crate) fn row_mut(&mut self, j: usize) -> &mut [f64] {
+        &mut self.memory[self.begin + j * self.stride..][..self.n]
+    }
+
+    /// All of them, with what fills them up.
+    #[inline(always)]
+    pub(crate) fn iter(&self) -> std::slice::ChunksExact<'_, f64> {
+        self.memory[self.begin..][..self.count * self.stride].chunks_exact(self.stride)
+    }
+
+    fn stages(&self) -> Stages<'_> {
+        Stages { all: &self.memory[self.begin..], stride: self.stride }
+    }
+}
+
+/// Stages one after another, each `stride` numbers behind the one before.
+#[derive(Clone, Copy)]
+struct Stages<'a> {
+    all: &'a [f64],
+    stride: usize,
+}
+
+/// Writes the components of `range` of `sum = factor * (w_a k_a + w_b k_b + ...)` where `k_j` are these rows.
+pub(crate) fn weighted_sum(factor: f64, weights: Row, rows: &Rows, range: Range<usize>, sum: &mut [f64]) {
+    let (stages, first, result) = (rows.stages(), range.start, &mut sum[range]);
+    dispatch(WeightedSum::<false> { start: &[], factor, weights, stages, first, result });
 }
 
 /// Writes `result = start + factor * (w_a k_a + w_b k_b + ...)`, stages as in [`weighted_sum`].
-pub(crate) fn add_weighted_sum(start: &[f64], factor: f64, weights: Row, stages: &[f64], result: &mut [f64]) {
-    dispatch(WeightedSum::<true> { start, factor, weights, stages, result });
+pub(crate) fn add_weighted_sum(start: &[f64], factor: f64, weights: Row, rows: &Rows, result: &mut [f64]) {
+    dispatch(WeightedSum::<true> { start, factor, weights, stages: rows.stages(), first: 0, result });
 }
 
 /// Writes `result = start + change`.
@@ -30,12 +88,6 @@ pub(crate) fn add_compensated(
     dispatch(Compensated { state, change, compensation, result, dropped });
 }
 
-/// Adds `theta^2 (1 - theta)^2 (r_0 + theta (r_1 + (1 - theta) (r_2 + theta r_3 ...)))` to `result`, where `r_j` is
-/// `nested[j * n + first ..]`.
-pub(crate) fn add_nested(theta: f64, nested: &[f64], n: usize, first: usize, result: &mut [f64]) {
-    dispatch(Nested { theta, nested, n, first, result });
-}
-
 /// The largest absolute value; NaN if there is one.
 pub fn largest(values: &[f64]) -> f64 {
     // of a few, a call would take longer than the work
@@ -51,16 +103,63 @@ struct WeightedSum<'a, const STARTED: bool> {
     start: &'a [f64],
     factor: f64,
     weights: Row,
-    stages: &'a [f64],
+    stages: Stages<'a>,
+    /// The component of the stages that the first of the result is made of.
+    first: usize,
     result: &'a mut [f64],
 }
 
 impl<const STARTED: bool> WeightedSum<'_, STARTED> {
+    /// Writes the sum if it has `K` terms.
+    #[inline(always)]
+    fn few<const K: usize>(self) {
+        let (n, Stages { all, stride }) = (self.result.len(), self.stages);
+        let (mut rows, mut weights) = ([&[][..]; K], [0.0; K]);
+        for (term, &(j, weight)) in self.weights[..K].iter().enumerate() {
+            (rows[term], weights[term]) = (&all[j * stride + self.first..][..n], weight);
+        }
+        for from in (0..n).step_by(LANES) {
+            // the last block begins earlier rather than be cut: what is written twice is the same
+            let from = if from < n - LANES { from } else { n - LANES };
+            let mut k = [&[0.0; LANES]; K];
+            for (k, row) in k.iter_mut().zip(&rows) {
+                if let Some(part) = row[from..].first_chunk() {
+                    *k = part;
+                }
+            }
+            let mut sum = [0.0; LANES];
+            for block in 0..K / 4 {
+                let term = 4 * block;
+                for lane in 0..LANES {
+                    let products = |term: usize| weights[term] * k[term][lane] + weights[term + 1] * k[term + 1][lane];
+                    sum[lane] += products(term) + products(term + 2);
+                }
+            }
+            for term in K / 4 * 4..K {
+                for lane in 0..LANES {
+                    sum[lane] += weights[term] * k[term][lane];
+                }
+            }
+            for sum in &mut sum {
+                *sum *= self.factor;
+            }
+            if STARTED {
+                let start = &self.start[from..][..LANES];
+                for lane in 0..LANES {
+                    sum[lane] += start[lane];
+                }
+            }
+            // at the end: between two stores the compiler would read the start anew, one number at a time
+            self.result[from..][..LANES].copy_from_slice(&sum);
+        }
+    }
+
     /// The components `from .. from + LANES`. Their sums stay in registers while the stages pass by.
     #[inline(always)]
     fn lanes<const LANES: usize>(&mut self, from: usize) {
-        let n = self.result.len();
-        let stage = |j: usize| &self.stages[j * n + from..][..LANES];
+        let Stages { all, stride } = self.stages;
+        let all = &all[self.first + from..];
+        let stage = |j: usize| &all[j * stride..][..LANES];
         let mut sum = [0.0; LANES];
         let blocks = self.weights.chunks_exact(4);
         let rest = blocks.remainder();
@@ -97,15 +196,26 @@ impl<const STARTED: bool> Kernel for WeightedSum<'_, STARTED> {
     #[inline(always)]
     fn run(mut self) {
         let n = self.result.len();
-        if n < WIDE {
+        if n < LANES {
             for from in 0..n {
                 self.lanes::<1>(from);
             }
             return;
         }
-        for from in (0..n).step_by(WIDE) {
-            // the last block begins earlier rather than be cut: what is written twice is the same
-            self.lanes::<WIDE>(from.min(n - WIDE));
+        match self.weights.len() {
+            1 => self.few::<1>(),
+            2 => self.few::<2>(),
+            3 => self.few::<3>(),
+            4 => self.few::<4>(),
+            5 => self.few::<5>(),
+            6 => self.few::<6>(),
+            7 => self.few::<7>(),
+            8 => self.few::<8>(),
+            _ => {
+                for from in (0..n).step_by(LANES) {
+                    self.lanes::<LANES>(from.min(n - LANES));
+                }
+            }
         }
     }
 }
@@ -151,50 +261,6 @@ impl Kernel for Compensated<'_> {
     }
 }
 
-struct Nested<'a> {
-    theta: f64,
-    nested: &'a [f64],
-    n: usize,
-    first: usize,
-    result: &'a mut [f64],
-}
-
-impl Nested<'_> {
-    #[inline(always)]
-    fn lanes<const LANES: usize>(&mut self, from: usize) {
-        let (n, theta) = (self.n, self.theta);
-        let mut sum = [0.0; LANES];
-        for r in (0..self.nested.len() / n).rev() {
-            let factor = if r % 2 == 0 { theta } else { 1.0 - theta };
-            let nested = &self.nested[r * n + self.first + from..][..LANES];
-            for lane in 0..LANES {
-                sum[lane] = nested[lane] + factor * sum[lane];
-            }
-        }
-        let quartic = theta * theta * (1.0 - theta) * (1.0 - theta);
-        let result = &mut self.result[from..][..LANES];
-        for lane in 0..LANES {
-            result[lane] += quartic * sum[lane];
-        }
-    }
-}
-
-impl Kernel for Nested<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run(mut self) {
-        let n = self.result.len();
-        let wide = n - n % LANES;
-        for from in (0..wide).step_by(LANES) {
-            self.lanes::<LANES>(from);
-        }
-        for from in wide..n {
-            self.lanes::<1>(from);
-        }
-    }
-}
-
 struct Largest<'a>(&'a [f64]);
 
 impl Kernel for Largest<'_> {
@@ -215,7 +281,7 @@ impl Kernel for Largest<'_> {
 }
 
 /// Components per iteration where sums stay in registers.
-const WIDE: usize = 16;
+const LANES: usize = 16;
 
-/// Components per iteration where several numbers are gathered.
-const LANES: usize = 8;
+/// Fewer numbers than that are not worth a kernel.
+const WIDE: usize = 16;

@@ -3,7 +3,7 @@
 //! confirmed sample.
 
 use super::second::{SAME_TIME, Second};
-use super::{Errors, ROUNDINGS, errors_of, largest, loses_shift, run_propagated};
+use super::{Errors, ROUNDINGS, errors_of, largest, run_propagated};
 use crate::events::{Event, EventKind};
 use crate::run::{Broken, Outcome, Run, RunObserver, advice, untried};
 use math::larger;
@@ -63,20 +63,18 @@ const NEAR: f64 = 1e-6;
 /// The time of the last sample that the second run confirms; `None` if it confirms all.
 pub(super) fn until(run: &Run, outcome: &Outcome, second: &Second) -> Option<f64> {
     let other = &second.outcome;
-    let is_before_end = |time: &f64| *time < (1.0 - SAME_TIME) * outcome.statistics.time;
-    let end = match (outcome.stop(), other.stop()) {
-        (None, Some(stop)) => Some(stop.time),
-        (Some(stop), None) if is_refuted(stop, other) => Some(stop.time),
-        // of a shift that the run has lost the other one alone tells anything
-        (None, None) if loses_shift(run) => Some(other.statistics.time),
-        _ => None,
+    let other_end = other.stop().map_or(other.statistics.time, |stop| stop.time);
+    let is_before_end = other_end < (1.0 - SAME_TIME) * outcome.statistics.time;
+    let refuted = outcome.stop().filter(|stop| is_refuted(stop, other));
+    let end = match (refuted, outcome.stop()) {
+        (Some(stop), _) => Some(stop.time),
+        // another event may be the same one, all but for its time
+        (_, Some(_)) if reaches(outcome, other) => None,
+        _ => is_before_end.then_some(other_end),
     };
-    let is_refuted = outcome.stop().is_some_and(|stop| is_refuted(stop, other));
-    let end = end.filter(|time| is_refuted || is_before_end(time));
     let difference = match run.control {
-        Control::Fixed { .. } => first_unlike(outcome, second),
-        Control::Adaptive { .. } if is_refuted => first_unlike(outcome, second),
-        Control::Adaptive { .. } => None,
+        Control::Adaptive { .. } if refuted.is_none() => None,
+        _ => first_unlike(outcome, second),
     };
     let first = [end, difference].into_iter().flatten().reduce(math::smaller)?;
     Some(last_before(outcome, first))

@@ -8,7 +8,7 @@
 
 use super::confirmed::last_before;
 use super::recent::Recent;
-use super::{Errors, ROUNDINGS, has_kinks, largest, largest_std, loses_shift, of_headway, unseen};
+use super::{Errors, ROUNDINGS, largest, largest_std, loses_shift, of_headway, unseen};
 use crate::events::{Event, EventKind};
 use crate::run::{Outcome, Run, RunObserver, Sight};
 use crate::states::StateVariables;
@@ -170,7 +170,7 @@ impl Propagated {
             loses_shift: loses_shift(run),
             shadow: None,
             lost: None,
-            is_blind: !run.method.needs_series() || has_kinks(&run.model),
+            is_blind: !run.method.needs_series() || run.model.has_kinks(),
             std: 0.0,
             looked_at: 0.0,
             since: 0,

@@ -1,11 +1,11 @@
-//! Instants of a run at which a second one is compared with it: the ends of its last adaptive steps, since at the end of
+//! Instants of a run at which a second one is compared with it: the ends of its last steps, since at the end of
 //! the run alone the errors of two methods may agree by chance, and its events.
 
 use crate::events::{Event, EventKind};
 use crate::ring::Ring;
 use crate::run::{Run, RunObserver, Sight};
 use crate::states::{RingSystem, StateVariables};
-use ode::{Control, Step};
+use ode::Step;
 use std::collections::VecDeque;
 
 /// Number of instants kept.
@@ -65,7 +65,7 @@ impl Recent {
     /// The instants of this run, in order of time.
     pub fn instants(&self, run: &Run) -> Vec<Instant> {
         let new = |is_last| move |(time, state): &(f64, Vec<f64>)| Instant::new(*time, state, run.form, run, is_last);
-        let last = self.states.iter().filter(|_| matches!(run.control, Control::Adaptive { .. })).map(new(true));
+        let last = self.states.iter().map(new(true));
         let mut all: Vec<Instant> = last.chain(self.events.iter().map(new(false))).collect();
         all.sort_by(|a, b| a.time.total_cmp(&b.time));
         all
@@ -81,7 +81,7 @@ pub(super) struct Instant {
     pub positions: Vec<f64>,
     pub spacings: Vec<f64>,
     pub speeds: Vec<f64>,
-    /// The speeds, less that of the uniform flow in a run in deviations from it.
+    /// The speeds, less that of the first: of any form, and exactly 0 where all are equal.
     pub relative_speeds: Vec<f64>,
 }
 
@@ -95,7 +95,8 @@ impl Instant {
         let [mut positions, mut spacings, mut speeds] = [(); 3].map(|()| vec![0.0; pedestrians]);
         form.read(state, &mut spacings, &mut speeds);
         form.write_positions(state, &mut positions);
-        let relative_speeds = state[form.speeds()].to_vec();
+        let own = &state[form.speeds()];
+        let relative_speeds = own.iter().map(|speed| speed - own[0]).collect();
         Instant { time, is_last, positions, spacings, speeds, relative_speeds }
     }
 }

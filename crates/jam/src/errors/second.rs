@@ -2,7 +2,7 @@
 
 use super::propagated::{UNSURE, std_error};
 use super::recent::{Compared, Instant, Recent};
-use super::{CAUTION, Errors, ROUNDINGS, confirmed, has_kinks, largest, largest_std, loses_shift, of_headway};
+use super::{CAUTION, Errors, ROUNDINGS, confirmed, largest, largest_std, loses_shift, of_headway};
 use crate::events::{Event, EventKind};
 use crate::run::{Outcome, Run, RunObserver, has_deviations, run_from};
 use crate::states::StateVariables;
@@ -17,33 +17,38 @@ const TIGHTER: f64 = 0.1;
 const TIGHTER_IF_HIGH: f64 = 0.005;
 const HIGH: usize = 8;
 
+/// The tolerance that the second run of fixed steps starts from: it is made more exact than any of them, since fading motion
+/// may leave errors far below those of its beginning.
+const ACCURATE: f64 = 1e-12;
+
 /// Least tolerance of a second run; a smaller one may be unattainable because of rounding.
 const TIGHTEST: f64 = 3e-15;
 
 /// Ends of both runs closer than this, relative to the time, count as the same.
 pub(super) const SAME_TIME: f64 = 1e-9;
 
-/// Steps of a run by Taylor's method that differ from those at a far smaller tolerance.
+/// In so many steps two runs differ: by Taylor's method at two tolerances, or by two other methods.
 const MANY: u64 = 50;
+
+/// Below this the force on a perturbation has all but underflowed: a series from where it is 0 shows nothing of what it is
+/// later.
+const FAINT: f64 = 1e-200;
 
 /// Factor on the difference, since errors of two methods may have the same sign: it is right where that of the second run
 /// is a third as large, and too cautious by this factor where it is none.
 const AGREEMENT: f64 = 1.5;
 
-/// Highest order that is visible in an error; beyond it kinks and rounding dominate.
-const HIGHEST_SEEN: usize = 8;
-
-/// The order of steps across a kink.
-const ACROSS_KINKS: usize = 2;
-
-/// Ratio of shorter fixed steps, used if longer ones fail.
-const SHORTER: f64 = 0.5;
+/// The order that is seen in the error of fixed steps where an accurate run costs more than they do: they pass over kinks,
+/// or over bends as sharp.
+const ORDER_SEEN: usize = 2;
 
 /// The second run, and its result.
 pub(super) struct Second {
     form: StateVariables,
     /// The ratio of the run's error to the difference between both runs.
     pub factor: f64,
+    /// The part of a number by which roundings that both runs may have in common have gathered.
+    gathered: f64,
     pub outcome: Outcome,
     /// The run's states at some instants, and its own.
     instants: [Vec<Instant>; 2],
@@ -54,8 +59,8 @@ pub(super) struct Second {
 }
 
 impl Second {
-    /// Makes the second run. For fixed steps it uses longer ones, which cost less, or shorter ones if the longer do not
-    /// confirm the run. The run can be observed.
+    /// Makes the second run. That of fixed steps is an accurate one, which tells their error whatever their order; where it
+    /// costs too much, one by steps of half the length. The run can be observed.
     pub fn new(run: &Run, outcome: &Outcome, seen: Option<&Recent>, onlooker: &mut dyn RunObserver) -> Second {
         let instants = seen.map_or(Vec::new(), |seen| seen.instants(run));
         let rates = outcome.events.iter().map(|event| seen.and_then(|seen| seen.rate(event))).collect();
@@ -67,27 +72,18 @@ impl Second {
             Control::Adaptive { tolerance } => return by_tolerance(run, outcome, tolerance, instants, onlooker),
             Control::Fixed { step } => step,
         };
-        let made = if step < run.t_end { step } else { run.t_end };
-        let ratio = match order_seen(run) {
-            // a longer step would be cut to the same one
-            _ if made > 0.5 * end(run, outcome) => SHORTER,
-            1 | 2 => 2.0,
-            _ => 1.25,
-        };
-        let first = by_steps(run, outcome, [made, ratio], instants, onlooker);
-        let is_enough = confirmed::reaches(outcome, &first.outcome) && confirmed::until(run, outcome, &first).is_none();
-        if is_enough || ratio < 1.0 {
-            return first;
+        let accurate = by_tolerance(run, outcome, ACCURATE, instants, onlooker);
+        if is_sure(outcome, &accurate.outcome, end(run, outcome)) {
+            return accurate;
         }
-        let second = by_steps(run, outcome, [made, SHORTER], instants, onlooker);
-        Second { evaluations: first.evaluations + second.evaluations, ..second }
+        let shorter = by_half_steps(run, outcome, step, instants, onlooker);
+        Second { evaluations: accurate.evaluations + shorter.evaluations, ..shorter }
     }
 
     /// The errors of the run.
     pub fn errors(&self, run: &Run, outcome: &Outcome) -> Errors {
-        let (factor, other) = (self.factor, &self.outcome);
+        let (factor, gathered, other) = (self.factor, self.gathered, &self.outcome);
         let difference = |numbers: &[f64], others: &[f64]| factor * difference(numbers, others);
-        let gathered = gathered(run, outcome);
         let ends_alike = outcome.stop().map(|stop| stop.kind) == other.stop().map(|stop| stop.kind);
         let times = [outcome, other].map(|outcome| outcome.statistics.time);
         let is_at_event = outcome.ends_at_event() && other.ends_at_event();
@@ -189,41 +185,71 @@ fn by_tolerance(
     instants: &[Instant],
     onlooker: &mut dyn RunObserver,
 ) -> Second {
-    let tighter = tolerance * if run.method.order() < HIGH { TIGHTER } else { TIGHTER_IF_HIGH };
-    let control = Control::Adaptive { tolerance: if tighter > TIGHTEST { tighter } else { TIGHTEST } };
-    let mut by = |method: Method| {
+    let mut spent = 0;
+    let mut by = |(method, tolerance): (Method, f64)| {
+        let control = Control::Adaptive { tolerance: if tolerance > TIGHTEST { tolerance } else { TIGHTEST } };
         let second = Run { method, control, most_steps: most_steps(run, outcome), ..again(run, outcome) };
-        made(&second, AGREEMENT, instants, onlooker)
+        let made = made(&second, AGREEMENT, instants, onlooker);
+        spent += made.evaluations;
+        Second { evaluations: spent, ..made }
     };
-    let usual = if run.method == Method::Dop853 { Method::Verner87 } else { Method::Dop853 };
-    let (first, last) = match (run.method, has_kinks(&run.model)) {
-        // a few steps may be the same for both tolerances; where there are more, dop853 stumbles over each kink
-        (Method::Taylor, true) => ((outcome.statistics.steps < MANY).then_some(Method::Dop853), Method::Taylor),
-        // methods whose steps pass over kinks may err alike there; positions have no series
-        (_, true) if run.form != StateVariables::Positions => (Some(Method::Taylor), usual),
-        _ => (None, usual),
-    };
-    let first = first.map(&mut by);
-    let spent = match first {
-        Some(first) if confirmed::reaches(outcome, &first.outcome) => return first,
-        Some(first) => first.evaluations,
-        None => 0,
-    };
-    let second = by(last);
-    Second { evaluations: spent + second.evaluations, ..second }
+    let (first, last) = methods(run, outcome, tolerance);
+    let first = first.map(&mut by).filter(|first| confirmed::reaches(outcome, &first.outcome));
+    first.unwrap_or_else(|| by(last))
 }
 
-/// A run by the same method with steps of `ratio` times the length.
-fn by_steps(
+/// The method and the tolerance of a second run; the second of them where the first does not come to the end.
+fn methods(run: &Run, outcome: &Outcome, tolerance: f64) -> (Option<(Method, f64)>, (Method, f64)) {
+    let tighter = tolerance * if run.method.order() < HIGH { TIGHTER } else { TIGHTER_IF_HIGH };
+    let is_short = outcome.statistics.steps < MANY;
+    if run.method == Method::Taylor && run.model.has_kinks() {
+        // a few steps may be the same for both tolerances; where there are more, dop853 stumbles over each kink
+        return (is_short.then_some((Method::Dop853, tighter)), (Method::Taylor, tighter));
+    }
+    let usual = if run.method == Method::Dop853 { Method::Verner87 } else { Method::Dop853 };
+    // positions have no series
+    let has_series = run.method != Method::Taylor && again(run, outcome).form != StateVariables::Positions;
+    let is_faint = outcome.samples.len() > 1 && largest_std(outcome) < FAINT;
+    // the error of a few steps by Taylor's method is near the tolerance, where that of others is far below it
+    let of_series = match run.control {
+        Control::Adaptive { .. } => TIGHTEST,
+        Control::Fixed { .. } => tighter,
+    };
+    let series = match run.model.has_kinks() {
+        _ if !has_series => None,
+        // methods whose steps pass over kinks may err alike there
+        true => Some((Method::Taylor, tighter)),
+        // and so may a few steps over a bend, or within them
+        false if is_short && !is_faint => Some((Method::Taylor, of_series)),
+        false => None,
+    };
+    (series, (usual, tighter))
+}
+
+/// Whether an accurate run tells the errors of fixed steps: it has come to its end, and to the same one if those stopped.
+fn is_sure(outcome: &Outcome, accurate: &Outcome, end: f64) -> bool {
+    let [stop, other] = [outcome, accurate].map(|outcome| outcome.stop().map(|stop| stop.kind));
+    let is_whole = other.is_some() || accurate.statistics.time >= end;
+    is_whole && (stop.is_none() || stop == other && confirmed::reaches(outcome, accurate))
+}
+
+/// A run by the same method with steps of half the length.
+fn by_half_steps(
     run: &Run,
     outcome: &Outcome,
-    [step, ratio]: [f64; 2],
+    step: f64,
     instants: &[Instant],
     onlooker: &mut dyn RunObserver,
 ) -> Second {
-    let growth = (0..order_seen(run)).fold(1.0, |power: f64, _| power * ratio);
-    let second = Run { control: Control::Fixed { step: ratio * step }, ..again(run, outcome) };
-    made(&second, CAUTION / (growth - 1.0).abs(), instants, onlooker)
+    let remaining = (0..run.method.order().min(ORDER_SEEN)).fold(1.0, |remaining, _| 0.5 * remaining);
+    // a step longer than the run is cut to it
+    let step = 0.5 * if step < run.t_end { step } else { run.t_end };
+    let second = Run { control: Control::Fixed { step }, ..again(run, outcome) };
+    // within its steps a method of low order is less exact than at their ends
+    let at_events: Vec<Instant> = instants.iter().filter(|instant| !instant.is_last).cloned().collect();
+    // without compensated sums; once the motion is steady all roundings have the same sign
+    let gathered = 0.5 * f64::EPSILON * outcome.statistics.steps as f64;
+    Second { gathered, ..made(&second, CAUTION / (1.0 - remaining), &at_events, onlooker) }
 }
 
 fn made(second: &Run, factor: f64, instants: &[Instant], onlooker: &mut dyn RunObserver) -> Second {
@@ -231,7 +257,7 @@ fn made(second: &Run, factor: f64, instants: &[Instant], onlooker: &mut dyn RunO
     let outcome = run_from(second, None, &mut compared).unwrap_or_else(|broken| *broken.outcome);
     let instants = [instants.to_vec(), compared.second];
     let (form, evaluations) = (second.form, outcome.statistics.evaluations);
-    Second { form, factor, instants, rates: Vec::new(), evaluations, outcome }
+    Second { form, factor, gathered: 0.0, instants, rates: Vec::new(), evaluations, outcome }
 }
 
 /// The same run up to the time that it reached, in deviations if possible.
@@ -251,27 +277,16 @@ fn end(run: &Run, outcome: &Outcome) -> f64 {
     if is_open { run.t_end } else { outcome.last_step }
 }
 
-/// The order that the errors of fixed steps show.
-fn order_seen(run: &Run) -> usize {
-    let seen = if has_kinks(&run.model) { ACROSS_KINKS } else { HIGHEST_SEEN };
-    run.method.order().min(seen)
-}
-
 /// The second run may take a few times the work of the run, with a minimum for short runs, and much more if the run has
-/// lost its shift, and with it all motion.
+/// lost its shift, and with it all motion. For fixed steps there is another way if it takes more than they do.
 fn most_steps(run: &Run, outcome: &Outcome) -> u64 {
     const STAGES: u64 = 12;
     const FEW_TIMES: u64 = 4;
-    let more = if loses_shift(run) { 30_000 } else { 1000 };
-    FEW_TIMES * outcome.statistics.evaluations / STAGES + more
-}
-
-/// The rounding error that fixed steps without compensated sums may accumulate: once the motion is steady all roundings
-/// have the same sign.
-fn gathered(run: &Run, outcome: &Outcome) -> f64 {
+    let like_run = outcome.statistics.evaluations / STAGES;
     match run.control {
-        Control::Fixed { .. } => 0.5 * f64::EPSILON * outcome.statistics.steps as f64,
-        Control::Adaptive { .. } => 0.0,
+        _ if loses_shift(run) => FEW_TIMES * like_run + 30_000,
+        Control::Fixed { .. } => like_run + 50,
+        Control::Adaptive { .. } => FEW_TIMES * like_run + 20_000,
     }
 }
 

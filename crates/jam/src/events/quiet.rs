@@ -2,7 +2,8 @@
 
 use super::Watch;
 use crate::states::FlowAlong;
-use ode::{Step, largest};
+use math::simd::{Kernel, dispatch};
+use ode::Step;
 
 /// A flow, and how large the deviations from it are.
 #[derive(Clone, Copy, Debug)]
@@ -34,11 +35,30 @@ impl Watch<'_> {
             return None;
         }
         let flow = self.form.flow_along(state, rates)?;
-        let count = self.before.gaps.len();
-        let size = |values: &[f64], from: usize| largest(&values[from..from + count]);
-        let ([gap, speed], [gap_rate, speed_rate]) =
-            ([0, count].map(|from| size(state, from)), [0, count].map(|from| size(rates, from)));
+        let [state, rates] = [state, rates].map(|row| row.split_at(self.before.gaps.len()));
+        let [gap, speed, gap_rate, speed_rate] = dispatch(Sizes([state.0, state.1, rates.0, rates.1]));
         Some(Near { time, flow, gap, speed, gap_rate, speed_rate })
+    }
+}
+
+/// The largest size in each of four rows, of as many numbers as the first has; not finite where one of these is not.
+struct Sizes<'a>([&'a [f64]; 4]);
+
+impl Kernel for Sizes<'_> {
+    type Output = [f64; 4];
+
+    /// Sizes are compared as whole numbers: see [`ode::largest`].
+    #[inline(always)]
+    fn run(self) -> [f64; 4] {
+        let [a, b, c, d] = self.0;
+        let mut most = [0; 4];
+        for (((a, b), c), d) in a.iter().zip(b).zip(c).zip(d) {
+            let sizes = [a, b, c, d].map(|value| value.abs().to_bits() as i64);
+            for (most, size) in most.iter_mut().zip(sizes) {
+                *most = if size > *most { size } else { *most };
+            }
+        }
+        most.map(|size| f64::from_bits(size as u64))
     }
 }
 

@@ -25,8 +25,8 @@ pub struct Compiled<L: Law> {
     /// The uniform flow asked for last: once it is steady it is asked for again and again.
     reference: RefCell<Reference>,
     memory: RefCell<Memory>,
-    /// The law as a list of operations, for work that is not worth compiling.
-    interpreted: OnceCell<Interpreted>,
+    /// The law as a list of operations, for work that is not worth compiling; large, and most runs do without.
+    interpreted: OnceCell<Box<Interpreted>>,
 }
 
 /// What the formula keeps of a uniform flow.
@@ -42,8 +42,21 @@ impl Reference {
         let recorder = Recorder::new();
         let speed = recorder.variable(flow.speed);
         law.acceleration(recorder.variable(flow.net_gap), speed, speed);
-        let acceleration = law.acceleration(flow.net_gap, flow.speed, flow.speed);
-        Reference { flow, acceleration, tape: recorder.finish() }
+        Reference { flow, acceleration: Reference::acceleration(law, flow), tape: recorder.finish() }
+    }
+
+    /// Turns to another flow. Where the law is `linear_in_speeds`, what it keeps depends on the net gap alone.
+    fn turn_to<L: Law>(&mut self, law: &L, flow: Flow, linear_in_speeds: bool) {
+        let is_same_tape = linear_in_speeds && self.flow.net_gap == flow.net_gap;
+        if is_same_tape && self.flow.speed.is_finite() && flow.speed.is_finite() {
+            (self.flow, self.acceleration) = (flow, Reference::acceleration(law, flow));
+        } else {
+            *self = Reference::new(law, flow);
+        }
+    }
+
+    fn acceleration<L: Law>(law: &L, flow: Flow) -> f64 {
+        law.acceleration(flow.net_gap, flow.speed, flow.speed)
     }
 }
 
@@ -61,7 +74,7 @@ impl<L: Law> Compiled<L> {
     }
 
     fn interpreted(&self) -> &Interpreted {
-        self.interpreted.get_or_init(|| interpreted(&self.law))
+        self.interpreted.get_or_init(|| Box::new(interpreted(&self.law)))
     }
 }
 
@@ -95,7 +108,7 @@ impl<L: Law> Force for Compiled<L> {
     fn deviations(&self, flow: Flow, spacings: &[f64], speeds: &[f64], accelerations: &mut [f64]) -> f64 {
         let mut reference = self.reference.borrow_mut();
         if reference.flow != flow {
-            *reference = Reference::new(&self.law, flow);
+            reference.turn_to(&self.law, flow, self.speed_slopes.is_some());
         }
         let (law, tape) = (&self.law, &reference.tape);
         let is_done = !tape.is_faint()
@@ -118,7 +131,7 @@ impl<L: Law> Force for Compiled<L> {
     }
 
     fn is_open(&self, flow: Flow, spacings: &[f64], speeds: &[f64]) -> bool {
-        !L::SINGULAR || dispatch(IsOpen { law: self.law, flow, spacings, speeds })
+        !L::SINGULAR || dispatch(IsOpen { law: &self.law, flow, spacings, speeds })
     }
 
     fn uses_speeds(&self) -> bool {
@@ -358,10 +371,26 @@ impl<L: Law> Kernel for EffectiveGaps<'_, L> {
 
 /// Whether every effective gap is positive, for deviations from a uniform flow.
 struct IsOpen<'a, L> {
-    law: L,
+    law: &'a L,
     flow: Flow,
     spacings: &'a [f64],
     speeds: &'a [f64],
+}
+
+impl<L: Law> IsOpen<'_, L> {
+    /// Whether one of so many pedestrians, from this one on, has no gap. A block at a time, and each block to its end: the
+    /// compiler makes a comparison of registers of it.
+    #[inline(always)]
+    fn is_closed<const W: usize>(&self, open: f64, from: usize, ahead: Lanes<W>) -> bool {
+        let (spacings, speeds) = (Lanes::of(&self.spacings[from..]), Lanes::of(&self.speeds[from..]));
+        // the effective gap is linear: what the deviations add to that of the uniform flow
+        let gaps = self.law.effective_gap(spacings, speeds, ahead) + open;
+        let mut is_closed = false;
+        for gap in gaps.0 {
+            is_closed |= gap <= 0.0;
+        }
+        is_closed
+    }
 }
 
 impl<L: Law> Kernel for IsOpen<'_, L> {
@@ -369,15 +398,21 @@ impl<L: Law> Kernel for IsOpen<'_, L> {
 
     #[inline(always)]
     fn run(self) -> bool {
-        let IsOpen { law, flow, spacings, speeds } = self;
-        let open = law.effective_gap(flow.net_gap, flow.speed, flow.speed);
-        let last = spacings.len() - 1;
-        // the effective gap is linear: what the deviations add to that of the uniform flow
-        let closed = |s: f64, v: f64, w: f64| u64::from(open + law.effective_gap(s, v, w) <= 0.0);
-        let mut count = closed(spacings[last], speeds[last], speeds[0]);
-        for ((spacing, speed), ahead) in spacings.iter().zip(speeds).zip(&speeds[1..]) {
-            count += closed(*spacing, *speed, *ahead);
+        const W: usize = 16;
+        let (last, flow) = (self.spacings.len() - 1, self.flow);
+        let open = self.law.effective_gap(flow.net_gap, flow.speed, flow.speed);
+        let mut is_closed = self.is_closed(open, last, Lanes([self.speeds[0]]));
+        if last < W {
+            for n in 0..last {
+                is_closed |= self.is_closed(open, n, Lanes([self.speeds[n + 1]]));
+            }
+        } else {
+            for from in (0..last).step_by(W) {
+                // the last block begins earlier rather than be cut
+                let from = if from < last - W { from } else { last - W };
+                is_closed |= self.is_closed::<W>(open, from, Lanes::of(&self.speeds[from + 1..]));
+            }
         }
-        count == 0
+        !is_closed
     }
 }

@@ -8,7 +8,7 @@
 use super::{Flow, NOTHING};
 use crate::laws::Law;
 use math::lanes::Lanes;
-use math::series::{Block, Jet, OrderMemory, ROWS};
+use math::series::{self, Block, Jet, OrderMemory};
 use math::simd::{Kernel, dispatch_either, dispatch_wide};
 
 /// The coefficients of spacings and speeds of a ring, from their rows 0 and 1.
@@ -219,7 +219,7 @@ impl<L: Law, const PLAIN: bool, const W: usize> Coefficients<'_, '_, L, PLAIN, W
     fn of(self, law: &L) {
         let Motion { flow, pedestrians: n, order, unit, dimension, .. } = *self.motion;
         let coefficients = &mut *self.motion.coefficients;
-        let (memory, blocks, size) = (self.memory, n.div_ceil(W), self.operations * ROWS * order);
+        let (memory, blocks, size) = (self.memory, n.div_ceil(W), self.operations * series::memory(order));
         let (states, rates) = coefficients.split_at_mut(dimension);
         memory.reserve(n, size);
         memory.take(&states[..n], &states[n..2 * n], flow);

@@ -7,7 +7,6 @@
 use super::tangent::{FADING, fastest, series};
 use super::{FlowAlong, LEAST_SIZE, RingSystem, closing_rates, displace};
 use crate::force::{Flow, Force, Motion};
-use crate::observe::speed_std;
 use crate::ring::{Ring, Start};
 use ode::{Group, Measure, System, Tangent};
 use std::ops::Range;
@@ -77,22 +76,30 @@ impl System for Deviations {
     /// If the force depends on speeds, the uniform flow has a series like that of a pedestrian until it is steady.
     /// Otherwise it only relaxes: `dV/dt = f(Delta y) - V` with a constant, for other laws with another factor of `V`.
     fn series(&self, order: usize, unit: f64, coefficients: &mut [f64]) {
-        let (n, dimension) = (self.pedestrians, self.dimension());
+        let (n, dimension) = (self.pedestrians, coefficients.len() / (order + 1));
         let (first, distance, speed) = self.extras();
         let flow = self.flow(coefficients);
         let relaxation = if self.force.uses_speeds() { 0.0 } else { self.force.relaxation(flow) };
         let is_along = self.force.uses_speeds() && !self.is_steady(flow, coefficients[dimension + speed]);
         let along = is_along.then_some(speed);
         self.force.series(Motion { flow, along, pedestrians: n, order, unit, dimension, coefficients });
-        for k in 1..order {
-            let (done, next) = coefficients[k * dimension..].split_at_mut(dimension);
+        let mut rows = coefficients.chunks_exact_mut(dimension).skip(1);
+        let Some(row) = rows.next() else { return };
+        let [mut own, mut flow] = [row[n], row[speed]];
+        for (k, row) in (1..order).zip(rows) {
             let share = unit / (k + 1) as f64;
-            next[first] = done[n] * share;
-            next[distance] = done[speed] * share;
+            row[first] = own * share;
+            row[distance] = flow * share;
             if !is_along {
-                next[speed] = relaxation * done[speed] * share;
+                row[speed] = relaxation * flow * share;
             }
+            [own, flow] = [row[n], row[speed]];
         }
+    }
+
+    /// Whole lines of the cache, of 64 bytes each.
+    fn row_length(&self) -> usize {
+        self.dimension().next_multiple_of(8)
     }
 
     fn tangent_size(&self) -> usize {
@@ -227,9 +234,5 @@ impl RingSystem for Deviations {
     fn flow_along(&self, state: &[f64], rates: &[f64]) -> Option<FlowAlong> {
         let (_, _, speed) = self.extras();
         Some(FlowAlong { net_gap: self.net_gap, speed: state[speed], acceleration: rates[speed] })
-    }
-
-    fn speed_std(&self, state: &[f64]) -> f64 {
-        speed_std(&state[self.pedestrians..2 * self.pedestrians])
     }
 }

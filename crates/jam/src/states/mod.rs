@@ -17,6 +17,7 @@ pub use positions::Positions;
 pub use spacings::Spacings;
 
 use crate::laws::Model;
+use crate::observe::speed_std;
 use crate::ring::{Ring, Start};
 use math::simd::{Kernel, dispatch};
 use std::ops::Range;
@@ -49,7 +50,9 @@ pub trait RingSystem: ode::System {
     }
 
     /// The standard deviation of the speeds over the pedestrians (divided by `N`).
-    fn speed_std(&self, state: &[f64]) -> f64;
+    fn speed_std(&self, state: &[f64]) -> f64 {
+        speed_std(&state[self.speeds()])
+    }
 }
 
 /// A uniform flow that is integrated along.

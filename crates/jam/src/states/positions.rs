@@ -2,7 +2,6 @@
 
 use super::RingSystem;
 use crate::force::{Cut, Flow, Force, Steps};
-use crate::observe::speed_std;
 use crate::ring::{Ring, Start};
 use math::simd::{Kernel, Width, dispatch};
 use ode::{Batch, Group, Measure, System};
@@ -147,9 +146,5 @@ impl RingSystem for Positions {
     fn speeds(&self) -> Range<usize> {
         let n = self.ring.pedestrians;
         n..2 * n
-    }
-
-    fn speed_std(&self, state: &[f64]) -> f64 {
-        speed_std(&state[self.ring.pedestrians..])
     }
 }

@@ -4,7 +4,6 @@
 use super::tangent::{FADING, fastest, series};
 use super::{LEAST_SIZE, RingSystem, closing_rates, displace};
 use crate::force::{Flow, Force, Motion};
-use crate::observe::speed_std;
 use crate::ring::{Ring, Start};
 use ode::{Group, Measure, System, Tangent};
 use std::ops::Range;
@@ -167,9 +166,5 @@ impl RingSystem for Spacings {
     fn speeds(&self) -> Range<usize> {
         let n = self.pedestrians;
         n..2 * n
-    }
-
-    fn speed_std(&self, state: &[f64]) -> f64 {
-        speed_std(&state[self.pedestrians..2 * self.pedestrians])
     }
 }

@@ -81,11 +81,13 @@ impl<C: Coefficient> Block<C> {
     }
 }
 
-/// The memory of an operation that is not linear: a number of rows of a block for each order.
-pub const ROWS: usize = recurrences::ROWS;
+/// The blocks that an operation which is not linear keeps of series of this length.
+#[inline(always)]
+pub fn memory(length: usize) -> usize {
+    recurrences::memory(length)
+}
 
-/// Where the operations of a formula keep earlier coefficients: [`ROWS`] rows for each operation that
-/// is not linear, each as long as the series.
+/// Where the operations of a formula keep earlier coefficients: [`memory`] for each operation that is not linear.
 #[derive(Debug)]
 pub struct OrderMemory<'t, C: Copy> {
     memory: &'t [Block<C>],
@@ -115,8 +117,9 @@ impl<'t, C: Coefficient> OrderMemory<'t, C> {
     #[inline(always)]
     fn history(&self) -> next::History<'t, C> {
         let from = self.next.get();
-        self.next.set(from + ROWS * self.length);
-        next::History::new(&self.memory[from..from + ROWS * self.length], self.length, self.order)
+        let end = from + memory(self.length);
+        self.next.set(end);
+        next::History::new(&self.memory[from..end], self.length, self.order)
     }
 }
 

@@ -7,8 +7,14 @@
 
 use super::{Block, Coefficient};
 
-/// Rows of memory of an operation.
-pub const ROWS: usize = 4;
+/// Rows that an operation keeps, as long as the series. Behind them it keeps one block more, of order 0.
+const ROWS: usize = 3;
+
+/// All blocks that it keeps, for series of this length.
+#[inline(always)]
+pub fn memory(length: usize) -> usize {
+    ROWS * length + 1
+}
 
 /// The memory of one operation, and the order that is computed.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +28,7 @@ pub struct History<'t, C: Copy> {
 type Row<'t, C> = &'t [Block<C>];
 
 impl<'t, C: Coefficient> History<'t, C> {
-    /// [`ROWS`] rows of `length` coefficients.
+    /// In [`memory`] for series of this length.
     #[inline(always)]
     pub fn new(rows: Row<'t, C>, length: usize, order: usize) -> History<'t, C> {
         History { rows, length, order }
@@ -30,7 +36,7 @@ impl<'t, C: Coefficient> History<'t, C> {
 
     #[inline(always)]
     fn row(self, index: usize) -> Row<'t, C> {
-        &self.rows[index * self.length..(index + 1) * self.length]
+        &self.rows[index * self.length..][..if index < ROWS { self.length } else { 1 }]
     }
 
     /// Writes the coefficient of this order.
@@ -128,7 +134,7 @@ pub fn recip<C: Coefficient, const START: bool>(h: History<'_, C>, a: C) -> C {
 /// Of a^n for a negative n, where a does not vanish.
 #[inline(always)]
 pub fn whole_power<C: Coefficient, const START: bool>(h: History<'_, C>, a: C, n: i32) -> C {
-    if START { start_power(h, a, a.powi(n)) } else { next_power(h, a, f64::from(n)) }
+    if START { start_power(h, a, a.powi(n)) } else { next_whole_power(h, a, f64::from(n)) }
 }
 
 /// Of a^q, a > 0.
@@ -159,6 +165,27 @@ fn next_power<C: Coefficient>(h: History<'_, C>, a: C, q: f64) -> C {
             let (f, a) = (powers[i].get(), numbers[powers.len() - 1 - i].get());
             sum = sum + (f * a) * (q * (k - j) - j);
             j += 1.0;
+        }
+    }
+    let f = sum * (h.first(2) * (1.0 / k));
+    h.write(1, f);
+    f
+}
+
+/// [`next_power`] for a whole q, whose factors are whole numbers: each follows from the one before without rounding.
+#[inline(always)]
+fn next_whole_power<C: Coefficient>(h: History<'_, C>, a: C, q: f64) -> C {
+    h.write(0, a);
+    let (k, order) = (h.k(), h.order);
+    let mut factor = q * k;
+    let mut sum = h.first(1) * a * factor;
+    if order > 1 {
+        let (powers, numbers) = (&h.row(1)[1..order], &h.row(0)[1..order]);
+        #[allow(clippy::needless_range_loop)]
+        for i in 0..powers.len() {
+            let (f, a) = (powers[i].get(), numbers[powers.len() - 1 - i].get());
+            factor -= q + 1.0;
+            sum = sum + (f * a) * factor;
         }
     }
     let f = sum * (h.first(2) * (1.0 / k));

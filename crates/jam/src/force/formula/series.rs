@@ -8,7 +8,7 @@ use formula::Unary;
 use math::change::Changed;
 use math::lanes::Lanes;
 use math::series::recurrences::{self as next, History};
-use math::series::{Block, Coefficient, ROWS};
+use math::series::{Block, Coefficient, memory};
 use math::simd::{Kernel, Width, dispatch, dispatch_to_four};
 
 /// The most pedestrians of a block.
@@ -72,7 +72,7 @@ impl Along for WithFlow {
 /// Memory that is kept from step to step.
 #[derive(Clone, Debug, Default)]
 pub struct Memory<C: Copy> {
-    /// What the operations keep: for each of them, for each block, [`ROWS`] rows of coefficients.
+    /// What the operations keep: for each of them, for each block, its [`memory`].
     histories: Vec<Block<C>>,
     /// One order, for each block.
     registers: Vec<Vec<C>>,
@@ -164,7 +164,7 @@ fn place(variables: &[Source], variable: Source) -> usize {
 impl<C: Along> Coefficients<'_, '_, C> {
     /// Makes room.
     fn reserve(&mut self, blocks: usize) {
-        let needed = self.operations * blocks * ROWS * self.motion.order;
+        let needed = self.operations * blocks * memory(self.motion.order);
         let Memory { histories, registers, variables, .. } = &mut *self.memory;
         if histories.len() < needed {
             histories.resize(needed, Block::default());
@@ -248,13 +248,13 @@ impl<'a, C: Coefficient> Histories<'a, C> {
     /// Those of the operation with this number and the ones behind it.
     #[inline(always)]
     fn of(&self, operation: usize) -> Histories<'a, C> {
-        Histories { memory: &self.memory[operation * self.blocks * ROWS * self.length..], ..*self }
+        Histories { memory: &self.memory[operation * self.blocks * memory(self.length)..], ..*self }
     }
 
     /// The history of a block.
     #[inline(always)]
     fn block(&self, block: usize) -> History<'a, C> {
-        let size = ROWS * self.length;
+        let size = memory(self.length);
         History::new(&self.memory[block * size..(block + 1) * size], self.length, self.order)
     }
 }
