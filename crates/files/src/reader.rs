@@ -111,6 +111,11 @@ pub struct Section {
     pub entries: BTreeMap<String, Entry>,
 }
 
+/// Whether the parser rejects a text and does not say where.
+fn is_rejected_without_place(text: &str) -> bool {
+    DeTable::parse(text).is_err_and(|error| error.span().is_none())
+}
+
 impl Section {
     /// Parses a TOML document; `file` is only for messages.
     ///
@@ -119,7 +124,11 @@ impl Section {
     pub fn parse(file: &str, text: &str) -> Result<Section, SceneError> {
         let fail = |line, problem| SceneError::new(file, line, problem);
         let table = DeTable::parse(text).map_err(|error| {
-            let line = error.span().map_or(0, |span| line_of(text, span.start));
+            let line = match error.span() {
+                Some(span) => line_of(text, span.start),
+                // keys nested too deep: the parser does not say where, but says the same of that line alone
+                None => text.lines().position(is_rejected_without_place).map_or(0, |index| index + 1),
+            };
             let hint = text.lines().nth(line.wrapping_sub(1)).and_then(hint_in);
             fail(line, format!("{}{}", error.message(), hint.map_or(String::new(), |hint| format!(": {hint}"))))
         })?;

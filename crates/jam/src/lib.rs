@@ -26,8 +26,15 @@
 //!
 //! All quantities are dimensionless. For the laws of the paper (Chraibi et al., Phys. Rev. E 92, 042809, 2015) lengths are in
 //! units of `a_0`, half the size of a standing pedestrian, and times in units of `tau`, the relaxation time (eq-rescale); a
-//! law of your own brings its own units. Rows have one number for each pedestrian; pedestrian `n` follows `n + 1`, and the
-//! last follows the first.
+//! law of your own brings its own units of length and time, and where the documentation says `a_0` and `tau`, read these.
+//! Wave numbers `k` are in radians per pedestrian.
+//!
+//! Rows have one number for each of the `N` pedestrians, who are counted from 0; pedestrian `n` follows `n + 1`, and the last
+//! follows the first. With a row of another length a call panics, or its result has no meaning. Positions are unwrapped: they
+//! grow beyond the length of the ring.
+//!
+//! A number that does not exist is `None` or an error, with two exceptions: where an acceleration has no value it is NaN, and
+//! so are coefficients of [`stability::Linear`] where a law has no derivatives. What is computed from NaN is NaN.
 //!
 //! The crates that occur in signatures are re-exported: [`math`] (kinds of numbers), [`ode`] (methods, tolerances, steps) and
 //! [`formula`] (the language of formulas).

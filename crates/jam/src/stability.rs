@@ -44,7 +44,7 @@ pub enum Waves {
 }
 
 impl Response {
-    /// `b` and `c` of `z^2 + b z + c = 0`.
+    /// `b` and `c` of `z^2 + b z + c = 0`, in units of `1 / tau` and `1 / tau^2`, for any `k`.
     pub fn polynomial(&self, k: f64) -> (Complex, Complex) {
         self.polynomial_with(k, math::sin(0.5 * k))
     }
@@ -111,7 +111,7 @@ impl Response {
         self.over_all(FINER).1
     }
 
-    /// How far a wave is from stability, negative when it decays: `-D / ((1 - cos k) sum_j f_{s_j})`, or `-D` where that sum
+    /// How far a wave `k` in (0, pi] is from stability, in units of `1 / tau^2`, negative when it decays: `-D / ((1 - cos k) sum_j f_{s_j})`, or `-D` where that sum
     /// is not positive. Where `Re b <= 0`, which no relaxation outweighs, at least `-Re b`.
     pub fn margin_of(&self, k: f64) -> f64 {
         let half = math::sin(0.5 * k);
@@ -143,7 +143,7 @@ impl Response {
             + (f64::EPSILON * spacings) * (f64::EPSILON * spacings)
     }
 
-    /// The limit of long waves, `k -> 0`.
+    /// The limit of [`Response::margin_of`] for long waves, `k -> 0`.
     pub fn long_wave_margin(&self) -> f64 {
         let moment = |list: &[(i32, f64)], power: i32| -> f64 {
             list.iter().map(|(j, slope)| slope * f64::from(j.pow(power as u32))).sum()
@@ -260,7 +260,8 @@ impl Response {
         growing
     }
 
-    /// The largest growth rate among the waves of a ring, `k = 2 pi l / N` for `l = 1 .. N/2`, and its `l`.
+    /// The largest growth rate, in units of `1 / tau`, among the waves of a ring of `N >= 2`, `k = 2 pi l / N` for `l = 1 .. N/2`,
+    /// and its `l`.
     pub fn fastest(&self, pedestrians: usize) -> (f64, usize) {
         fastest(pedestrians, |k| self.growth_rate(k))
     }

@@ -20,7 +20,7 @@ pub fn start(pedestrians: usize, speed: f64, z: Complex, k: f64, amplitude: f64)
     start
 }
 
-/// The coefficient `(1 / N) sum w_n exp(-i k n)` of the wave `k` in `N` values.
+/// The coefficient `(1 / N) sum w_n exp(-i k n)` of the wave `k` in `N >= 1` values, in their unit; of none it is NaN.
 pub fn coefficient(values: &[f64], k: f64) -> Complex {
     let count = values.len() as f64;
     let part = |f: fn(f64) -> f64| values.iter().enumerate().map(|(n, w)| w * f(k * n as f64)).sum::<f64>() / count;

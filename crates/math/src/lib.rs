@@ -28,7 +28,7 @@
 //! nothing returns an error because of the value of a number. NaN goes in and NaN comes out, except for [`pow`] (`x^0 = 1`,
 //! `1^y = 1`, as in C) and [`number::Number::powi`] with the exponent 0. Which NaN, and its sign, has no meaning.
 //!
-//! Slices have any length, and those of one call the same one, unless stated otherwise; a shorter one panics.
+//! Slices have any length unless one is stated.
 
 pub mod affine;
 pub mod change;

@@ -107,7 +107,8 @@ impl Part<'_> {
     }
 }
 
-/// An accepted step.
+/// An accepted step. States and rates have one number for each component of the system. Inside the step the solution is the
+/// method's interpolant, whose error is not looked at by the control of the steps.
 pub struct Step<'a> {
     pub(crate) system: &'a dyn System,
     pub(crate) stepper: &'a mut dyn Stepper,
@@ -155,7 +156,7 @@ impl Step<'_> {
         self.ends.rates_after
     }
 
-    /// The length of the step.
+    /// The length of the step, above 0, in the unit of time; more exact than the difference of its ends.
     pub fn length(&self) -> f64 {
         self.ends.h
     }
@@ -165,7 +166,7 @@ impl Step<'_> {
         self.is_beyond
     }
 
-    /// Writes the state at the time `t` within the step.
+    /// Writes the state at the time `t` within the step; beyond its ends the interpolant is an extrapolation.
     pub fn at(&mut self, t: f64, state: &mut [f64]) {
         self.part_at(t, Part { from: 0, values: state });
     }
@@ -177,7 +178,7 @@ impl Step<'_> {
         self.evaluations = counted;
     }
 
-    /// As [`Step::at`] for a contiguous part of the components, at lower cost.
+    /// As [`Step::at`] for a contiguous part of the components, at lower cost; the rest of `state` is left alone.
     pub fn components_at(&mut self, t: f64, range: Range<usize>, state: &mut [f64]) {
         self.part_at(t, Part { from: range.start, values: &mut state[range] });
     }
@@ -203,7 +204,7 @@ impl Step<'_> {
         self.part_at_fraction(self.fraction(t), part);
     }
 
-    /// The fraction of the step that corresponds to the time `t`.
+    /// The fraction of the step, 0 at its start and 1 at its end, that corresponds to the time `t`.
     pub fn fraction(&self, t: f64) -> f64 {
         let near = nearby(self.end, self.ends.h);
         if (t - self.start).abs() < near {
@@ -215,7 +216,7 @@ impl Step<'_> {
         }
     }
 
-    /// Writes the rates of any state. They are not counted, since an observer does not change the statistics of a run.
+    /// Writes the rates of any state, one for each component. They are not counted, since an observer does not change the statistics of a run.
     pub fn rates_of(&self, state: &[f64], rates: &mut [f64]) {
         self.system.rates(state, rates);
     }

@@ -85,7 +85,7 @@ pub fn resume(
     let mut run = Run::new(&Problem { start: mark.state, ..*problem });
     run.statistics = mark.statistics.clone();
     let made = match (problem.control, mark.pace) {
-        (Control::Fixed { step }, None) => run.fixed(problem, step, mark.place, observer),
+        (Control::Fixed { step }, None) => run.fixed(problem, step, mark.position, observer),
         (Control::Adaptive { tolerance }, Some(pace)) => run.adaptive(problem, tolerance, Some(pace), observer),
         _ => return Err(Failure::NotResumable),
     };
@@ -159,8 +159,13 @@ impl<'a> Run<'a> {
         let mut next_mark = k + LONGEST_BURST;
         while k < whole {
             if k >= next_mark {
-                let place = StepPosition { step: k, slow_until };
-                observer.between(&ResumePoint { place, statistics: &self.statistics, state: &self.state, pace: None });
+                let position = StepPosition { step: k, slow_until };
+                observer.between(&ResumePoint {
+                    position,
+                    statistics: &self.statistics,
+                    state: &self.state,
+                    pace: None,
+                });
                 next_mark = k + LONGEST_BURST;
             }
             if problem.method == Method::Heun && k >= slow_until {
@@ -294,9 +299,9 @@ impl<'a> Run<'a> {
                 let (error, unit) = (controller.previous, self.stepper.unit());
                 let time = [time[0], time_carry[0]];
                 let pace = Pace { rates: &self.rates, compensation: &compensation, time, step: h, error, unit };
-                let place = StepPosition { step: self.statistics.steps, slow_until: 0 };
+                let position = StepPosition { step: self.statistics.steps, slow_until: 0 };
                 let (statistics, state) = (&self.statistics, &self.state[..]);
-                observer.between(&ResumePoint { place, statistics, state, pace: Some(pace) });
+                observer.between(&ResumePoint { position, statistics, state, pace: Some(pace) });
             }
         }
         Ok(())

@@ -45,7 +45,7 @@ pub struct StepPosition {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ResumePoint<'a> {
     /// Between which steps.
-    pub place: StepPosition,
+    pub position: StepPosition,
     /// The counts so far, and the end of the last step that was shown. Its own state is of no meaning.
     pub statistics: &'a Statistics,
     /// The state there, one number for each component.

@@ -80,7 +80,7 @@ const DISTANCE: f64 = 1e-9;
 const ROUNDING: f64 = 0.5 * f64::EPSILON;
 
 impl Shadow {
-    /// Of a solution that begins with this error.
+    /// Of a solution that begins with this error, computed less exact: one number for each component, in its unit.
     pub fn new(error: Vec<f64>) -> Shadow {
         let zeros = vec![0.0; error.len()];
         Shadow {

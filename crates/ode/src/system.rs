@@ -3,18 +3,22 @@
 use std::ops::Range;
 
 /// An autonomous system `dy/dt = f(y)` whose state splits into position-like components, the rates of which depend on
-/// the speed-like components alone, and the rest.
+/// the speed-like components alone, and the rest. A system without such a split has no position-like components.
+///
+/// States and rates are slices of [`System::dimension`] numbers; a rate has the unit of its component over that of time. The first
+/// five functions have to be written; the others serve methods and checks that not every system has. A rate that does not exist
+/// is NaN: the step that asks for it is not accepted.
 pub trait System {
     /// The number of components.
     fn dimension(&self) -> usize;
 
-    /// Writes the rates of the position-like components; leaves the others alone.
+    /// Writes the rates of the position-like components, from the others; leaves the rates of those alone.
     fn kinematics(&self, state: &[f64], rates: &mut [f64]);
 
-    /// Writes the rates of all other components; leaves the position-like ones alone.
+    /// Writes the rates of all other components; leaves those of the position-like ones alone.
     fn dynamics(&self, state: &[f64], rates: &mut [f64]);
 
-    /// The position-like components.
+    /// The position-like components, in ranges of the state; empty if there are none.
     fn positions(&self) -> Vec<Range<usize>>;
 
     /// The components whose errors are measured together; together they cover the state.
@@ -25,7 +29,7 @@ pub trait System {
         true
     }
 
-    /// Makes `count` steps of length `h` of Heun's scheme in place, with the same bits as one by one, if the system has a
+    /// Makes `count` steps of length `h` (above 0, in the unit of time) of Heun's scheme in place, with the same bits as one by one, if the system has a
     /// faster way to do so.
     fn heun(&self, _state: &mut [f64], _h: f64, _count: u64) -> Batch {
         Batch::Unsupported
@@ -120,11 +124,11 @@ pub enum Batch {
 /// Components of one kind, whose errors are compared with one size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Group {
-    /// The components.
+    /// The components, all of one unit.
     pub range: Range<usize>,
     /// What an error is compared with.
     pub measure: Measure,
-    /// The size below which errors need not shrink any further.
+    /// The size below which errors need not shrink any further, in the unit of the components; at least 0.
     pub floor: f64,
 }
 

@@ -16,7 +16,8 @@ use math::simd::Width;
 use ode::Batch;
 
 /// The force on the pedestrians of a ring, of whom each follows the next and the last the first. Rows hold a number for
-/// each of them.
+/// each of the `N` of them, all of the same length: spacings and gaps in units of `a_0`, speeds in `a_0 / tau`,
+/// accelerations in `a_0 / tau^2`. An acceleration without a value is NaN or infinite; nothing panics for it.
 pub trait Force: std::fmt::Debug + Send {
     /// The spacing at which two standing pedestrians touch; the net gap is the spacing less this.
     fn contact(&self) -> f64;
@@ -97,7 +98,7 @@ pub struct Rows<'a> {
 /// A uniform flow: all pedestrians have the same net gap and speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flow {
-    /// The net gap, headway less contact.
+    /// The net gap, headway less contact, in units of `a_0`.
     pub net_gap: f64,
     /// The speed.
     pub speed: f64,
@@ -110,9 +111,9 @@ pub(crate) const NOTHING: Flow = Flow { net_gap: -0.0, speed: -0.0 };
 /// which the bits do not depend.
 #[derive(Clone, Copy, Debug)]
 pub struct Steps {
-    /// Length of the ring.
+    /// Length of the ring, in units of `a_0`.
     pub length: f64,
-    /// Length of a step.
+    /// Length of a step, in units of `tau`.
     pub h: f64,
     /// Number of steps.
     pub count: u64,

@@ -97,12 +97,12 @@ impl Formula {
         self.graph.parameter(name).map(|index| self.values[index])
     }
 
-    /// The size of speeds: that of the parameter `v0` if there is one, else `scale`. A `v0` of 0 is none.
+    /// The size of speeds, in the law's unit of them: that of the parameter `v0` if there is one, else `scale`. A `v0` of 0 is none.
     pub fn speed_scale(&self) -> Option<f64> {
         size_of_speeds(|name| self.parameter(name))
     }
 
-    /// The spacing at which two touch.
+    /// The spacing at which two touch, its parameter `body`.
     pub fn contact(&self) -> f64 {
         self.contact
     }
@@ -139,14 +139,14 @@ impl Formula {
         self.acceleration.program().carry_out(variable)
     }
 
-    /// The acceleration in the uniform flow for many speeds at once.
+    /// The acceleration in the uniform flow for many speeds at once, one for each; NaN where the formula has no value.
     pub fn uniform_at(&self, headway: f64, speeds: &[f64]) -> Vec<f64> {
         let mut accelerations = vec![0.0; speeds.len()];
         self.acceleration.in_uniform_flows(headway - self.contact, speeds, &mut accelerations);
         accelerations
     }
 
-    /// The effective gap in the uniform flow.
+    /// The effective gap in the uniform flow: the formula `gap`, else the net gap; NaN where it has no value.
     pub fn uniform_gap(&self, headway: f64, speed: f64) -> f64 {
         match &self.gap {
             Some(gap) => gap.program().carry_out(|source| self.variable(source, headway, speed)),

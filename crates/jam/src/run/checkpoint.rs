@@ -32,14 +32,20 @@ pub struct PartialRun<'a> {
 impl PartialRun<'_> {
     /// The part of its time that is done, 0 to 1.
     pub fn fraction(&self) -> f64 {
-        fraction(self.run, self.mark.place.step, self.mark.statistics.time)
+        fraction(self.run, self.mark.position.step, self.mark.statistics.time)
     }
 
     /// Everything that [`Checkpoint::parse`] needs.
     pub fn to_bytes(&self) -> Vec<u8> {
-        let ResumePoint { place, statistics, state, pace } = *self.mark;
+        let ResumePoint { position, statistics, state, pace } = *self.mark;
         let mut words = Words::default();
-        words.whole(&[place.step, place.slow_until, statistics.steps, statistics.rejected, statistics.evaluations]);
+        words.whole(&[
+            position.step,
+            position.slow_until,
+            statistics.steps,
+            statistics.rejected,
+            statistics.evaluations,
+        ]);
         words.numbers(&[statistics.time]);
         words.count(state.len());
         words.numbers(state);
@@ -82,7 +88,7 @@ impl PartialRun<'_> {
 /// A run to resume.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Checkpoint {
-    pub(crate) place: StepPosition,
+    pub(crate) position: StepPosition,
     pub(crate) statistics: ode::Statistics,
     pub(crate) state: Vec<f64>,
     pub(crate) pace: Option<Remembered>,
@@ -117,7 +123,7 @@ impl Checkpoint {
     /// Reads what [`PartialRun::to_bytes`] wrote for this run; `None` for anything of another form.
     pub fn parse(bytes: &[u8], run: &Run) -> Option<Checkpoint> {
         let mut words = Reader { words: bytes.chunks_exact(8) };
-        let place = StepPosition { step: words.whole()?, slow_until: words.whole()? };
+        let position = StepPosition { step: words.whole()?, slow_until: words.whole()? };
         let (steps, rejected, evaluations) = (words.whole()?, words.whole()?, words.whole()?);
         let statistics = ode::Statistics { steps, rejected, evaluations, time: words.number()?, state: Vec::new() };
         let count = words.count()?;
@@ -143,7 +149,7 @@ impl Checkpoint {
             && pace.is_some() == matches!(run.control, Control::Adaptive { .. });
         let drift = Drift { before, distance, time };
         (is_whole && fits).then_some(Checkpoint {
-            place,
+            position,
             statistics,
             state,
             pace,
@@ -159,12 +165,12 @@ impl Checkpoint {
 
     /// Steps that need not be made again.
     pub fn steps(&self) -> u64 {
-        self.earlier.steps + self.place.step
+        self.earlier.steps + self.position.step
     }
 
     /// The fraction of the run's time that need not be repeated, 0 to 1.
     pub fn fraction(&self, run: &Run) -> f64 {
-        fraction(run, self.place.step, self.statistics.time)
+        fraction(run, self.position.step, self.statistics.time)
     }
 }
 

@@ -134,7 +134,7 @@ impl<'a> Recorder<'a> {
 
     /// Continues from a checkpoint as [`Recorder::leg`] would have done.
     fn resume(&mut self, form: &dyn RingSystem, near_walls: &'a dyn RingSystem, checkpoint: Checkpoint) -> Leg {
-        let Checkpoint { place, statistics, state, pace, found, samples, drift, .. } = checkpoint;
+        let Checkpoint { position, statistics, state, pace, found, samples, drift, .. } = checkpoint;
         // one sample for each multiple of the interval, from 0; none after a stop
         self.sampler.resume(samples.len() as u64);
         self.is_stopped = found.iter().any(|event| self.run.stops(event.kind));
@@ -154,7 +154,7 @@ impl<'a> Recorder<'a> {
             judge.recall(memory);
         }
         let pace = pace.as_ref().map(Remembered::pace);
-        let mark = ResumePoint { place, statistics: &statistics, state: &state, pace };
+        let mark = ResumePoint { position, statistics: &statistics, state: &state, pace };
         let made = resume(&self.problem(form, begin, &state), &mark, self);
         self.made(made)
     }

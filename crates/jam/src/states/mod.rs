@@ -22,7 +22,8 @@ use crate::ring::{Ring, Start};
 use math::simd::{Kernel, dispatch};
 use std::ops::Range;
 
-/// A ring in one of the forms. Pedestrian `n` follows `n + 1`, the last follows the first.
+/// A ring in one of the forms. Pedestrian `n` follows `n + 1`, the last follows the first. Positions and gaps are in units of
+/// `a_0`, times in units of `tau`; rows of pedestrians have `N` numbers, states and their rates [`ode::System::dimension`].
 pub trait RingSystem: ode::System {
     /// The state at the start.
     fn start(&self, start: Start) -> Vec<f64>;
@@ -61,7 +62,7 @@ pub struct FlowAlong {
     pub net_gap: f64,
     /// Its speed.
     pub speed: f64,
-    /// How fast that changes.
+    /// How fast that changes, in units of `a_0 / tau^2`.
     pub acceleration: f64,
 }
 

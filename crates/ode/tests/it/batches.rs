@@ -73,7 +73,7 @@ impl Observer for Looking {
         self.samples.first().copied().unwrap_or(f64::INFINITY)
     }
     fn between(&mut self, mark: &ResumePoint<'_>) {
-        self.marks.push(mark.place.step);
+        self.marks.push(mark.position.step);
     }
 }
 

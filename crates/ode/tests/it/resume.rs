@@ -17,7 +17,7 @@ impl Observer for Keeper {
     }
 
     fn between(&mut self, mark: &ResumePoint<'_>) {
-        self.0.push((mark.place, mark.statistics.clone(), mark.state.to_vec()));
+        self.0.push((mark.position, mark.statistics.clone(), mark.state.to_vec()));
     }
 }
 
@@ -31,17 +31,17 @@ fn a_run_resumed_from_any_mark_has_the_same_bits_and_counts() {
         let whole = integrate(&problem, &mut keeper).expect("nothing stands in the way");
         assert_eq!(whole, solve(&system, &[1.0, 0.0], 20.0005, method, control), "marks change nothing");
         assert_eq!(keeper.0.len(), 20_001 / 4096, "{}", method.name());
-        for (place, statistics, state) in &keeper.0 {
-            let mark = ResumePoint { place: *place, statistics, state, pace: None };
+        for (position, statistics, state) in &keeper.0 {
+            let mark = ResumePoint { position: *position, statistics, state, pace: None };
             let resumed = resume(&problem, &mark, &mut Keeper::default()).expect("nothing stands in the way");
-            assert_eq!(resumed, whole, "{} from {place:?}", method.name());
+            assert_eq!(resumed, whole, "{} from {position:?}", method.name());
         }
     }
 }
 
 /// A mark of adaptive steps that outlives them.
 struct Kept {
-    place: StepPosition,
+    position: StepPosition,
     statistics: Statistics,
     state: Vec<f64>,
     rates: Vec<f64>,
@@ -62,7 +62,7 @@ impl Observer for PaceKeeper {
     fn between(&mut self, mark: &ResumePoint<'_>) {
         let pace = mark.pace.expect("adaptive steps");
         self.0.push(Kept {
-            place: mark.place,
+            position: mark.position,
             statistics: mark.statistics.clone(),
             state: mark.state.to_vec(),
             rates: pace.rates.to_vec(),
@@ -86,8 +86,12 @@ fn adaptive_steps_resumed_from_any_mark_have_the_same_bits_and_counts() {
         for kept in keeper.0.iter().step_by(keeper.0.len().div_ceil(8)).chain(keeper.0.last()) {
             let (time, step, error, unit) = kept.numbers;
             let pace = Pace { rates: &kept.rates, compensation: &kept.compensation, time, step, error, unit };
-            let mark =
-                ResumePoint { place: kept.place, statistics: &kept.statistics, state: &kept.state, pace: Some(pace) };
+            let mark = ResumePoint {
+                position: kept.position,
+                statistics: &kept.statistics,
+                state: &kept.state,
+                pace: Some(pace),
+            };
             let resumed = resume(&problem, &mark, &mut PaceKeeper::default()).expect("nothing stands in the way");
             assert_eq!(resumed, whole, "{} from {time:?}", method.name());
         }
@@ -129,7 +133,7 @@ fn steps_are_resumed_from_marks_of_their_own_kind_alone() {
     for (control, pace) in [(Control::Adaptive { tolerance: 1e-9 }, None), (Control::Fixed { step: 0.1 }, Some(pace))] {
         let problem = Problem { system: &system, start: &state, begin: 0.0, end: 1.0, method: Method::Dop853, control };
         let mark =
-            ResumePoint { place: StepPosition::default(), statistics: &Statistics::default(), state: &state, pace };
+            ResumePoint { position: StepPosition::default(), statistics: &Statistics::default(), state: &state, pace };
         assert_eq!(resume(&problem, &mark, &mut Keeper::default()), Err(Failure::NotResumable));
     }
 }

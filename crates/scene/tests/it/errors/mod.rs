@@ -107,3 +107,12 @@ fn a_file_that_is_not_there() {
     let error = scene_file::read(std::path::Path::new("no/such/scene.toml")).expect_err("there is no such file");
     assert!(error.to_string().starts_with("no/such/scene.toml: "), "{error}");
 }
+
+#[test]
+fn keys_nested_too_deep_are_told_with_their_line() {
+    let nested = ".a".repeat(200);
+    for text in [format!("title = \"a\"\n\nb{nested} = 1\n{RUN}"), format!("\n\n[b{nested}]\nx = 1\n{RUN}")] {
+        let found = complaint(&text).expect("a complaint");
+        assert!(found.starts_with("my.toml:3: "), "{found}");
+    }
+}
