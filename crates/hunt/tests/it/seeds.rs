@@ -42,6 +42,19 @@ fn of(seed: u64) -> Vec<Verdict> {
     judge::scene(&draw::scene(seed))
 }
 
+/// Blow-ups of which the steps tell the time: the error is carried to three digits through all throws, so that no second run is
+/// needed.
+#[test]
+fn steps_tell_the_error_of_a_blow_up() {
+    for seed in [2_340_035, 2_340_046] {
+        for verdict in of(seed) {
+            assert!(verdict.ending.contains("blow_up"), "{seed}: {verdict:#?}");
+            assert!(verdict.findings.is_empty(), "{seed}: {verdict:#?}");
+            assert_eq!(verdict.cost.map(|(cost, _)| cost), Some(0.0), "{seed}: {verdict:#?}");
+        }
+    }
+}
+
 /// Asserts that no error of these runs is far larger than the stated one; returns the ratios of them all.
 fn stated_of(seeds: &[u64]) -> Vec<Ratio> {
     let mut all = Vec::new();
