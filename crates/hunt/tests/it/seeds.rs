@@ -94,12 +94,16 @@ fn errors_of_a_few_adaptive_steps_are_stated() {
     assert!(all.iter().any(|ratio| ratio.what == "std" && ratio.value() > 0.1), "{all:#?}");
 }
 
-/// At a loose tolerance a run passes by a blow-up, at which the second run takes thousands of steps.
+/// At a loose tolerance a run passes by a blow-up, at which the second run takes thousands of steps; roundings of positions grow
+/// into a blow-up that the ring does not have.
 #[test]
-fn rows_beyond_a_blow_up_are_left_out() {
-    let all = of(1_330_169);
-    assert!(all.iter().all(|verdict| verdict.ending.starts_with("failed: not_confirmed")), "{all:#?}");
-    assert!(all.iter().all(|verdict| verdict.findings.is_empty()), "{all:#?}");
+fn rows_beyond_a_blow_up_and_before_a_false_one_are_left_out() {
+    for seed in [1_330_169, 352_451] {
+        for verdict in of(seed) {
+            assert!(verdict.ending.starts_with("failed: not_confirmed"), "{seed}: {verdict:#?}");
+            assert!(verdict.findings.is_empty(), "{seed}: {verdict:#?}");
+        }
+    }
 }
 
 /// Steps of fixed length that end where the state is no longer finite are too long before that, too.

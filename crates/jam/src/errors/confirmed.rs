@@ -65,7 +65,7 @@ pub(super) fn until(run: &Run, outcome: &Outcome, second: &Second) -> Option<f64
     let other = &second.outcome;
     let other_end = other.stop().map_or(other.statistics.time, |stop| stop.time);
     let is_before_end = other_end < (1.0 - SAME_TIME) * outcome.statistics.time;
-    let refuted = outcome.stop().filter(|stop| is_refuted(stop, other));
+    let refuted = outcome.stop().filter(|stop| is_refuted(run, stop, other));
     let end = match (refuted, outcome.stop()) {
         (Some(stop), _) => Some(stop.time),
         // another event may be the same one, all but for its time
@@ -80,9 +80,16 @@ pub(super) fn until(run: &Run, outcome: &Outcome, second: &Second) -> Option<f64
     Some(last_before(outcome, first))
 }
 
-/// Whether the run left the domain of its formula by its own error: the other one, at a smaller tolerance, goes on.
-fn is_refuted(stop: &Event, other: &Outcome) -> bool {
-    stop.kind == EventKind::Undefined && other.stop().is_none() && other.statistics.time > (1.0 + NEAR) * stop.time
+/// Whether the run left the domain of its formula, or adaptive steps came to a blow-up, by its own error alone: the other one,
+/// at a smaller tolerance, goes on. Of positions, roundings may grow into a blow-up that deviations know nothing of. Fixed steps
+/// that pass a wall are another matter: their events have no errors.
+fn is_refuted(run: &Run, stop: &Event, other: &Outcome) -> bool {
+    let is_own = match stop.kind {
+        EventKind::Undefined => true,
+        EventKind::BlowUp => matches!(run.control, Control::Adaptive { .. }),
+        _ => false,
+    };
+    is_own && other.stop().is_none() && other.statistics.time > (1.0 + NEAR) * stop.time
 }
 
 /// The time of the last sample before this one.
