@@ -6,8 +6,10 @@ use reference::number::Real;
 use reference::solution::{End, Kind, Question, Sample, Solution, solve};
 use reference::solver::Care;
 
-/// Speeds above this multiple of the desired speed are a blow-up.
+/// Speeds above this multiple of the desired speed are a blow-up: they double with every throw by a wall.
 const FASTEST: f64 = 1e6;
+/// Where there is no wall, they may grow as long as the ring has time: above what a run calls a blow-up.
+const FASTEST_WITHOUT_WALL: f64 = jam::events::BLOW_UP;
 
 /// Two solutions that differ in the nodes of their steps.
 #[derive(Clone, Debug)]
@@ -68,8 +70,9 @@ impl Answer {
 
 /// Solutions with the given numbers of nodes and tolerances. The second is not tried if the first does not finish.
 fn pair<T: Real>(question: &Question, cares: [(usize, f64); 2], most_work: u64) -> Answer {
+    let fastest = if question.formula.is_singular() { FASTEST } else { FASTEST_WITHOUT_WALL };
     let solved = |(nodes, tolerance), most_work| {
-        solve::<T>(question, Form::Differences, Care { nodes, tolerance, most_work }, FASTEST)
+        solve::<T>(question, Form::Differences, Care { nodes, tolerance, most_work }, fastest)
     };
     let solution = solved(cares[0], most_work);
     // fewer nodes take more steps

@@ -65,9 +65,9 @@ pub(super) fn until(run: &Run, outcome: &Outcome, second: &Second) -> Option<f64
     let other = &second.outcome;
     let other_end = other.stop().map_or(other.statistics.time, |stop| stop.time);
     let is_before_end = other_end < (1.0 - SAME_TIME) * outcome.statistics.time;
-    let refuted = outcome.stop().filter(|stop| is_refuted(run, stop, other));
+    let refuted = refuted_at(run, outcome, other);
     let end = match (refuted, outcome.stop()) {
-        (Some(stop), _) => Some(stop.time),
+        (Some(time), _) => Some(time),
         // another event may be the same one, all but for its time
         (_, Some(_)) if reaches(outcome, other) => None,
         _ => is_before_end.then_some(other_end),
@@ -80,16 +80,20 @@ pub(super) fn until(run: &Run, outcome: &Outcome, second: &Second) -> Option<f64
     Some(last_before(outcome, first))
 }
 
-/// Whether the run left the domain of its formula, or adaptive steps came to a blow-up, by its own error alone: the other one,
-/// at a smaller tolerance, goes on. Of positions, roundings may grow into a blow-up that deviations know nothing of. Fixed steps
-/// that pass a wall are another matter: their events have no errors.
-fn is_refuted(run: &Run, stop: &Event, other: &Outcome) -> bool {
-    let is_own = match stop.kind {
+/// The time of the stop of a run that left the domain of its formula, or whose adaptive steps came to a blow-up, by its own error
+/// alone: the other one, at a smaller tolerance, goes on. Of positions, roundings may grow into a blow-up that deviations know nothing of. Fixed steps that
+/// pass a wall are another matter: their events have no errors.
+fn refuted_at(run: &Run, outcome: &Outcome, other: &Outcome) -> Option<f64> {
+    let stop = outcome.stop()?;
+    let is_adaptive = matches!(run.control, Control::Adaptive { .. });
+    // the other one was then to go on to the end of the run, whatever came before
+    let is_own = |event: &Event| match event.kind {
         EventKind::Undefined => true,
-        EventKind::BlowUp => matches!(run.control, Control::Adaptive { .. }),
+        EventKind::BlowUp => is_adaptive,
         _ => false,
     };
-    is_own && other.stop().is_none() && other.statistics.time > (1.0 + NEAR) * stop.time
+    let goes_on = other.stop().is_none() && other.statistics.time > (1.0 + NEAR) * stop.time;
+    (goes_on && outcome.events.iter().any(is_own)).then_some(stop.time)
 }
 
 /// The time of the last sample before this one.
