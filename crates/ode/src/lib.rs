@@ -71,6 +71,7 @@ mod kinks;
 mod linear;
 pub mod methods;
 mod observe;
+mod rows;
 mod runge_kutta;
 mod shadow;
 mod system;

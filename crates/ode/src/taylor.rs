@@ -11,12 +11,13 @@ mod sums;
 use crate::control::{Control, Norm};
 use crate::dense::{Ends, Part, Stepper, Trial};
 use crate::kinks::Kinks;
+use crate::rows::Rows;
 use crate::system::System;
 use math::lane;
 use math::simd::{Kernel, dispatch};
 use std::ops::Range;
 use step::{ROUNDINGS, SAFETY, SLACK, TELLING, growth, order, power_of_two};
-use sums::{Begin, Both, Defect, LINE};
+use sums::{Begin, Both, Defect};
 
 pub(crate) use step::HIGHEST;
 pub(crate) use sums::Change;
@@ -33,12 +34,9 @@ pub(crate) struct Taylor {
     proposed: f64,
     /// The kinks on which steps end, if the system has any.
     kinks: Option<Kinks>,
-    /// Rows of coefficients, that of order 0 first, from `begin` on.
-    coefficients: Vec<f64>,
-    /// So that the components with a force, of which samples and defects are computed, begin with a line of the cache.
-    begin: usize,
-    /// Length of a row.
-    row: usize,
+    /// Rows of coefficients, that of order 0 first. The components with a force, of which samples and defects are computed,
+    /// begin with a line of the cache.
+    coefficients: Rows,
     /// The size of the row of the last order, in units of the tolerance.
     last_size: f64,
     /// The components that are not position-like: the others' rates bend nowhere.
@@ -53,13 +51,9 @@ pub(crate) struct Taylor {
 
 impl Taylor {
     pub(crate) fn new(system: &dyn System, control: Control) -> Taylor {
-        let (order, dimension, row) = (order(control), system.dimension(), system.row_length());
-        let zeros = |count: usize| vec![0.0; count];
-        let forced = forced(system);
-        let mut coefficients = zeros((order + 1) * row + LINE - 1);
-        let begin = aligned(&coefficients, forced.first().map_or(0, |range| range.start));
-        coefficients.truncate(begin + (order + 1) * row);
-        let (defect, missing) = (zeros(dimension), zeros(dimension));
+        let (order, dimension, forced) = (order(control), system.dimension(), forced(system));
+        let first = forced.first().map_or(0, |range| range.start);
+        let (defect, missing) = (vec![0.0; dimension], vec![0.0; dimension]);
         Taylor {
             order,
             dimension,
@@ -67,9 +61,7 @@ impl Taylor {
             next_unit: 1.0,
             proposed: 1.0,
             kinks: Kinks::new(system, order),
-            coefficients,
-            begin,
-            row,
+            coefficients: Rows::apart(order + 1, dimension, system.row_length(), first),
             last_size: 0.0,
             forced,
             defect,
@@ -81,18 +73,11 @@ impl Taylor {
     fn expand(&mut self, system: &dyn System, state: &[f64], rates: &[f64]) {
         let n = self.dimension;
         self.unit = self.next_unit;
-        let rows = &mut self.coefficients[self.begin..];
-        let (states, others) = rows.split_at_mut(self.row);
+        let stride = self.coefficients.stride();
+        let rows = self.coefficients.all_mut();
+        let (states, others) = rows.split_at_mut(stride);
         dispatch(Begin { state, rates, unit: self.unit, first: [&mut states[..n], &mut others[..n]] });
         system.series(self.order, self.unit, rows);
-    }
-
-    fn rows(&self) -> &[f64] {
-        &self.coefficients[self.begin..]
-    }
-
-    fn row(&self, k: usize) -> &[f64] {
-        &self.rows()[k * self.row..][..self.dimension]
     }
 }
 
@@ -108,15 +93,21 @@ impl Stepper for Taylor {
             self.next_unit = power_of_two(from.h);
         }
         let h = from.h / self.unit;
-        dispatch(Change::<false> { rows: self.rows(), n: self.row, from: 0, h, result: change });
+        dispatch(Change::<false> {
+            rows: self.coefficients.all(),
+            n: self.coefficients.stride(),
+            from: 0,
+            h,
+            result: change,
+        });
         norm.map_or(0.0, |_| (0..self.order).fold(self.last_size, |error, _| error * h))
     }
 
     fn propose(&mut self, system: &dyn System, state: &[f64], rates: &[f64], norm: &Norm) -> Option<f64> {
         self.expand(system, state, rates);
-        self.last_size = norm.of(self.row(self.order));
+        self.last_size = norm.of(self.coefficients.row(self.order));
         let last = growth(self.last_size, self.order)?;
-        let before = growth(norm.of(self.row(self.order - 1)), self.order - 1)?;
+        let before = growth(norm.of(self.coefficients.row(self.order - 1)), self.order - 1)?;
         let step = SAFETY * self.unit * lane::exp(-if last > before { last } else { before });
         self.proposed = self.kinks.as_mut().map_or(step, |kinks| {
             let slack = norm.scale(self.forced.first().map_or(0, |range| range.start), SLACK, ROUNDINGS);
@@ -142,10 +133,11 @@ impl Stepper for Taylor {
 
     fn defect(&mut self, ends: &Ends<'_>, norm: &Norm) -> f64 {
         let h = ends.h / self.unit;
-        let rows = &self.coefficients[self.begin + self.row..];
+        let n = self.coefficients.stride();
+        let rows = &self.coefficients.all()[n..];
         let (Some(first), Some(last)) = (self.forced.first(), self.forced.last()) else { return 0.0 };
         let range = first.start..last.end;
-        let (n, length, rates) = (self.row, ends.h, ends.rates_after);
+        let (length, rates) = (ends.h, ends.rates_after);
         dispatch(Defect { rows, n, range, h, length, rates, defect: &mut self.defect });
         for pair in self.forced.windows(2) {
             self.defect[pair[0].end..pair[1].start].fill(0.0);
@@ -165,7 +157,7 @@ impl Stepper for Taylor {
         let h = ends.h / self.unit;
         let first = (0..self.order).fold(-ends.h / next, |power, _| power * h);
         let second = ends.h / ((next + 1.0) * next);
-        let last = &self.coefficients[self.begin + self.order * self.row..];
+        let last = self.coefficients.row(self.order);
         for range in self.forced.iter().cloned() {
             let (defect, last) = (&self.defect[range.clone()], &last[range.clone()]);
             let (error, missing) = (&mut error[range.clone()], &mut self.missing[range]);
@@ -185,7 +177,7 @@ impl Stepper for Taylor {
         system.rates(states, &mut rates[..n]);
         rates[..n].iter_mut().for_each(|rate| *rate *= self.unit);
         system.series(order, self.unit, rows);
-        for (row, own) in rows.chunks_exact_mut(n).zip(self.rows().chunks_exact(self.row)).skip(1) {
+        for (row, own) in rows.chunks_exact_mut(n).zip(self.coefficients.iter()).skip(1) {
             for (coefficient, own) in row.iter_mut().zip(own) {
                 *coefficient -= own;
             }
@@ -206,7 +198,7 @@ impl Stepper for Taylor {
         let h = theta * (ends.h / self.unit);
         // row 0 is the state at the start of the step
         let Part { from, values: result } = part;
-        dispatch(Change::<true> { rows: self.rows(), n: self.row, from, h, result });
+        dispatch(Change::<true> { rows: self.coefficients.all(), n: self.coefficients.stride(), from, h, result });
         0
     }
 
@@ -219,7 +211,7 @@ impl Stepper for Taylor {
         results: [&mut [f64]; 2],
     ) -> Option<u64> {
         let h = thetas.map(|theta| theta * (ends.h / self.unit));
-        dispatch(Both { rows: self.rows(), n: self.row, from, h, results });
+        dispatch(Both { rows: self.coefficients.all(), n: self.coefficients.stride(), from, h, results });
         Some(0)
     }
 }
@@ -255,12 +247,4 @@ pub(crate) fn forced(system: &dyn System) -> Vec<Range<usize>> {
     let starts = std::iter::once(0).chain(positions.iter().map(|range| range.end));
     let ends = positions.iter().map(|range| range.start).chain([system.dimension()]);
     starts.zip(ends).map(|(start, end)| start..end).filter(|range| !range.is_empty()).collect()
-}
-
-/// The least number of numbers to leave out of these, fewer than [`LINE`], so that the one of this index behind them begins a
-/// line of the cache.
-fn aligned(numbers: &[f64], index: usize) -> usize {
-    let offset = numbers[index % LINE..].as_ptr().align_offset(LINE * size_of::<f64>());
-    // where that is not known, anywhere will do
-    if offset < LINE { offset } else { 0 }
 }

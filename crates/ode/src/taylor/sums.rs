@@ -1,5 +1,6 @@
 //! Sums of the series, over blocks of components.
 
+use crate::rows::LINE;
 use math::simd::Kernel;
 use std::ops::Range;
 
@@ -194,8 +195,6 @@ impl Kernel for Defect<'_> {
     }
 }
 
-/// Doubles of a line of the cache: what lies across two of them is read and written in two goes.
-pub(super) const LINE: usize = 8;
 /// Components per iteration.
 const LANES: usize = 16;
 /// Components per iteration of a sum over all orders.
