@@ -108,7 +108,7 @@ impl Sweep {
         let axes = [(self.x.parameter.as_str(), x), (self.y.parameter.as_str(), y)];
         let value = |name: &str| axes.iter().find(|(parameter, _)| *parameter == name).map(|(_, value)| *value);
         let mut model = self.model.clone();
-        for (parameter, value) in axes.iter().filter(|(name, _)| !super::axis::OF_THE_RUN.contains(name)) {
+        for (parameter, value) in axes.iter().filter(|(name, _)| !super::read::OF_THE_RUN.contains(name)) {
             model = model.with(parameter, *value)?;
         }
         let mut ring = self.ring;
