@@ -30,7 +30,7 @@ length      = 15.0
 shift = 0.1
 [run]
 t_end     = 300.0
-method    = "dop853"
+method    = "taylor"
 tolerance = 1e-6
 [sweep]
 x = { parameter = "a_v", from = 0.0, to = 0.6, cells = 60 }
