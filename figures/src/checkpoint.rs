@@ -11,7 +11,7 @@ use jam::errors::Propagated;
 use jam::run::{Checkpoint, Judging, PartialRun, RunObserver, Sight, run_from};
 use ode::Step;
 use scene::run::Scene;
-use scene::summary::Ended;
+use scene::summary::FinishedRun;
 use std::io::{IsTerminal as _, Write as _};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -64,7 +64,7 @@ impl CheckpointOptions {
     /// Runs the scene, from the checkpoint if there is one; if it is to be checked, its steps are asked for their errors.
     ///
     /// # Errors The program cannot be read; its hash identifies the checkpoint.
-    pub fn run(&self, scene: &Scene, is_checked: bool) -> Result<Ended, Failure> {
+    pub fn run(&self, scene: &Scene, is_checked: bool) -> Result<FinishedRun, Failure> {
         let clock = ProcessTime::now();
         let mut keeper = CheckpointWriter::new(self, scene)?;
         let (from, before) = keeper.load(scene).unzip();
@@ -81,7 +81,7 @@ impl CheckpointOptions {
         keeper.end();
         let own = clock.elapsed().saturating_sub(timed.spent).as_secs_f64();
         let (seconds, propagated) = (before.unwrap_or(0.0) + own, timed.propagated);
-        Ok(Ended { outcome, broken, seconds, resumed_steps: steps, propagated })
+        Ok(FinishedRun { outcome, broken, seconds, resumed_steps: steps, propagated })
     }
 
     /// Whether the outcome of the run is judged.

@@ -16,7 +16,7 @@ use ode::{Control, Method};
 use plot::style::COLUMN_WIDTH;
 use plot::{Axis, ColorScale, Lines, Picture, Series, SpaceTime};
 use scene::run::Scene;
-use scene::summary::{self, Ended};
+use scene::summary::{self, FinishedRun};
 use scene::tables;
 use scene::uniform::{Stability, stability};
 use scene::{Overrides, SceneError};
@@ -97,7 +97,7 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     let errors = errors.as_ref();
     let flow = stability(&scene);
     let summary = summary::of_run(&scene, &ended, flow.as_ref(), errors);
-    let Ended { outcome, broken, seconds, .. } = ended;
+    let FinishedRun { outcome, broken, seconds, .. } = ended;
     let mut files = Vec::new();
     if let Some(folder) = &arguments.out {
         files.extend(written(folder, &scene, &outcome, errors));

@@ -1,6 +1,6 @@
 //! Builds programs: those of the figures only when a source has changed, the others when a verb needs them.
 
-use crate::sources::{Inputs, Sources};
+use crate::sources::{Inputs, SourceHashes};
 use checkout::disk;
 use checkout::failure::Failure;
 use checkout::figure::{self, Figure};
@@ -70,7 +70,7 @@ impl Package {
         self.tools.iter().copied().chain(figures.map(|figure| figure.slug.as_str()))
     }
 
-    fn current(self, paths: &Paths, all: &[Figure], sources: &Sources) -> Built {
+    fn current(self, paths: &Paths, all: &[Figure], sources: &SourceHashes) -> Built {
         let programs = self.programs(all).filter_map(|name| Some((name.to_owned(), stamp(&paths.binary(name))?)));
         Built { sources: sources.files.clone(), programs: programs.collect() }
     }
@@ -80,7 +80,7 @@ impl Package {
     }
 
     /// Whether its programs are older than their sources, or missing.
-    pub fn is_stale(self, paths: &Paths, all: &[Figure], sources: &Sources) -> bool {
+    pub fn is_stale(self, paths: &Paths, all: &[Figure], sources: &SourceHashes) -> bool {
         let recorded = self.recorded(paths);
         recorded != self.current(paths, all, sources) || recorded.programs.len() != self.programs(all).count()
     }
@@ -88,7 +88,7 @@ impl Package {
     /// Cargo compares dates: whether a source that has changed since the last build is older than what was built then (the
     /// clock was set back, an archive has kept its dates, it was saved during the build), so that cargo would leave the
     /// program as it was.
-    fn is_hidden_from_cargo(self, paths: &Paths, all: &[Figure], sources: &Sources) -> bool {
+    fn is_hidden_from_cargo(self, paths: &Paths, all: &[Figure], sources: &SourceHashes) -> bool {
         let newest = self.programs(all).filter_map(|name| date(&paths.binary(name))).max();
         let built_from = self.recorded(paths).sources;
         let changed = |(name, hash): &(&String, &String)| built_from.get(*name) != Some(*hash);
@@ -101,7 +101,7 @@ impl Package {
 ///
 /// # Errors
 /// Unsupported: no cargo, or a font is missing or damaged. Failed: the build fails, or leaves a program unmade.
-pub fn ensure(paths: &Paths, all: &[Figure], sources: &Sources, packages: &[Package]) -> Result<(), Failure> {
+pub fn ensure(paths: &Paths, all: &[Figure], sources: &SourceHashes, packages: &[Package]) -> Result<(), Failure> {
     let stale = |package: &&Package| package.is_stale(paths, all, sources);
     if packages.iter().filter(stale).any(|package| package.is_hidden_from_cargo(paths, all, sources)) {
         // what they share goes for all of them
@@ -127,7 +127,7 @@ pub fn ensure(paths: &Paths, all: &[Figure], sources: &Sources, packages: &[Pack
 /// As [`ensure`].
 pub fn tools(paths: &Paths, package: Package) -> Result<(), Failure> {
     let all = figure::discover(paths)?;
-    ensure(paths, &all, &Sources::read(paths)?, &[package])
+    ensure(paths, &all, &SourceHashes::read(paths)?, &[package])
 }
 
 /// Builds a program that no figure is made by (`verify`, `publish`, ...) and gives the command that starts it on this

@@ -9,7 +9,7 @@ mod read;
 pub mod table;
 pub mod tiles;
 
-pub use cell::{Cell, DecidedBy, Exact, NUMBERS, Precheck};
+pub use cell::{CellOutcome, DecidedBy, Exact, NUMBERS, Precheck};
 pub use pool::Pool;
 pub use read::read;
 pub use scene::axis::Axis;
