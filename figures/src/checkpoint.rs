@@ -25,7 +25,8 @@ pub struct CheckpointOptions {
     /// Least time between two updates of that file; longer where updates would take more than a hundredth of the run
     #[arg(long, value_name = "SECONDS", default_value = "5", value_parser = seconds)]
     checkpoint_every: Duration,
-    /// Report progress on stderr, a line a second: `progress 0.42 left 17` (part done, seconds left), or `resumed 0.40` at the start
+    /// Report progress on stderr, a line a second: `progress 0.42 left 17` (part done, seconds left), or `resumed 0.40`
+    /// at the start
     #[arg(long)]
     progress: bool,
     /// Do not classify the outcome of the run

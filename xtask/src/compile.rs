@@ -13,7 +13,8 @@ use std::path::Path;
 use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-/// The fonts that the pictures embed, each with its SHA-256: a damaged one would be compiled in, and every picture would fail or differ.
+/// The fonts that the pictures embed, each with its SHA-256: a damaged one would be compiled in, and every picture would
+/// fail or differ.
 pub const FONT_SUMS: [(&str, &str); 2] = [
     ("LibertinusSerif-Italic.otf", "9a393d63d6e05f620d3dc0190dfd35a8ede58c0808cf0fc9de7fcb9c723e4c24"),
     ("LibertinusSerif-Regular.otf", "fcf06307a77367394fcb0ccb241e59eea70dba3d732be309647611224679c733"),

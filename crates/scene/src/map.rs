@@ -175,7 +175,8 @@ fn axis(file: &str, name: &'static str, section: &Section) -> Result<Axis, Scene
     Ok(axis)
 }
 
-/// Which key of this axis does not fit the law, and why, if one does not. Of a formula every name is a parameter, if the formulas use it.
+/// Which key of this axis does not fit the law, and why, if one does not. Of a formula every name is a parameter, if the
+/// formulas use it.
 fn unfit(law: &Section, axis: &Axis) -> Option<(&'static str, String)> {
     let law = law::built_in(law)?;
     let (kind, own) = (law.name(), law.parameters());
@@ -356,8 +357,8 @@ fn stability(model: &Model, point: &Point) -> Result<(f64, Linear), String> {
     })
 }
 
-/// The exact criterion, normalised like the paper's, through the coefficients of the linearised law: `phi / (1 + 2 beta) - kappa - 1/2`, which for the
-/// logarithmic law the paper divides once more by `1 + 2 beta`.
+/// The exact criterion, normalised like the paper's, through the coefficients of the linearised law: `phi / (1 + 2 beta)
+/// - kappa - 1/2`, which for the logarithmic law the paper divides once more by `1 + 2 beta`.
 fn criterion_of(model: &Model, linear: &Linear) -> f64 {
     let Linear { phi, beta, kappa } = *linear;
     let widened = 1.0 + 2.0 * beta;
