@@ -12,8 +12,9 @@ use jam::run::{Checkpoint, Judging, PartialRun, RunObserver, Sight, run_from};
 use ode::Step;
 use scene::run::Scene;
 use scene::summary::FinishedRun;
-use std::io::{IsTerminal as _, Write as _};
-use std::path::PathBuf;
+use std::fs::File;
+use std::io::{IsTerminal as _, Read as _, Write as _};
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// How a long run is looked after.
@@ -56,6 +57,8 @@ impl RunObserver for Timed {
     }
 }
 
+/// The beginning of every checkpoint.
+const MARK: &str = "checkpoint ";
 /// Writings take less than this part of the time.
 const WRITING: u32 = 100;
 /// Between two words about progress.
@@ -83,6 +86,29 @@ impl CheckpointOptions {
         let own = clock.elapsed().saturating_sub(timed.spent).as_secs_f64();
         let (seconds, propagated) = (before.unwrap_or(0.0) + own, timed.propagated);
         Ok(FinishedRun { outcome, broken, seconds, resumed_steps: steps, propagated })
+    }
+
+    /// The file of the checkpoint.
+    pub fn file(&self) -> Option<&Path> {
+        self.checkpoint.as_deref()
+    }
+
+    /// Whether the file of the checkpoint may be replaced and removed.
+    ///
+    /// # Errors
+    /// It is there and is no checkpoint: somebody else's data, by a slip of the pen.
+    pub fn is_spare(&self) -> Result<(), Failure> {
+        let Some(file) = self.file().filter(|file| file.exists()) else { return Ok(()) };
+        let mut first = Vec::new();
+        File::open(file).and_then(|file| file.take(MARK.len() as u64).read_to_end(&mut first)).map_err(|error| {
+            let problem = format!("{}: {error}", file.display());
+            if file.is_dir() { Failure::input(problem) } else { Failure::work(problem) }
+        })?;
+        if first.is_empty() || first == MARK.as_bytes() {
+            return Ok(());
+        }
+        let problem = "is no checkpoint, and would be replaced and removed; choose another file";
+        Err(Failure::input(format!("{}: {problem}", file.display())))
     }
 
     /// Whether the outcome of the run is judged.
@@ -149,7 +175,7 @@ impl<'a> CheckpointWriter<'a> {
     }
 
     fn line(&self, body: &[u8]) -> String {
-        format!("checkpoint 3 {} {}\n", self.run, sha256(body))
+        format!("{MARK}3 {} {}\n", self.run, sha256(body))
     }
 
     fn start(&mut self, done: f64, before: f64) {
@@ -211,6 +237,6 @@ impl RunObserver for CheckpointWriter<'_> {
 }
 
 /// Writes a line to stderr. If there is no reader, as after a kill of the runner, the run continues.
-fn say(line: &str) {
+pub fn say(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
 }
