@@ -21,8 +21,8 @@ pub struct Problem<'a> {
     pub start: &'a [f64],
     /// The time at the start.
     pub begin: f64,
-    /// The time at which the integration ends, in the same unit; infinite if the observer ends it. Time does not run backwards: an
-    /// end that is not after `begin` gives the start.
+    /// The time at which the integration ends, in the same unit; infinite if the observer ends it. Time does not run
+    /// backwards: an end that is not after `begin` gives the start.
     pub end: f64,
     /// The method.
     pub method: Method,

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::Command;
 use xtask::compile;
 use xtask::pins;
-use xtask::sources::Sources;
+use xtask::sources::SourceHashes;
 
 /// The programs that a plan would start, sorted.
 fn planned(shop: &Shop) -> Vec<String> {
@@ -155,7 +155,7 @@ fn compiled_from(paths: &Paths, program: &str) -> BTreeSet<String> {
 #[ignore = "needs the release binaries: cargo xtask ci --full"]
 fn what_the_compiler_read_is_what_is_hashed() {
     let paths = Paths::find(Some(root())).expect("the checkout");
-    let sources = Sources::read(&paths).expect("sources");
+    let sources = SourceHashes::read(&paths).expect("sources");
     for figure in figure::discover(&paths).expect("figures") {
         let hashed: BTreeSet<String> = sources.figure(&figure, &[]).into_keys().filter(|name| is_file(name)).collect();
         let read = compiled_from(&paths, &figure.slug);
@@ -202,7 +202,7 @@ fn programs_open_only_what_is_hashed() {
         return;
     }
     let paths = Paths::find(Some(root())).expect("the checkout");
-    let sources = Sources::read(&paths).expect("sources");
+    let sources = SourceHashes::read(&paths).expect("sources");
     let costs = checkout::costs::read(&paths).expect("costs");
     let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("opened");
     for figure in figure::discover(&paths).expect("figures") {
