@@ -18,21 +18,31 @@ pub(super) fn refused(
     observer: &mut dyn RunObserver,
 ) -> Option<(Broken, Errors)> {
     let time = errors.confirmed_until?;
-    let (made, errors) = if time > 0.0 {
-        let shorter = Run { t_end: time, ..run.clone() };
-        let (made, propagated) = run_propagated(&shorter, observer);
-        let made = made.unwrap_or_else(|broken| *broken.outcome);
-        let errors = errors_of(&shorter, &made, Some(&propagated), &mut ());
-        (made, Errors { confirmed_until: None, ..errors })
-    } else {
-        let made = untried(run, observer);
-        let errors = of_start(&made);
-        (made, errors)
-    };
-    // the last sample is not the end of a step in the run itself
-    let outcome = Box::new(Outcome { samples: outcome.samples.clone().until(time), ..made });
+    let (outcome, errors) =
+        if time > 0.0 { shorter(run, outcome, time, errors.cost, observer) } else { start(run, observer) };
     let failure = Failure::NotConfirmed { time };
+    let outcome = Box::new(outcome);
     Some((Broken { advice: advice(&failure, run), failure, narrowest: None, outcome }, errors))
+}
+
+/// The run made again up to this time, with its errors. Its rows are those of the run, but that the last one is the end of a step:
+/// the errors are those of these numbers alone.
+fn shorter(run: &Run, outcome: &Outcome, time: f64, spent: f64, observer: &mut dyn RunObserver) -> (Outcome, Errors) {
+    let shorter = Run { t_end: time, ..run.clone() };
+    let (made, propagated) = run_propagated(&shorter, observer);
+    let made = made.unwrap_or_else(|broken| *broken.outcome);
+    let errors = errors_of(&shorter, &made, Some(&propagated), &mut ());
+    let [again, before] = [&made, outcome].map(|outcome| outcome.statistics.evaluations as f64);
+    // over the run that is left, as every cost
+    let cost = (spent * before + before) / again + errors.cost;
+    (made, Errors { confirmed_until: None, cost, ..errors })
+}
+
+/// The run before its first step.
+fn start(run: &Run, observer: &mut dyn RunObserver) -> (Outcome, Errors) {
+    let made = untried(run, observer);
+    let errors = of_start(&made);
+    (made, errors)
 }
 
 /// The start is exact up to rounding.

@@ -1,7 +1,7 @@
 //! A second run, and the error estimate from the difference between both runs.
 
 use super::propagated::{UNSURE, std_error};
-use super::recent::{Compared, Instant, Recent};
+use super::recent::{Compared, Instant, Recent, Sort};
 use super::{CAUTION, Errors, ROUNDINGS, confirmed, largest, largest_std, loses_shift, of_headway};
 use crate::events::{Event, EventKind};
 use crate::run::{Outcome, Run, RunObserver, has_deviations, run_from};
@@ -92,12 +92,20 @@ impl Second {
         let is_shift_lost = loses_shift(run) && self.form != StateVariables::Deviations;
         let has_std = ends_alike && confirmed::reaches(outcome, other) && !is_shift_lost;
         let is_known = ends_alike && is_same_time && !is_through_wall && !is_not_finite(run, outcome);
-        let state = |numbers: fn(&Outcome) -> &[f64], before: fn(&Instant) -> &[f64]| {
-            let last = self.instants().filter(|(one, _)| one.is_last);
+        let late = if is_at_event { factor * (times[0] - times[1]).abs() } else { 0.0 };
+        let state = |numbers: fn(&Outcome) -> &[f64], before: fn(&Instant) -> &[f64], rate: f64| {
+            let last = self.instants().filter(|(one, _)| one.sort == Sort::Last);
             let at_last = last.map(|(one, other)| difference(before(one), before(other)));
-            let all = at_last.fold(difference(numbers(outcome), numbers(other)), larger);
+            let at_end = match self.at_event(times[0]).filter(|_| is_at_event) {
+                Some((one, other)) => difference(before(one), before(other)),
+                // the second run has ended at its event before
+                None => rate * late,
+            };
+            let all = at_last.fold(larger(at_end, difference(numbers(outcome), numbers(other))), larger);
             is_known.then(|| all + gathered * largest(numbers(outcome)))
         };
+        let at_event = self.instants[0].iter().find(|one| one.sort == Sort::Event && one.time == times[0]);
+        let acceleration = at_event.map_or(0.0, |one| one.acceleration);
         // the drive and the force may cancel
         let desired = ROUNDINGS * run.model.desired_speed().abs();
         Errors {
@@ -112,9 +120,10 @@ impl Second {
                 let all = instants.fold(difference(&outcome.samples.std, &other.samples.std), larger);
                 all + gathered * largest(&outcome.samples.std) + self.rounding(run, outcome) + f64::MIN_POSITIVE
             }),
-            positions: state(|outcome| &outcome.positions, |instant| &instant.positions)
+            positions: state(|outcome| &outcome.positions, |instant| &instant.positions, largest(&outcome.speeds))
                 .map(|error| error + ROUNDINGS * largest(&outcome.positions)),
-            speeds: state(|outcome| &outcome.speeds, |instant| &instant.speeds).map(|error| error + desired),
+            speeds: state(|outcome| &outcome.speeds, |instant| &instant.speeds, acceleration)
+                .map(|error| error + desired),
             events: (0..outcome.events.len())
                 .map(|index| self.time_error(run, outcome, index).filter(|_| !is_through_wall))
                 .collect(),
@@ -128,6 +137,11 @@ impl Second {
         first.iter().zip(second)
     }
 
+    /// Both runs at the time of an event of the first, if the second comes so far.
+    fn at_event(&self, time: f64) -> Option<(&Instant, &Instant)> {
+        self.instants().find(|(one, _)| one.sort == Sort::Event && one.time == time)
+    }
+
     /// The error of the time of an event: the difference between both runs; what is not sure of it, since the errors of
     /// both may agree by chance in the one pedestrian at the one time, but not in all; and what the roundings of the
     /// quantity that falls through 0 make of the time. `None` if the other run has no such event, or if the state at the
@@ -135,8 +149,9 @@ impl Second {
     fn time_error(&self, run: &Run, outcome: &Outcome, index: usize) -> Option<f64> {
         let event = &outcome.events[index];
         let difference = self.factor * time_difference(event, &self.outcome.events)?;
-        let pair = self.instants().find(|(one, _)| !one.is_last && one.time == event.time);
-        let (Some((one, other)), Some(rate)) = (pair, self.rates[index]) else { return Some(difference) };
+        let (Some((one, other)), Some(rate)) = (self.at_event(event.time), self.rates[index]) else {
+            return Some(difference);
+        };
         let off = |numbers: &[f64], others: &[f64]| {
             let all = numbers.iter().zip(others).map(|(number, other)| (number - other).abs());
             self.factor * all.fold(0.0, larger)
@@ -252,7 +267,7 @@ fn by_half_steps(
     let step = 0.5 * if step < run.t_end { step } else { run.t_end };
     let second = Run { control: Control::Fixed { step }, ..again(run, outcome) };
     // within its steps a method of low order is less exact than at their ends
-    let at_events: Vec<Instant> = instants.iter().filter(|instant| !instant.is_last).cloned().collect();
+    let at_events: Vec<Instant> = instants.iter().filter(|instant| instant.sort != Sort::Last).cloned().collect();
     // without compensated sums; once the motion is steady all roundings have the same sign
     let gathered = 0.5 * f64::EPSILON * outcome.statistics.steps as f64;
     Second { gathered, ..made(&second, CAUTION / (1.0 - remaining), &at_events, onlooker) }
