@@ -18,10 +18,15 @@ pub(super) fn refused(
     observer: &mut dyn RunObserver,
 ) -> Option<(Broken, Errors)> {
     let time = errors.confirmed_until?;
-    let (outcome, errors) =
-        if time > 0.0 { shorter(run, outcome, time, errors.cost, observer) } else { start(run, observer) };
+    let (made, errors) = if time > 0.0 {
+        shorter(run, outcome, time, errors.cost, observer)
+    } else {
+        let made = untried(run, observer);
+        let errors = of_start(&made, errors.cost);
+        (made, errors)
+    };
     let failure = Failure::NotConfirmed { time };
-    let outcome = Box::new(outcome);
+    let outcome = Box::new(made);
     Some((Broken { advice: advice(&failure, run), failure, narrowest: None, outcome }, errors))
 }
 
@@ -32,27 +37,19 @@ fn shorter(run: &Run, outcome: &Outcome, time: f64, spent: f64, observer: &mut d
     let (made, propagated) = run_propagated(&shorter, observer);
     let made = made.unwrap_or_else(|broken| *broken.outcome);
     let errors = errors_of(&shorter, &made, Some(&propagated), &mut ());
-    let [again, before] = [&made, outcome].map(|outcome| outcome.statistics.evaluations as f64);
-    // over the run that is left, as every cost
-    let cost = (spent * before + before) / again + errors.cost;
+    let again = made.statistics.evaluations as f64 / outcome.statistics.evaluations as f64;
+    let cost = spent + again * (1.0 + errors.cost);
     (made, Errors { confirmed_until: None, cost, ..errors })
 }
 
-/// The run before its first step.
-fn start(run: &Run, observer: &mut dyn RunObserver) -> (Outcome, Errors) {
-    let made = untried(run, observer);
-    let errors = of_start(&made);
-    (made, errors)
-}
-
 /// The start is exact up to rounding.
-fn of_start(outcome: &Outcome) -> Errors {
+fn of_start(outcome: &Outcome, cost: f64) -> Errors {
     Errors {
         std: Some(f64::MIN_POSITIVE),
         positions: Some(ROUNDINGS * largest(&outcome.positions)),
         speeds: Some(f64::MIN_POSITIVE),
         events: vec![Some(0.0); outcome.events.len()],
-        cost: 0.0,
+        cost,
         confirmed_until: None,
     }
 }

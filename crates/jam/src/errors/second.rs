@@ -17,6 +17,9 @@ const TIGHTER: f64 = 0.1;
 const TIGHTER_IF_HIGH: f64 = 0.005;
 const HIGH: usize = 8;
 
+/// The ratio of the tolerance of a third run to that of the second. A loose one might pass by a blow-up as the run did.
+const DECISIVE: f64 = 0.01;
+
 /// The tolerance that the second run of fixed steps starts from: it is made more exact than any of them, since fading motion
 /// may leave errors far below those of its beginning.
 const ACCURATE: f64 = 1e-12;
@@ -215,8 +218,27 @@ fn by_tolerance(
     match run.control {
         // near the roundings of a steep law the tolerance of the run may be met where a smaller one is not
         Control::Adaptive { .. } if is_broken => by((last.0, tolerance)),
+        Control::Adaptive { .. } if is_doubtful(outcome, &second.outcome) => {
+            let third = by((third_method(run.method), DECISIVE * last.1));
+            let goes_on = third.outcome.stop().is_none() && confirmed::reaches(outcome, &third.outcome);
+            if goes_on { third } else { Second { evaluations: third.evaluations, ..second } }
+        }
         _ => second,
     }
+}
+
+/// Whether the second run ends where the run goes on to its end: in a blow-up, or where the formula has no value. A single step of
+/// either may land by chance where the force exceeds all bounds; a third run decides which.
+fn is_doubtful(outcome: &Outcome, second: &Outcome) -> bool {
+    let ends = |outcome: &Outcome| {
+        outcome.stop().is_some_and(|stop| matches!(stop.kind, EventKind::BlowUp | EventKind::Undefined))
+    };
+    outcome.stop().is_none() && ends(second)
+}
+
+/// A method that neither the run has nor, by [`methods`], the second one.
+fn third_method(method: Method) -> Method {
+    if matches!(method, Method::Dop853 | Method::Verner87) { Method::Verner98 } else { Method::Verner87 }
 }
 
 /// The method and the tolerance of a second run; the second of them where the first does not come to the end.
