@@ -156,6 +156,7 @@ fn difference(scene: &Scene, outcome: &Outcome) -> Stated {
 /// A few roundings.
 const ROUNDING: f64 = 1e-15;
 
-fn largest(values: impl Iterator<Item = f64>) -> f64 {
-    values.fold(0.0, |largest, value| if value.abs() <= largest { largest } else { value.abs() })
+/// The largest in size; NaN if there is one.
+pub(crate) fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |largest, value| if value.abs() <= largest || largest.is_nan() { largest } else { value.abs() })
 }

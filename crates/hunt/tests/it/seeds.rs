@@ -50,7 +50,7 @@ fn steps_tell_the_error_of_a_blow_up() {
         for verdict in of(seed) {
             assert!(verdict.ending.contains("blow_up"), "{seed}: {verdict:#?}");
             assert!(verdict.findings.is_empty(), "{seed}: {verdict:#?}");
-            assert_eq!(verdict.cost.map(|(cost, _)| cost), Some(0.0), "{seed}: {verdict:#?}");
+            assert_eq!(verdict.cost, Some(0.0), "{seed}: {verdict:#?}");
         }
     }
 }

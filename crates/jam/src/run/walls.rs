@@ -99,6 +99,9 @@ pub(crate) fn advice(failure: &ode::Failure, run: &Run) -> Option<&'static str> 
         }
         ode::Failure::NotConfirmed { .. } => match run.control {
             Control::Fixed { .. } => Some("a smaller step may help"),
+            Control::Adaptive { .. } if run.form == StateVariables::Positions => {
+                Some("a smaller tolerance may help, or state = \"deviations\", which keeps more digits of small gaps")
+            }
             Control::Adaptive { .. } => Some("a smaller tolerance may help"),
         },
         ode::Failure::StepTooSmall { .. } if run.form == StateVariables::Positions => {
