@@ -98,7 +98,8 @@ fn a_row_that_is_missing_and_an_end_without_reason_are_seen() {
         verdict.findings.join("; ")
     };
     assert_eq!(judged(&|_| ()), "");
-    assert!(judged(&|outcome| drop(outcome.samples.times.pop())).contains("10 rows"));
+    // the last one lies on the end itself
+    assert!(judged(&|outcome| outcome.samples.times.truncate(9)).contains("9 rows"));
     assert!(judged(&|outcome| outcome.statistics.time = 18.5).contains("without an event"));
 }
 
@@ -119,7 +120,7 @@ fn advice_that_leads_no_further_is_seen() {
     let mut broken = jam::run::run(&scene).expect_err("positions lead no further");
     assert!(broken.advice.is_some_and(|advice| advice.contains("deviations")), "{broken}");
     assert!(is_advice_true(&scene, &broken));
-    for advice in [Some("raise most_steps"), Some("a smaller tolerance may help"), None] {
+    for advice in [Some("raise most_steps"), None] {
         broken.advice = advice;
         assert!(!is_advice_true(&scene, &broken), "{advice:?}");
     }
