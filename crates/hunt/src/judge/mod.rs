@@ -1,14 +1,16 @@
 //! Runs a scene as its user would, and judges the result by the second integration: the numbers of the tables and of the
-//! end ([`numbers`]), the events ([`events`]), and why a run was refused ([`refusals`]).
+//! end ([`numbers`]), the events ([`events`]), and why a run was refused ([`refusals`]);
+//! and that a run which is broken off and resumed is the same ([`resumed`]).
 
 mod events;
 pub mod numbers;
 pub mod refusals;
+mod resumed;
 
 pub use events::kind;
 
 use crate::answer::{Answer, Numbers};
-use crate::bound::Bound;
+use crate::bound::{self, Bound};
 use crate::question;
 use crate::stated::{self, Stated};
 use files::scene_file;
@@ -104,7 +106,7 @@ fn judge_panel(text: &str, panel: &scene_file::Panel) -> Verdict {
         }
     };
     let scene = match scene::run::read("scene.toml", &panel.tables) {
-        Ok(scene) => scene,
+        Ok(scene) => Scene { displacements: question.displacements.clone(), ..scene },
         Err(error) => {
             refusals::of_scene(&mut verdict, &error.to_string(), &question);
             return verdict;
@@ -124,8 +126,9 @@ fn judge_panel(text: &str, panel: &scene_file::Panel) -> Verdict {
             verdict.evaluations = outcome.statistics.evaluations;
             let (refused, stated) = stated::of(&scene, &outcome, &propagated);
             let broken = refused.or(broken);
-            let outcome = broken.as_ref().map_or(&outcome, |broken| &*broken.outcome);
-            ended(&mut verdict, &scene, outcome, broken.as_ref(), (question, &stated));
+            let until = broken.as_ref().map_or(&outcome, |broken| &*broken.outcome);
+            ended(&mut verdict, &scene, until, broken.as_ref(), (question, &stated));
+            verdict.findings.extend(resumed::compare(&scene, &outcome));
         }
     }
     verdict
@@ -155,6 +158,12 @@ fn ended(
     let is_undefined = outcome.events.iter().any(|happening| happening.kind == EventKind::Undefined);
     if broken.is_some() || is_blown_up(outcome) || is_undefined {
         question.times.push(scene.t_end);
+    }
+    // whether an event that ends the run happens shows a little later
+    if outcome.ends_at_event() {
+        let late = stated.events.iter().copied().filter(|error| error.is_finite()).fold(0.0, math::larger);
+        question.times.push(outcome.statistics.time * (1.0 + NEAR) + bound::FACTOR * late);
+        question.times.sort_by(f64::total_cmp);
     }
     verdict.cost = Some(stated.cost);
     // what faster numbers cannot decide, better ones are asked

@@ -99,14 +99,15 @@ pub(super) fn compare(verdict: &mut Verdict, scene: &Scene, outcome: &Outcome, a
     }
 }
 
-/// The first row: everybody at rest at equal spacings, pedestrian 0 moved by the shift.
+/// The first row: everybody at rest at equal spacings, but for the shift of pedestrian 0 or the displacements.
 fn start(verdict: &mut Verdict, scene: &Scene, std: Option<f64>, rows: &[&[f64]]) {
     if std != Some(0.0) {
         verdict.findings.push(format!("std at the start is {std:?}"));
     }
     let headway = scene.ring.length / scene.ring.pedestrians as f64;
     for (n, row) in rows.iter().enumerate() {
-        let right = n as f64 * headway + if n == 0 { scene.start.shift } else { 0.0 };
+        let by = if n == 0 { scene.start.shift } else { 0.0 };
+        let right = n as f64 * headway + scene.displacements.get(n).copied().unwrap_or(by);
         let is_right = row[1] == n as f64 && (row[2] - right).abs() <= 1e-15 * scene.ring.length && row[3] == 0.0;
         if !is_right {
             verdict.findings.push(format!("pedestrian {n} starts as {row:?}; right: at {right:?}, at rest"));
