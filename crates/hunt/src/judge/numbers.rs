@@ -108,7 +108,9 @@ fn start(verdict: &mut Verdict, scene: &Scene, std: Option<f64>, rows: &[&[f64]]
     for (n, row) in rows.iter().enumerate() {
         let by = if n == 0 { scene.start.shift } else { 0.0 };
         let right = n as f64 * headway + scene.displacements.get(n).copied().unwrap_or(by);
-        let is_right = row[1] == n as f64 && (row[2] - right).abs() <= 1e-14 * scene.ring.length && row[3] == 0.0;
+        let is_right = row[1] == n as f64
+            && (row[2] - right).abs() <= n as f64 * f64::EPSILON * scene.ring.length
+            && row[3] == 0.0;
         if !is_right {
             verdict.findings.push(format!("pedestrian {n} starts as {row:?}; right: at {right:?}, at rest"));
         }
