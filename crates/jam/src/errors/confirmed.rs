@@ -30,8 +30,8 @@ pub(super) fn refused(
     Some((Broken { advice: advice(&failure, run), failure, narrowest: None, outcome }, errors))
 }
 
-/// The run made again up to this time, with its errors. Its rows are those of the run, but that the last one is the end of a step:
-/// the errors are those of these numbers alone.
+/// The run made again up to this time, with its errors, which are those of its rows alone: in the last step, which is another one,
+/// the rows of the run differ.
 fn shorter(run: &Run, outcome: &Outcome, time: f64, spent: f64, observer: &mut dyn RunObserver) -> (Outcome, Errors) {
     let shorter = Run { t_end: time, ..run.clone() };
     let (made, propagated) = run_propagated(&shorter, observer);
