@@ -37,6 +37,9 @@ const MANY: u64 = 50;
 /// later.
 const FAINT: f64 = 1e-200;
 
+/// Below this doubles lose digits to underflow.
+const UNDERFLOWN: f64 = 1e-290;
+
 /// Factor on the difference, since errors of two methods may have the same sign: it is right where that of the second run
 /// is a third as large, and too cautious by this factor where it is none.
 const AGREEMENT: f64 = 1.5;
@@ -267,6 +270,14 @@ fn methods(run: &Run, outcome: &Outcome, tolerance: f64) -> (Option<(Method, f64
         false => None,
     };
     (series, (usual, tighter))
+}
+
+/// Whether the deviations of a perturbed ring are too small for doubles: a series from where the force underflows is 0, and so
+/// is all that it leaves out.
+pub(super) fn is_underflown(run: &Run, outcome: &Outcome) -> bool {
+    let is_perturbed = run.start.shift != 0.0 || run.displacements.iter().any(|by| *by != 0.0);
+    let is_moving = outcome.samples.len() > 1 && is_perturbed;
+    is_moving && run.form == StateVariables::Deviations && largest_std(outcome) < UNDERFLOWN
 }
 
 /// Whether an accurate run tells the errors of fixed steps: it has come to its end, and to the same one if those stopped.
