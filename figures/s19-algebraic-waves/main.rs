@@ -3,7 +3,7 @@
 
 use figures::panels::{points, trajectories};
 use figures::{Failure, Job, figure};
-use files::table::{Cell, Sheet, Table};
+use files::table::{CellValue, MixedTable, Table};
 use jam::ring::{Ring, Start};
 use jam::run::{Judging, run_from};
 use jam::states::StateVariables;
@@ -40,8 +40,8 @@ const NARROW: f64 = 0.02;
 
 /// The outcome of the run, with one thing changed at a time: method, start, number of pedestrians at the same headway, width
 /// of the ramp, strength; and the strength with a narrow ramp.
-fn varied(scene: &Scene) -> Result<Sheet, Failure> {
-    let mut sheet = Sheet::new(&[
+fn varied(scene: &Scene) -> Result<MixedTable, Failure> {
+    let mut sheet = MixedTable::new(&[
         "varied",
         "value",
         "method",
@@ -54,35 +54,45 @@ fn varied(scene: &Scene) -> Result<Sheet, Failure> {
     ]);
     let control = Control::Adaptive { tolerance: 1e-10 };
     let base = Scene { t_end: 20_000.0, sample: 20_000.0, keeps_trajectories: false, control, ..scene.clone() };
-    let mut add = |varied: &str, value: Cell, scene: Scene| {
+    let mut add = |varied: &str, value: CellValue, scene: Scene| {
         let outcome = run_from(&scene, None, &mut Judging::UntilCertain).map_err(Failure::work)?;
         let verdict = outcome.verdict.ok_or_else(|| Failure::work("a run without an outcome"))?;
-        let speed = verdict.wave_speed.map_or(Cell::Empty, Cell::Number);
+        let speed = verdict.wave_speed.map_or(CellValue::Empty, CellValue::Number);
         // what happened while the waves grew is no part of them
         let slowest = verdict.lasting_least_speed.unwrap_or(verdict.least_speed);
-        let [time, gap, slowest, std] = [verdict.time, verdict.least_gap, slowest, verdict.std].map(Cell::Number);
-        let method = Cell::from(scene.method.name());
-        let row = [Cell::from(varied), value, method, Cell::from(verdict.class.name()), time, gap, slowest, std, speed];
+        let [time, gap, slowest, std] = [verdict.time, verdict.least_gap, slowest, verdict.std].map(CellValue::Number);
+        let method = CellValue::from(scene.method.name());
+        let row = [
+            CellValue::from(varied),
+            value,
+            method,
+            CellValue::from(verdict.class.name()),
+            time,
+            gap,
+            slowest,
+            std,
+            speed,
+        ];
         sheet.push(&row[..]);
         Ok::<(), Failure>(())
     };
     for (method, form) in
         [(Method::Dop853, base.form), (Method::Verner87, base.form), (Method::Taylor, StateVariables::Spacings)]
     {
-        add("method", Cell::Empty, Scene { method, form, ..base.clone() })?;
+        add("method", CellValue::Empty, Scene { method, form, ..base.clone() })?;
     }
     for shift in [1e-3, 0.1, 0.3] {
-        add("shift", Cell::Number(shift), Scene { start: Start { shift }, ..base.clone() })?;
+        add("shift", CellValue::Number(shift), Scene { start: Start { shift }, ..base.clone() })?;
     }
     for pedestrians in [67, 134, 268] {
         let ring = Ring { pedestrians, length: scene.ring.headway() * pedestrians as f64 };
-        add("pedestrians", Cell::Number(pedestrians as f64), Scene { ring, ..base.clone() })?;
+        add("pedestrians", CellValue::Number(pedestrians as f64), Scene { ring, ..base.clone() })?;
     }
     let mut add_with = |varied: &str, changes: &[(&str, f64)], value: f64| {
         let change = |model: jam::laws::Model, (name, value): &(&str, f64)| model.with(name, *value);
         let model = changes.iter().try_fold(base.model.clone(), change).map_err(Failure::input)?;
         let speed = jam::uniform::steady_speed(&model, base.ring.headway()).map_err(Failure::work)?;
-        add(varied, Cell::Number(value), Scene { model, steady_speed: Some(speed), ..base.clone() })
+        add(varied, CellValue::Number(value), Scene { model, steady_speed: Some(speed), ..base.clone() })
     };
     for epsilon in [0.2, 0.1, 0.05, 0.02, 0.01] {
         add_with("epsilon", &[("epsilon", epsilon)], epsilon)?;

@@ -11,9 +11,10 @@ use jam::errors::Propagated;
 use jam::run::{Checkpoint, Judging, PartialRun, RunObserver, Sight, run_from};
 use ode::Step;
 use scene::run::Scene;
-use scene::summary::Ended;
-use std::io::{IsTerminal as _, Write as _};
-use std::path::PathBuf;
+use scene::summary::FinishedRun;
+use std::fs::File;
+use std::io::{IsTerminal as _, Read as _, Write as _};
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// How a long run is looked after.
@@ -25,7 +26,8 @@ pub struct CheckpointOptions {
     /// Least time between two updates of that file; longer where updates would take more than a hundredth of the run
     #[arg(long, value_name = "SECONDS", default_value = "5", value_parser = seconds)]
     checkpoint_every: Duration,
-    /// Report progress on stderr, a line a second: `progress 0.42 left 17` (part done, seconds left), or `resumed 0.40` at the start
+    /// Report progress on stderr, a line a second: `progress 0.42 left 17` (part done, seconds left), or `resumed 0.40`
+    /// at the start
     #[arg(long)]
     progress: bool,
     /// Do not classify the outcome of the run
@@ -55,6 +57,8 @@ impl RunObserver for Timed {
     }
 }
 
+/// The beginning of every checkpoint.
+const MARK: &str = "checkpoint ";
 /// Writings take less than this part of the time.
 const WRITING: u32 = 100;
 /// Between two words about progress.
@@ -64,7 +68,7 @@ impl CheckpointOptions {
     /// Runs the scene, from the checkpoint if there is one; if it is to be checked, its steps are asked for their errors.
     ///
     /// # Errors The program cannot be read; its hash identifies the checkpoint.
-    pub fn run(&self, scene: &Scene, is_checked: bool) -> Result<Ended, Failure> {
+    pub fn run(&self, scene: &Scene, is_checked: bool) -> Result<FinishedRun, Failure> {
         let clock = ProcessTime::now();
         let mut keeper = CheckpointWriter::new(self, scene)?;
         let (from, before) = keeper.load(scene).unzip();
@@ -81,7 +85,30 @@ impl CheckpointOptions {
         keeper.end();
         let own = clock.elapsed().saturating_sub(timed.spent).as_secs_f64();
         let (seconds, propagated) = (before.unwrap_or(0.0) + own, timed.propagated);
-        Ok(Ended { outcome, broken, seconds, resumed_steps: steps, propagated })
+        Ok(FinishedRun { outcome, broken, seconds, resumed_steps: steps, propagated })
+    }
+
+    /// The file of the checkpoint.
+    pub fn file(&self) -> Option<&Path> {
+        self.checkpoint.as_deref()
+    }
+
+    /// Whether the file of the checkpoint may be replaced and removed.
+    ///
+    /// # Errors
+    /// It is there and is no checkpoint: somebody else's data, by a slip of the pen.
+    pub fn is_spare(&self) -> Result<(), Failure> {
+        let Some(file) = self.file().filter(|file| file.exists()) else { return Ok(()) };
+        let mut first = Vec::new();
+        File::open(file).and_then(|file| file.take(MARK.len() as u64).read_to_end(&mut first)).map_err(|error| {
+            let problem = format!("{}: {error}", file.display());
+            if file.is_dir() { Failure::input(problem) } else { Failure::work(problem) }
+        })?;
+        if first.is_empty() || first == MARK.as_bytes() {
+            return Ok(());
+        }
+        let problem = "is no checkpoint, and would be replaced and removed; choose another file";
+        Err(Failure::input(format!("{}: {problem}", file.display())))
     }
 
     /// Whether the outcome of the run is judged.
@@ -148,7 +175,7 @@ impl<'a> CheckpointWriter<'a> {
     }
 
     fn line(&self, body: &[u8]) -> String {
-        format!("checkpoint 3 {} {}\n", self.run, sha256(body))
+        format!("{MARK}3 {} {}\n", self.run, sha256(body))
     }
 
     fn start(&mut self, done: f64, before: f64) {
@@ -210,6 +237,6 @@ impl RunObserver for CheckpointWriter<'_> {
 }
 
 /// Writes a line to stderr. If there is no reader, as after a kill of the runner, the run continues.
-fn say(line: &str) {
+pub fn say(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
 }

@@ -3,7 +3,7 @@
 use crate::failure::{Failure, exit};
 use clap::Parser;
 use files::scene_file::{self, Kind, Panel, SceneFile};
-use files::table::{Cell, Sheet, Table};
+use files::table::{CellValue, MixedTable, Table};
 use files::write::{atomic, make_folder, with_path};
 use plot::Picture;
 use serde_json::{Map, Value, json};
@@ -89,10 +89,10 @@ fn run(
 ///
 /// # Errors
 /// A number is not finite, which no reader takes: its row and its column.
-pub fn finite_csv(name: &str, rows: &Sheet) -> Result<Vec<u8>, Failure> {
+pub fn finite_csv(name: &str, rows: &MixedTable) -> Result<Vec<u8>, Failure> {
     for (line, row) in rows.rows().enumerate() {
         for (cell, column) in row.iter().zip(&rows.columns) {
-            if let Cell::Number(number) = cell
+            if let CellValue::Number(number) = cell
                 && !number.is_finite()
             {
                 return Err(Failure::work(format!("{name}.csv: row {}: {column} = {number}", line + 1)));
@@ -120,7 +120,7 @@ impl Job {
     ///
     /// # Errors
     /// It holds a number that is not finite, or the file cannot be written.
-    pub fn write_rows(&self, name: &str, rows: &Sheet) -> Result<(), Failure> {
+    pub fn write_rows(&self, name: &str, rows: &MixedTable) -> Result<(), Failure> {
         Ok(atomic(&self.table_file(name), &finite_csv(name, rows)?)?)
     }
 
@@ -128,7 +128,7 @@ impl Job {
     ///
     /// # Errors
     /// As [`Job::write_rows`].
-    pub fn write_own_rows(&mut self, name: &str, rows: &Sheet) -> Result<(), Failure> {
+    pub fn write_own_rows(&mut self, name: &str, rows: &MixedTable) -> Result<(), Failure> {
         self.report.insert(name.to_owned(), json!({ "run": "", "error": {} }));
         self.write_rows(name, rows)
     }
@@ -137,8 +137,8 @@ impl Job {
     ///
     /// # Errors
     /// It is missing.
-    pub fn read_rows(&self, name: &str) -> Result<Sheet, Failure> {
-        Ok(Sheet::read(&self.table_file(name))?)
+    pub fn read_rows(&self, name: &str) -> Result<MixedTable, Failure> {
+        Ok(MixedTable::read(&self.table_file(name))?)
     }
 
     /// Reads a table of this figure.
@@ -192,8 +192,8 @@ impl Job {
     ///
     /// # Errors
     /// It is missing.
-    pub fn accuracy(&self, name: &str) -> Result<Sheet, Failure> {
-        Ok(Sheet::read(&self.committed("accuracy", name)?)?)
+    pub fn accuracy(&self, name: &str) -> Result<MixedTable, Failure> {
+        Ok(MixedTable::read(&self.committed("accuracy", name)?)?)
     }
 
     /// Takes a table that is committed below `data`, in this folder, as it is.
@@ -235,8 +235,8 @@ impl Job {
     ///
     /// # Errors
     /// It is missing.
-    pub fn timing_rows(&self, name: &str) -> Result<Sheet, Failure> {
-        Ok(Sheet::read(&self.committed("timing", name)?)?)
+    pub fn timing_rows(&self, name: &str) -> Result<MixedTable, Failure> {
+        Ok(MixedTable::read(&self.committed("timing", name)?)?)
     }
 
     /// The panel of this name.

@@ -1,5 +1,6 @@
 //! The stability map of a user's scene: table and picture.
 
+use crate::checkpoint::say;
 use crate::failure::{Failure, print};
 use crate::panels::{Labels, map_panel};
 use crate::uniform;
@@ -90,6 +91,9 @@ fn points(parsed: &SceneFile, arguments: &Arguments) -> Result<(), Failure> {
     }
     if words.is_empty() {
         return Err(Failure::input(format!("{}: has neither [map] nor [run]", parsed.file)));
+    }
+    if let Some(folder) = &arguments.out {
+        say(&format!("{}: has no [map]; nothing is written to {}", parsed.file, folder.display()));
     }
     print(&if arguments.json {
         json!({ "schema_version": 1, "points": summaries }).to_string()

@@ -7,7 +7,7 @@ use files::scene_file::Panel;
 use files::table::Table;
 use plot::style::COLUMN_WIDTH;
 use plot::{Axis, ColorScale, Lines, Map, Picture, Series, Trajectory};
-use scene::map::{Axis as MapAxis, Value};
+use scene::map::Value;
 
 /// Ticks of an axis of wave numbers.
 const WAVE_NUMBERS: [(f64, &str); 5] =
@@ -67,7 +67,7 @@ pub fn map_panel(map: &scene::map::Map, values: &[f64], labels: Labels) -> Resul
     Ok(Map::new(x, y, columns, rows, values).names(negative, positive))
 }
 
-fn axis(axis: &MapAxis, is_labelled: bool) -> Axis {
+fn axis(axis: &scene::axis::Axis, is_labelled: bool) -> Axis {
     let name = if is_labelled { format!("${}$", symbol(&axis.parameter)) } else { String::new() };
     let drawn = Axis::linear(&name, axis.from, axis.to).steps(4);
     let is_wave_number = axis.parameter == "k" && (0.9 * PI..=1.1 * PI).contains(&axis.to);

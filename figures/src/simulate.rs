@@ -1,13 +1,13 @@
 //! Runs a scene from the command line: tables, events and a summary.
 
-use crate::checkpoint::CheckpointOptions;
+use crate::checkpoint::{CheckpointOptions, say};
 use crate::failure::{Failure, print};
 use crate::panels::trajectories;
 use crate::uniform;
 use files::reader::Section;
 use files::scene_file::{self, Kind};
 use files::table::Table;
-use files::write::atomic_all;
+use files::write::{atomic_all, is_same_file};
 use jam::errors::Errors;
 use jam::events::Event;
 use jam::outcome::{Decision, Verdict};
@@ -16,7 +16,7 @@ use ode::{Control, Method};
 use plot::style::COLUMN_WIDTH;
 use plot::{Axis, ColorScale, Lines, Picture, Series, SpaceTime};
 use scene::run::Scene;
-use scene::summary::{self, Ended};
+use scene::summary::{self, FinishedRun};
 use scene::tables;
 use scene::uniform::{Stability, stability};
 use scene::{Overrides, SceneError};
@@ -73,6 +73,18 @@ pub struct Arguments {
     json: bool,
 }
 
+/// The files that may be written to the folder of a run.
+const OUTPUTS: [&str; 8] = [
+    "std.csv",
+    "events.csv",
+    "trajectories.csv",
+    "summary.json",
+    "std.svg",
+    "std.png",
+    "trajectories.svg",
+    "trajectories.png",
+];
+
 /// The methods in words.
 fn methods() -> String {
     let names = |is_meant: fn(&Method) -> bool| Method::ALL.into_iter().filter(is_meant).map(Method::name);
@@ -90,14 +102,14 @@ fn methods() -> String {
 /// that cannot be written.
 pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     let scene = read_scene(arguments)?;
-    arguments.out.iter().try_for_each(|folder| files::write::can_be_folder(folder))?;
+    can_write(arguments)?;
     let is_checked = !(arguments.no_check || arguments.check);
     let mut ended = arguments.care.run(&scene, is_checked)?;
     let errors = is_checked.then(|| ended.checked(&scene, &mut (), &mut arguments.care.judging()));
     let errors = errors.as_ref();
     let flow = stability(&scene);
     let summary = summary::of_run(&scene, &ended, flow.as_ref(), errors);
-    let Ended { outcome, broken, seconds, .. } = ended;
+    let FinishedRun { outcome, broken, seconds, .. } = ended;
     let mut files = Vec::new();
     if let Some(folder) = &arguments.out {
         files.extend(written(folder, &scene, &outcome, errors));
@@ -110,10 +122,42 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     files.extend(arguments.state.iter().map(|file| (file.clone(), state(&outcome).to_csv())));
     atomic_all(&files)?;
     arguments.care.remove()?;
+    if let Some(folder) = &arguments.out {
+        tell_left_over(folder, &files);
+    }
     let words =
         if arguments.json { summary.to_string() } else { in_words(&scene, &outcome, flow.as_ref(), errors, seconds) };
     print(&words)?;
     broken.map_or(Ok(()), |broken| Err(Failure::work(broken)))
+}
+
+/// Whether the files can be written, asked before a long run: none of them may be the scene, and the checkpoint, which is
+/// removed at the end, none of the others.
+fn can_write(arguments: &Arguments) -> Result<(), Failure> {
+    arguments.out.iter().try_for_each(|folder| files::write::can_be_folder(folder))?;
+    let checkpoint = arguments.care.file();
+    let in_folder = arguments.out.iter().flat_map(|folder| OUTPUTS.map(|name| folder.join(name)));
+    let results: Vec<PathBuf> = in_folder.chain(arguments.state.clone()).collect();
+    let places = results.iter().map(PathBuf::as_path).chain(checkpoint);
+    if let Some(place) = places.clone().find(|place| is_same_file(place, &arguments.scene)) {
+        let problem = "is the scene, which would be overwritten; choose another folder or file for the results";
+        return Err(Failure::input(format!("{}: {problem}", place.display())));
+    }
+    match checkpoint.filter(|file| results.iter().any(|place| is_same_file(place, file))) {
+        Some(file) => Err(Failure::input(format!(
+            "{}: the checkpoint is removed at the end of the run; choose a file that holds no results",
+            file.display()
+        ))),
+        None => arguments.care.is_spare(),
+    }
+}
+
+/// Names what an earlier run has left in the folder and this one has not written: it does not belong to these results.
+fn tell_left_over(folder: &Path, written: &[(PathBuf, Vec<u8>)]) {
+    let is_old = |place: &PathBuf| place.exists() && !written.iter().any(|(path, _)| path == place);
+    for place in OUTPUTS.map(|name| folder.join(name)).iter().filter(|place| is_old(place)) {
+        say(&format!("{}: not of this run, which does not write it", place.display()));
+    }
 }
 
 fn read_scene(arguments: &Arguments) -> Result<Scene, Failure> {

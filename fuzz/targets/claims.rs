@@ -1,6 +1,6 @@
 //! The ledger's files: claims, errata and parameters, of any contents, are read or refused with file and place.
 
-use claims::source::Sources;
+use claims::source::LedgerFiles;
 use claims::uncertain::Uncertain;
 use claims::words;
 use std::collections::BTreeMap;
@@ -10,14 +10,14 @@ pub fn read(bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
     let files: [[&str; 3]; 3] = [[&text, "", ""], ["", &text, ""], ["", "", &text]];
     for (file, name) in files.into_iter().zip(["paper/claims.toml", "paper/errata.toml", "paper/parameters.toml"]) {
-        match Sources::parse(file) {
+        match LedgerFiles::parse(file) {
             Ok(sources) => accepted(&sources),
             Err(failure) => assert!(failure.code() == 2 && failure.text().starts_with(name), "{failure:?}"),
         }
     }
 }
 
-fn accepted(sources: &Sources) {
+fn accepted(sources: &LedgerFiles) {
     let tests: Vec<_> = sources.entries().into_iter().flatten().collect();
     let mut named = BTreeMap::new();
     for (place, _, measure) in &tests {

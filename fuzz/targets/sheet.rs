@@ -2,7 +2,7 @@
 
 use claims::expression::{Binding, Condition, Expression};
 use claims::requirement::Requirement;
-use claims::sheet::{Sheet, Stated};
+use claims::sheet::{LedgerTable, Stated};
 
 /// Tries one.
 pub fn read(bytes: &[u8]) {
@@ -11,8 +11,8 @@ pub fn read(bytes: &[u8]) {
     let (condition, expression) = (lines.next().unwrap_or(""), lines.next().unwrap_or(""));
     let requirement = Requirement::parse(expression);
     let table = lines.next().unwrap_or("").as_bytes();
-    let Ok(cells) = files::table::Sheet::parse(table) else { return };
-    let sheet = Sheet::new(cells, &|name| name.starts_with('e').then_some(Stated::OfRange(1e-9)));
+    let Ok(cells) = files::table::MixedTable::parse(table) else { return };
+    let sheet = LedgerTable::new(cells, &|name| name.starts_with('e').then_some(Stated::OfRange(1e-9)));
     let binding = Binding { sheet: &sheet, errors: None };
     let condition = Condition::parse(condition).and_then(|condition| condition.bind(&binding));
     let expression = Expression::parse(expression).and_then(|expression| expression.bind(&binding));

@@ -105,7 +105,8 @@ pub struct FiguresArgs {
     /// How work is spread.
     #[command(flatten)]
     pub effort: Effort,
-    /// The method of the scene, or that of the paper, operation by operation (its tables and pictures have a folder of their own)
+    /// The method of the scene, or that of the paper, operation by operation (its tables and pictures have a folder of
+    /// their own)
     #[arg(long, value_enum, default_value_t)]
     pub scheme: Scheme,
     /// Compute everything again from the start; ignore stored results and checkpoints

@@ -1,6 +1,6 @@
 //! Builds programs: those of the figures only when a source has changed, the others when a verb needs them.
 
-use crate::sources::{Inputs, Sources};
+use crate::sources::{Inputs, SourceHashes};
 use checkout::disk;
 use checkout::failure::Failure;
 use checkout::figure::{self, Figure};
@@ -13,7 +13,8 @@ use std::path::Path;
 use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-/// The fonts that the pictures embed, each with its SHA-256: a damaged one would be compiled in, and every picture would fail or differ.
+/// The fonts that the pictures embed, each with its SHA-256: a damaged one would be compiled in, and every picture would
+/// fail or differ.
 pub const FONT_SUMS: [(&str, &str); 2] = [
     ("LibertinusSerif-Italic.otf", "9a393d63d6e05f620d3dc0190dfd35a8ede58c0808cf0fc9de7fcb9c723e4c24"),
     ("LibertinusSerif-Regular.otf", "fcf06307a77367394fcb0ccb241e59eea70dba3d732be309647611224679c733"),
@@ -70,7 +71,7 @@ impl Package {
         self.tools.iter().copied().chain(figures.map(|figure| figure.slug.as_str()))
     }
 
-    fn current(self, paths: &Paths, all: &[Figure], sources: &Sources) -> Built {
+    fn current(self, paths: &Paths, all: &[Figure], sources: &SourceHashes) -> Built {
         let programs = self.programs(all).filter_map(|name| Some((name.to_owned(), stamp(&paths.binary(name))?)));
         Built { sources: sources.files.clone(), programs: programs.collect() }
     }
@@ -80,7 +81,7 @@ impl Package {
     }
 
     /// Whether its programs are older than their sources, or missing.
-    pub fn is_stale(self, paths: &Paths, all: &[Figure], sources: &Sources) -> bool {
+    pub fn is_stale(self, paths: &Paths, all: &[Figure], sources: &SourceHashes) -> bool {
         let recorded = self.recorded(paths);
         recorded != self.current(paths, all, sources) || recorded.programs.len() != self.programs(all).count()
     }
@@ -88,7 +89,7 @@ impl Package {
     /// Cargo compares dates: whether a source that has changed since the last build is older than what was built then (the
     /// clock was set back, an archive has kept its dates, it was saved during the build), so that cargo would leave the
     /// program as it was.
-    fn is_hidden_from_cargo(self, paths: &Paths, all: &[Figure], sources: &Sources) -> bool {
+    fn is_hidden_from_cargo(self, paths: &Paths, all: &[Figure], sources: &SourceHashes) -> bool {
         let newest = self.programs(all).filter_map(|name| date(&paths.binary(name))).max();
         let built_from = self.recorded(paths).sources;
         let changed = |(name, hash): &(&String, &String)| built_from.get(*name) != Some(*hash);
@@ -101,7 +102,7 @@ impl Package {
 ///
 /// # Errors
 /// Unsupported: no cargo, or a font is missing or damaged. Failed: the build fails, or leaves a program unmade.
-pub fn ensure(paths: &Paths, all: &[Figure], sources: &Sources, packages: &[Package]) -> Result<(), Failure> {
+pub fn ensure(paths: &Paths, all: &[Figure], sources: &SourceHashes, packages: &[Package]) -> Result<(), Failure> {
     let stale = |package: &&Package| package.is_stale(paths, all, sources);
     if packages.iter().filter(stale).any(|package| package.is_hidden_from_cargo(paths, all, sources)) {
         // what they share goes for all of them
@@ -127,7 +128,7 @@ pub fn ensure(paths: &Paths, all: &[Figure], sources: &Sources, packages: &[Pack
 /// As [`ensure`].
 pub fn tools(paths: &Paths, package: Package) -> Result<(), Failure> {
     let all = figure::discover(paths)?;
-    ensure(paths, &all, &Sources::read(paths)?, &[package])
+    ensure(paths, &all, &SourceHashes::read(paths)?, &[package])
 }
 
 /// Builds a program that no figure is made by (`verify`, `publish`, ...) and gives the command that starts it on this

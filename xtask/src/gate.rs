@@ -1,7 +1,7 @@
 //! Preconditions of documents about the figures: the figures are up to date, and they are the committed ones.
 
 use crate::record::{self, FigureState, Records};
-use crate::sources::Sources;
+use crate::sources::SourceHashes;
 use checkout::failure::Failure;
 use checkout::figure::{self, Figure};
 use checkout::hashing;
@@ -22,7 +22,7 @@ const SHOWN: usize = 5;
 /// Stale: a figure is older than what it is made from, or was never made. Differs: a file has another sum.
 pub fn figures_verify(paths: &Paths, all: &[Figure]) -> Result<(), Failure> {
     let selected = figure::select(all, &[], false)?;
-    let surveys = record::survey(paths, &selected, &Sources::read(paths)?, &Records::read(paths)?)?;
+    let surveys = record::survey(paths, &selected, &SourceHashes::read(paths)?, &Records::read(paths)?)?;
     let made: BTreeMap<String, String> = surveys.iter().flat_map(|survey| survey.outputs.clone()).collect();
     let committed = committed(paths, false)?;
     let mut wrong = judge(&committed, &made);
@@ -44,7 +44,7 @@ pub fn figures_verify(paths: &Paths, all: &[Figure]) -> Result<(), Failure> {
 /// As [`figures_verify`].
 pub fn everything_verifies(paths: &Paths, all: &[Figure]) -> Result<(), Failure> {
     let figures: Vec<&Figure> = all.iter().collect();
-    let surveys = record::survey(paths, &figures, &Sources::read(paths)?, &Records::read(paths)?)?;
+    let surveys = record::survey(paths, &figures, &SourceHashes::read(paths)?, &Records::read(paths)?)?;
     fresh(&surveys)?;
     let committed = Committed::read(paths)?;
     let states = surveys.iter().flat_map(|survey| committed.judge(paths, survey.figure, &survey.outputs));

@@ -2,7 +2,7 @@
 
 use crate::measured::Measured;
 use crate::pins::{CRATE, RUSTC};
-use crate::sources::{Inputs, KEY, Sources};
+use crate::sources::{Inputs, KEY, SourceHashes};
 use crate::store;
 use checkout::disk;
 use checkout::failure::Failure;
@@ -104,7 +104,7 @@ pub struct FigureState<'a> {
 pub fn survey<'a>(
     paths: &Paths,
     figures: &[&'a Figure],
-    sources: &Sources,
+    sources: &SourceHashes,
     records: &Records,
 ) -> Result<Vec<FigureState<'a>>, Failure> {
     let numeric = sources.numeric();

@@ -21,7 +21,7 @@ const NUMERIC_SOURCES: [&str; 8] = [
     "figures/src/",
     "figures/Cargo.toml",
 ];
-/// Sources that supplements share: no figure of the paper reads them.
+/// SourceHashes that supplements share: no figure of the paper reads them.
 const SUPPLEMENT_SOURCES: [&str; 4] = ["crates/planes/", "crates/reference/", "crates/studies/", "crates/sweep/"];
 /// Folders that are searched for sources.
 const SOURCE_FOLDERS: [&str; 6] =
@@ -50,7 +50,7 @@ pub const KEY: &str = "key ";
 
 /// The hash of every source of the checkout, and what a build takes from outside.
 #[derive(Clone, Debug, Default)]
-pub struct Sources {
+pub struct SourceHashes {
     /// By name relative to the root, with `/`.
     pub files: Inputs,
     /// The compiler and the crates that figures are built from ([`pins`]).
@@ -59,13 +59,13 @@ pub struct Sources {
     pub keys: BTreeMap<String, Inputs>,
 }
 
-impl Sources {
+impl SourceHashes {
     /// Reads and hashes the sources: crates, figures (no pictures), reference data, and the files at the root that
     /// determine a build. Tests and documents are left out, they reach no output.
     ///
     /// # Errors
     /// A folder or a file cannot be read.
-    pub fn read(paths: &Paths) -> Result<Sources, Failure> {
+    pub fn read(paths: &Paths) -> Result<SourceHashes, Failure> {
         let enter = |name: &str| !["tests", "benches", "examples", "target"].contains(&name) && !name.starts_with('.');
         let mut found = SINGLE_SOURCES.map(|name| paths.root.join(name)).to_vec();
         for folder in SOURCE_FOLDERS {
@@ -79,7 +79,7 @@ impl Sources {
         let hashes = hashing::hash_all(&found)?;
         let named = found.iter().zip(hashes).filter_map(|(path, hash)| Some((name(path), hash?)));
         let files: Inputs = named.collect();
-        Ok(Sources { keys: keys(paths, &files)?, files, pins: pins::read(paths)? })
+        Ok(SourceHashes { keys: keys(paths, &files)?, files, pins: pins::read(paths)? })
     }
 
     /// What the binaries are built from.
@@ -157,5 +157,6 @@ fn is_source(name: &str) -> bool {
     let output = Paths::is_output(name) || name.split('/').any(files::write::is_draft_name);
     let in_figures = name.starts_with("figures/");
     let code = [".rs", ".toml"].iter().any(|end| name.ends_with(end));
-    !apart && !output && ![".md", ".py"].iter().any(|end| name.ends_with(end)) && (!in_figures || code)
+    let document = [".md", ".py", "/LICENSE-MIT", "/LICENSE-APACHE"].iter().any(|end| name.ends_with(end));
+    !apart && !output && !document && (!in_figures || code)
 }

@@ -3,11 +3,11 @@
 use crate::compute::at;
 use crate::figures::{Content, Entry, FIGURES};
 use claims::again;
-use claims::sheet::{Sheet, Stated};
-use claims::source::Sources;
+use claims::sheet::{LedgerTable, Stated};
+use claims::source::LedgerFiles;
 use claims::tables::{EVENTS, Tables};
 use files::scene_file;
-use files::table::{self, Cell, Table};
+use files::table::{self, CellValue, Table};
 use jam::errors::Errors;
 use jam::run::Outcome;
 use scene::tables;
@@ -37,7 +37,7 @@ fn told(text: &str, ran: &Ran) -> Result<Value, String> {
     let (panel, claims) = text.split_once('\n').unwrap_or((text, ""));
     let (figure, panel) = panel.split_once(' ').ok_or_else(|| format!("{panel:?}: must be a figure and a panel"))?;
     let failed = |failure: checkout::failure::Failure| failure.text().to_owned();
-    let sources = Sources::parse([claims, "", ""]).map_err(failed)?;
+    let sources = LedgerFiles::parse([claims, "", ""]).map_err(failed)?;
     let tables = Tables::of_memory(sheets(figure, panel, ran)?);
     let mut told = Vec::new();
     for claim in again::about(&sources, &|table| tables.has(table)).map_err(failed)? {
@@ -63,7 +63,7 @@ fn test(test: &again::Again) -> Value {
 }
 
 /// The tables of all figures that are made from the run of this panel, and its events.
-fn sheets(figure: &str, panel: &str, ran: &Ran) -> Result<Vec<(String, Sheet)>, String> {
+fn sheets(figure: &str, panel: &str, ran: &Ran) -> Result<Vec<(String, LedgerTable)>, String> {
     let wanted = determinants(figure, panel)?;
     let mut sheets = vec![(EVENTS.to_owned(), events(&format!("{figure}-{panel}"), ran))];
     for figure in &FIGURES {
@@ -85,7 +85,7 @@ fn determinants(id: &str, panel: &str) -> Result<String, String> {
 }
 
 /// A table of the run; `None` if the run does not record its contents.
-fn sheet(entry: &Entry, ran: &Ran) -> Option<Sheet> {
+fn sheet(entry: &Entry, ran: &Ran) -> Option<LedgerTable> {
     let Ran { outcome, errors } = ran;
     let table = match entry.content {
         Content::Std => tables::std(&outcome.samples),
@@ -105,23 +105,25 @@ fn sheet(entry: &Entry, ran: &Ran) -> Option<Sheet> {
         };
         Some(Stated::Absolute(error.unwrap_or(f64::INFINITY)))
     };
-    Some(Sheet::new(cells(&table), &error))
+    Some(LedgerTable::new(cells(&table), &error))
 }
 
-fn cells(table: &Table) -> table::Sheet {
+fn cells(table: &Table) -> table::MixedTable {
     let names: Vec<&str> = table.columns.iter().map(String::as_str).collect();
-    let mut sheet = table::Sheet::new(&names);
-    table.rows().for_each(|row| sheet.push(row.iter().map(|&number| Cell::from(number)).collect::<Vec<Cell>>()));
+    let mut sheet = table::MixedTable::new(&names);
+    table
+        .rows()
+        .for_each(|row| sheet.push(row.iter().map(|&number| CellValue::from(number)).collect::<Vec<CellValue>>()));
     sheet
 }
 
 /// The events of the run, in the columns of `data/events.csv`.
-fn events(scene: &str, ran: &Ran) -> Sheet {
-    let mut sheet = table::Sheet::new(&["scene", "event", "t", "n", "uncertainty"]);
+fn events(scene: &str, ran: &Ran) -> LedgerTable {
+    let mut sheet = table::MixedTable::new(&["scene", "event", "t", "n", "uncertainty"]);
     for (event, error) in ran.outcome.events.iter().zip(&ran.errors.events) {
-        let error = error.map_or(Cell::Empty, Cell::from);
-        let (kind, time) = (Cell::from(event.kind.name()), Cell::from(event.time));
-        sheet.push(vec![Cell::from(scene), kind, time, Cell::from(event.pedestrian), error]);
+        let error = error.map_or(CellValue::Empty, CellValue::from);
+        let (kind, time) = (CellValue::from(event.kind.name()), CellValue::from(event.time));
+        sheet.push(vec![CellValue::from(scene), kind, time, CellValue::from(event.pedestrian), error]);
     }
-    Sheet::new(sheet, &|_| None)
+    LedgerTable::new(sheet, &|_| None)
 }

@@ -8,7 +8,7 @@ use jam::events::Event;
 use jam::run::{Judging, RunObserver, Sample, Sight};
 use ode::Step;
 use scene::run::Scene;
-use scene::summary::{self, Ended};
+use scene::summary::{self, FinishedRun};
 use scene::tables;
 use scene::uniform::stability;
 use serde_json::{Value, json};
@@ -56,13 +56,13 @@ pub fn run_kept(text: &str, hearer: &mut dyn Hearer) -> Result<(Value, Ran), Val
 }
 
 /// Runs to the end, with the errors estimated by the steps if the method provides them.
-fn end(scene: &Scene, watch: &mut Watch<'_>) -> Ended {
+fn end(scene: &Scene, watch: &mut Watch<'_>) -> FinishedRun {
     let (made, propagated) = errors::run_propagated(scene, watch);
     let (outcome, broken) = match made {
         Ok(outcome) => (outcome, None),
         Err(broken) => (*broken.outcome.clone(), Some(broken)),
     };
-    Ended { outcome, broken, seconds: 0.0, resumed_steps: 0, propagated: Some(propagated) }
+    FinishedRun { outcome, broken, seconds: 0.0, resumed_steps: 0, propagated: Some(propagated) }
 }
 
 /// Tells what is seen.

@@ -137,7 +137,8 @@ pub fn replace_folder(from: &Path, to: &Path) -> Result<(), Failure> {
     remove(&aside)
 }
 
-/// The names in a folder, sorted; none when there is no such folder or something else has its name. Names that are not UTF-8 are left out.
+/// The names in a folder, sorted; none when there is no such folder or something else has its name. Names that are not
+/// UTF-8 are left out.
 ///
 /// # Errors
 /// The folder cannot be read.

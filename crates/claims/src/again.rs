@@ -4,7 +4,7 @@ use crate::entry::{Claim, Measure, Verdict};
 use crate::measure;
 use crate::report;
 use crate::requirement::Requirement;
-use crate::source::Sources;
+use crate::source::LedgerFiles;
 use crate::tables::{EVENTS, Tables};
 use crate::uncertain::{Outcome, Uncertain};
 use crate::words;
@@ -54,7 +54,7 @@ pub fn judge(claim: &Claim, tables: &Tables<'_>) -> Result<(Verdict, Vec<Again>)
 ///
 /// # Errors
 /// Usage: a test is malformed.
-pub fn about<'a>(sources: &'a Sources, is_own: &dyn Fn(&str) -> bool) -> Result<Vec<&'a Claim>, Failure> {
+pub fn about<'a>(sources: &'a LedgerFiles, is_own: &dyn Fn(&str) -> bool) -> Result<Vec<&'a Claim>, Failure> {
     let mut found = Vec::new();
     for claim in &sources.claims {
         let mut tables = Vec::new();

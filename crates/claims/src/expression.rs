@@ -1,8 +1,8 @@
 //! The expressions in `of` and `where`: formulas and comparisons whose names are columns.
 
-use crate::sheet::{Sheet, Stated};
+use crate::sheet::{LedgerTable, Stated};
 use crate::uncertain::{Outcome, Relation, Uncertain};
-use files::table::Cell;
+use files::table::CellValue;
 use formula::Location;
 
 /// `v`, `2`, `v - v_beside`: a formula whose names are columns.
@@ -49,7 +49,7 @@ pub enum BoundCondition {
     /// Both sides are numbers.
     Numbers(Bound, Relation, Bound),
     /// A column against a word: equal, or not.
-    Word(usize, bool, Cell),
+    Word(usize, bool, CellValue),
 }
 
 /// The word that denotes an empty cell.
@@ -58,7 +58,7 @@ pub const EMPTY: &str = "empty";
 /// How the names of a measure are bound to columns.
 pub struct Binding<'a> {
     /// The table.
-    pub sheet: &'a Sheet,
+    pub sheet: &'a LedgerTable,
     /// Columns whose error is in another column, with that column.
     pub errors: Option<(&'a [String], usize)>,
 }
@@ -102,7 +102,7 @@ impl Right {
 
     /// The formula, if all its names are columns; one of several operands is taken for one anyway, so that its names are
     /// complained of.
-    fn formula(&self, sheet: &Sheet) -> Option<&Expression> {
+    fn formula(&self, sheet: &LedgerTable) -> Option<&Expression> {
         let is_column = |name: &String| sheet.place(name).is_some();
         let expression = self.expression.as_ref()?;
         (self.text.contains(' ') || expression.names().iter().all(is_column)).then_some(expression)
@@ -125,7 +125,7 @@ impl Bound {
     ///
     /// # Errors
     /// A cell is a word.
-    pub fn value(&self, sheet: &Sheet, row: usize) -> Result<Option<Uncertain>, String> {
+    pub fn value(&self, sheet: &LedgerTable, row: usize) -> Result<Option<Uncertain>, String> {
         let cells = self.columns.iter().map(|&column| cell(column, sheet, row));
         let Some(cells) = cells.collect::<Result<Option<Vec<Uncertain>>, String>>()? else { return Ok(None) };
         Ok(Some(self.expression.0.carry_out(Uncertain::exact, |name| cells[name])))
@@ -133,7 +133,7 @@ impl Bound {
 }
 
 /// The number in a cell, with its error; nothing where it is empty.
-fn cell((place, source): (usize, Source), sheet: &Sheet, row: usize) -> Result<Option<Uncertain>, String> {
+fn cell((place, source): (usize, Source), sheet: &LedgerTable, row: usize) -> Result<Option<Uncertain>, String> {
     let Some(value) = number(sheet, place, row)? else { return Ok(None) };
     let error = match source {
         Source::Stated(stated) => stated.at(value),
@@ -145,11 +145,11 @@ fn cell((place, source): (usize, Source), sheet: &Sheet, row: usize) -> Result<O
     Ok(Some(Uncertain { value, error }))
 }
 
-fn number(sheet: &Sheet, place: usize, row: usize) -> Result<Option<f64>, String> {
+fn number(sheet: &LedgerTable, place: usize, row: usize) -> Result<Option<f64>, String> {
     match sheet.cell(place, row) {
-        Cell::Empty => Ok(None),
-        Cell::Number(number) => Ok(Some(*number)),
-        Cell::Word(word) => {
+        CellValue::Empty => Ok(None),
+        CellValue::Number(number) => Ok(Some(*number)),
+        CellValue::Word(word) => {
             Err(format!("row {row} (from 0): {} is the word {word:?}, where a number is needed", sheet.names()[place]))
         }
     }
@@ -193,8 +193,8 @@ impl Condition {
                 ));
             }
         };
-        let wanted = if word == EMPTY { Cell::Empty } else { Cell::Word(word.into()) };
-        if wanted != Cell::Empty && !binding.sheet.column(place).any(|cell| *cell == wanted) {
+        let wanted = if word == EMPTY { CellValue::Empty } else { CellValue::Word(word.into()) };
+        if wanted != CellValue::Empty && !binding.sheet.column(place).any(|cell| *cell == wanted) {
             let words = words(binding.sheet.column(place));
             return Err(format!("{word} is not a column and does not occur in column {name}{words}"));
         }
@@ -203,11 +203,11 @@ impl Condition {
 }
 
 /// The words of a column, for a message.
-fn words<'a>(cells: impl Iterator<Item = &'a Cell>) -> String {
+fn words<'a>(cells: impl Iterator<Item = &'a CellValue>) -> String {
     let mut words: Vec<&str> = Vec::new();
     for cell in cells {
         match cell {
-            Cell::Word(word) if !words.contains(&word.as_str()) => words.push(word),
+            CellValue::Word(word) if !words.contains(&word.as_str()) => words.push(word),
             _ => {}
         }
     }
@@ -219,7 +219,7 @@ impl BoundCondition {
     ///
     /// # Errors
     /// A word where a number is needed.
-    pub fn holds(&self, sheet: &Sheet, row: usize) -> Result<Outcome, String> {
+    pub fn holds(&self, sheet: &LedgerTable, row: usize) -> Result<Outcome, String> {
         match self {
             BoundCondition::Word(place, is_equal, wanted) => {
                 let is_same = *sheet.cell(*place, row) == *wanted;

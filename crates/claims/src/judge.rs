@@ -3,7 +3,7 @@
 use crate::entry::{Claim, Erratum, Parameter, Verdict};
 use crate::report::{Ledger, Tested};
 use crate::show;
-use crate::source::{Sources, Tests};
+use crate::source::{LedgerFiles, Tests};
 use crate::tables::{Tables, figure_of};
 use checkout::disk;
 use checkout::failure::Failure;
@@ -27,7 +27,7 @@ pub struct Verdicts {
 /// # Errors
 /// Usage: a file of the ledger is malformed, or a test cannot be evaluated.
 pub fn judge(paths: &Paths, made: &Paths, figures: Option<&BTreeSet<&str>>) -> Result<Verdicts, Failure> {
-    let mut sources = Sources::read(paths)?;
+    let mut sources = LedgerFiles::read(paths)?;
     if let Some(figures) = figures {
         sources = part(sources, figures)?;
     }
@@ -40,7 +40,7 @@ pub fn judge(paths: &Paths, made: &Paths, figures: Option<&BTreeSet<&str>>) -> R
 }
 
 /// How the committed file compares.
-fn state(paths: &Paths, sources: &Sources, ledger: &Ledger) -> Result<State, Failure> {
+fn state(paths: &Paths, sources: &LedgerFiles, ledger: &Ledger) -> Result<State, Failure> {
     let committed = disk::read_text(&paths.ledger())?;
     Ok(match committed {
         None if sources.is_empty() => State::Same,
@@ -51,7 +51,7 @@ fn state(paths: &Paths, sources: &Sources, ledger: &Ledger) -> Result<State, Fai
 }
 
 /// The entries that read tables of these figures and of no other ones.
-fn part(sources: Sources, figures: &BTreeSet<&str>) -> Result<Sources, Failure> {
+fn part(sources: LedgerFiles, figures: &BTreeSet<&str>) -> Result<LedgerFiles, Failure> {
     let belongs = |tests: Tests<'_>| -> Result<bool, Failure> {
         let mut own = false;
         for (place, _, measure) in tests {
@@ -64,7 +64,7 @@ fn part(sources: Sources, figures: &BTreeSet<&str>) -> Result<Sources, Failure> 
         }
         Ok(own)
     };
-    Ok(Sources {
+    Ok(LedgerFiles {
         claims: keep(sources.claims, |one| belongs(Claim::all_tests(one)))?,
         errata: keep(sources.errata, |one| belongs(Erratum::all_tests(one)))?,
         parameters: keep(sources.parameters, |one| belongs(Parameter::all_tests(one)))?,
@@ -86,7 +86,7 @@ fn keep<T>(all: Vec<T>, belongs: impl Fn(&T) -> Result<bool, Failure>) -> Result
 /// # Errors
 /// Usage: a file of the ledger is malformed.
 pub fn figures(paths: &Paths) -> Result<BTreeSet<String>, Failure> {
-    let tables = Sources::read(paths)?.tables()?;
+    let tables = LedgerFiles::read(paths)?.tables()?;
     Ok(tables.iter().filter_map(|table| figure_of(table)).map(str::to_owned).collect())
 }
 
@@ -96,7 +96,7 @@ pub fn figures(paths: &Paths) -> Result<BTreeSet<String>, Failure> {
 /// Usage: a file of the ledger is malformed.
 pub fn is_complete(paths: &Paths) -> Result<bool, Failure> {
     let tables = Tables::new(paths, paths)?;
-    Ok(Sources::read(paths)?.tables()?.iter().all(|table| tables.has(table)))
+    Ok(LedgerFiles::read(paths)?.tables()?.iter().all(|table| tables.has(table)))
 }
 
 /// Writes `data/ledger.json` as it was found on all tables.

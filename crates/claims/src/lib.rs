@@ -24,10 +24,10 @@
 //! On the right of a comparison stands a formula too, a word that stands in the column on the left (in single quotes where
 //! a column has that name), or `empty`. A comparison of numbers with an empty cell does not hold.
 //!
-//! Every number has an error: that of `error_of`; else the one the manifest states for the column, a part of the
-//! column's range (of tables in closed form, a part of numbers above 1); else none, the number is taken as it is written. A comparison is true or false only if it is so for
-//! all values within the errors, and undecided otherwise; rows of which it is open whether they are chosen count as
-//! error.
+//! Every number has an error: that of `error_of`; else the one the manifest states for the column, a part of the column's
+//! range (of tables in closed form, a part of numbers above 1); else none, the number is taken as it is written. A
+//! comparison is true or false only if it is so for all values within the errors, and undecided otherwise; rows of which
+//! it is open whether they are chosen count as error.
 //!
 //! A claim has `[[claim.test]]` of the statement as it is written and perhaps `[[claim.under]]`, of the statement under
 //! its `condition`. The verdict follows from them ([`report::verdict`]); the one in the file is what is expected.

@@ -3,7 +3,7 @@
 use crate::check::Operand;
 use crate::entry::{Measure, Take};
 use crate::expression::{Binding, Bound, BoundCondition, Condition, Expression};
-use crate::sheet::Sheet;
+use crate::sheet::LedgerTable;
 use crate::source::ClaimLocation;
 use crate::tables::Tables;
 use crate::uncertain::{Outcome, Uncertain};
@@ -37,7 +37,7 @@ pub type Rows = Vec<(usize, Uncertain)>;
 /// # Errors
 /// As [`evaluate`]; or the measure takes another one than `only`, has a second operand, or a row of which it is open whether
 /// it is left.
-pub fn each(measure: &Measure, tables: &Tables<'_>, place: &ClaimLocation) -> Result<(Rc<Sheet>, Rows), Failure> {
+pub fn each(measure: &Measure, tables: &Tables<'_>, place: &ClaimLocation) -> Result<(Rc<LedgerTable>, Rows), Failure> {
     if measure.take != Take::Only || measure.operand(place)?.is_some() {
         return Err(place.fail("take", "must be `only`, without a second operand, where each row gives a number"));
     }
@@ -65,7 +65,7 @@ fn looked_at(
     measure: &Measure,
     tables: &Tables<'_>,
     place: &ClaimLocation,
-) -> Result<(Rc<Sheet>, Chosen, Option<Bound>), Failure> {
+) -> Result<(Rc<LedgerTable>, Chosen, Option<Bound>), Failure> {
     let sheet = sheet(measure, tables, place)?;
     let of = measure.of.as_deref().map(Expression::parse).transpose().map_err(|problem| place.fail("of", problem))?;
     let names = of.as_ref().map(Expression::names).unwrap_or_default();
@@ -88,7 +88,7 @@ fn of_the_table(measure: &Measure, problem: &str) -> String {
 }
 
 /// The rows of the table that are looked at, with the other table or the next rows beside them.
-fn sheet(measure: &Measure, tables: &Tables<'_>, place: &ClaimLocation) -> Result<Rc<Sheet>, Failure> {
+fn sheet(measure: &Measure, tables: &Tables<'_>, place: &ClaimLocation) -> Result<Rc<LedgerTable>, Failure> {
     let mut sheet = tables.get(&measure.table).map_err(|problem| place.fail("table", problem))?;
     if !measure.among.is_empty() {
         let fail = |problem: String| place.fail("among", of_the_table(measure, &problem));
@@ -110,7 +110,7 @@ fn sheet(measure: &Measure, tables: &Tables<'_>, place: &ClaimLocation) -> Resul
 }
 
 /// The rows that meet conditions of which none may be open.
-fn among(sheet: &Sheet, conditions: &[String]) -> Result<Sheet, String> {
+fn among(sheet: &LedgerTable, conditions: &[String]) -> Result<LedgerTable, String> {
     let binding = Binding { sheet, errors: None };
     let bound = conditions.iter().map(|text| Condition::parse(text)?.bind(&binding));
     let chosen = choose(sheet, &bound.collect::<Result<Vec<_>, String>>()?)?;
@@ -121,7 +121,7 @@ fn among(sheet: &Sheet, conditions: &[String]) -> Result<Sheet, String> {
 }
 
 /// The columns of both tables that name rows: those without a stated error.
-fn keys(sheet: &Sheet, other: &Sheet) -> Vec<String> {
+fn keys(sheet: &LedgerTable, other: &LedgerTable) -> Vec<String> {
     sheet.exact().filter(|name| other.exact().any(|one| one == *name)).cloned().collect()
 }
 
@@ -132,7 +132,7 @@ struct Chosen {
     open: Vec<usize>,
 }
 
-fn choose(sheet: &Sheet, wanted: &[BoundCondition]) -> Result<Chosen, String> {
+fn choose(sheet: &LedgerTable, wanted: &[BoundCondition]) -> Result<Chosen, String> {
     let mut chosen = Chosen::default();
     for row in 0..sheet.rows() {
         match hold(wanted, sheet, row)? {
@@ -145,7 +145,7 @@ fn choose(sheet: &Sheet, wanted: &[BoundCondition]) -> Result<Chosen, String> {
 }
 
 /// Whether all conditions hold in a row.
-fn hold(conditions: &[BoundCondition], sheet: &Sheet, row: usize) -> Result<Outcome, String> {
+fn hold(conditions: &[BoundCondition], sheet: &LedgerTable, row: usize) -> Result<Outcome, String> {
     let mut all = Outcome::True;
     for condition in conditions {
         match condition.holds(sheet, row)? {
@@ -172,7 +172,7 @@ struct Values {
     open: Vec<Uncertain>,
 }
 
-fn values(sheet: &Sheet, of: Bound, chosen: &Chosen) -> Result<Values, String> {
+fn values(sheet: &LedgerTable, of: Bound, chosen: &Chosen) -> Result<Values, String> {
     let all = |rows: &[usize]| -> Result<Vec<Uncertain>, String> {
         let value = |&row: &usize| {
             let value = of.value(sheet, row)?;

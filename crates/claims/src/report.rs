@@ -3,7 +3,7 @@
 use crate::entry::{Claim, Erratum, Measure, Parameter, Verdict};
 use crate::measure;
 use crate::requirement::Requirement;
-use crate::source::{ClaimLocation, Sources, Tests};
+use crate::source::{ClaimLocation, LedgerFiles, Tests};
 use crate::tables::Tables;
 use crate::uncertain::{Outcome, Uncertain};
 use crate::words;
@@ -61,7 +61,7 @@ impl Ledger {
     ///
     /// # Errors
     /// Usage: a test cannot be evaluated, with its place and what would be valid.
-    pub fn new(sources: &Sources, tables: &Tables<'_>) -> Result<Ledger, Failure> {
+    pub fn new(sources: &LedgerFiles, tables: &Tables<'_>) -> Result<Ledger, Failure> {
         Ok(Ledger {
             schema_version: SCHEMA_VERSION,
             claims: sources.claims.iter().map(|one| claim(one, tables)).collect::<Result<_, _>>()?,

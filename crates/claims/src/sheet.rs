@@ -1,6 +1,6 @@
 //! Tables as the ledger reads them: with errors for their columns, and with a second table joined to them.
 
-use files::table::{self, Cell, Value};
+use files::table::{self, CellValue, Value};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
@@ -27,8 +27,8 @@ impl Stated {
 
 /// A table with the error of each column's numbers, where one is stated for the whole column.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sheet {
-    cells: table::Sheet,
+pub struct LedgerTable {
+    cells: table::MixedTable,
     errors: Vec<Option<Stated>>,
 }
 
@@ -38,7 +38,7 @@ pub const BESIDE: &str = "_beside";
 pub const NEXT: &str = "_next";
 
 /// Cells that identify a row, with an order.
-struct Key<'a>(Vec<&'a Cell>);
+struct Key<'a>(Vec<&'a CellValue>);
 
 impl Ord for Key<'_> {
     fn cmp(&self, other: &Self) -> Ordering {
@@ -61,14 +61,14 @@ impl PartialEq for Key<'_> {
 
 impl Eq for Key<'_> {}
 
-impl Sheet {
+impl LedgerTable {
     /// A table, with the error of a column by its name, if one is stated.
-    pub fn new(cells: table::Sheet, error: &dyn Fn(&str) -> Option<Stated>) -> Sheet {
+    pub fn new(cells: table::MixedTable, error: &dyn Fn(&str) -> Option<Stated>) -> LedgerTable {
         let stated = |(place, name): (usize, &String)| match (error(name)?, range(&cells, place)) {
             (Stated::OfRange(part), range) if range > 0.0 => Some(Stated::Absolute(part * range)),
             (error, _) => Some(error),
         };
-        Sheet { errors: cells.columns.iter().enumerate().map(stated).collect(), cells }
+        LedgerTable { errors: cells.columns.iter().enumerate().map(stated).collect(), cells }
     }
 
     /// The number of rows.
@@ -77,12 +77,12 @@ impl Sheet {
     }
 
     /// A cell.
-    pub fn cell(&self, place: usize, row: usize) -> &Cell {
+    pub fn cell(&self, place: usize, row: usize) -> &CellValue {
         &self.cells.row(row)[place]
     }
 
     /// The cells of a column.
-    pub fn column(&self, place: usize) -> impl Iterator<Item = &Cell> {
+    pub fn column(&self, place: usize) -> impl Iterator<Item = &CellValue> {
         self.cells.rows().map(move |row| &row[place])
     }
 
@@ -107,10 +107,10 @@ impl Sheet {
     }
 
     /// The table with these rows only.
-    pub fn rows_only(&self, rows: &[usize]) -> Sheet {
+    pub fn rows_only(&self, rows: &[usize]) -> LedgerTable {
         let mut cells = empty(self.names());
         rows.iter().for_each(|&row| cells.push(self.cells.row(row)));
-        Sheet { cells, errors: self.errors.clone() }
+        LedgerTable { cells, errors: self.errors.clone() }
     }
 
     /// This table with another one beside it: each row with the one row of the other that has the same cells in the
@@ -118,7 +118,7 @@ impl Sheet {
     ///
     /// # Errors
     /// A column of `on` is missing, the other table has a key twice, or no row has a partner.
-    pub fn beside(&self, other: &Sheet, on: &[String]) -> Result<Sheet, String> {
+    pub fn beside(&self, other: &LedgerTable, on: &[String]) -> Result<LedgerTable, String> {
         let (mine, theirs) = (self.places(on)?, other.places(on)?);
         let mut partners = BTreeMap::new();
         for row in 0..other.rows() {
@@ -140,7 +140,7 @@ impl Sheet {
     ///
     /// # Errors
     /// A column is missing, or two rows of a group have the same cell in `by`.
-    pub fn next(&self, by: &str, on: &[String]) -> Result<Sheet, String> {
+    pub fn next(&self, by: &str, on: &[String]) -> Result<LedgerTable, String> {
         let (groups, order) = (self.places(on)?, self.places(&[by.to_owned()])?);
         let mut rows: Vec<usize> = (0..self.rows()).collect();
         rows.sort_by_cached_key(|&row| (self.key(&groups, row), self.key(&order, row)));
@@ -166,7 +166,7 @@ impl Sheet {
         Key(places.iter().map(|&place| self.cell(place, row)).collect())
     }
 
-    fn paired(&self, pairs: &[(usize, usize)], other: &Sheet, keys: &[usize], suffix: &str) -> Sheet {
+    fn paired(&self, pairs: &[(usize, usize)], other: &LedgerTable, keys: &[usize], suffix: &str) -> LedgerTable {
         let theirs: Vec<usize> = (0..other.names().len()).filter(|place| !keys.contains(place)).collect();
         let others = theirs.iter().map(|&place| format!("{}{suffix}", other.names()[place]));
         let mut cells = empty(&self.names().iter().cloned().chain(others).collect::<Vec<_>>());
@@ -175,16 +175,16 @@ impl Sheet {
             cells.push(self.cells.row(mine).iter().chain(beside).cloned().collect::<Vec<_>>());
         }
         let errors = self.errors.iter().copied().chain(theirs.iter().map(|&place| other.errors[place]));
-        Sheet { errors: errors.collect(), cells }
+        LedgerTable { errors: errors.collect(), cells }
     }
 }
 
-fn empty(names: &[String]) -> table::Sheet {
-    table::Sheet::new(&names.iter().map(String::as_str).collect::<Vec<_>>())
+fn empty(names: &[String]) -> table::MixedTable {
+    table::MixedTable::new(&names.iter().map(String::as_str).collect::<Vec<_>>())
 }
 
 /// Largest less smallest number of a column.
-fn range(cells: &table::Sheet, place: usize) -> f64 {
+fn range(cells: &table::MixedTable, place: usize) -> f64 {
     let numbers = || cells.rows().filter_map(|row| row[place].number());
     let least = numbers().min_by(f64::total_cmp).unwrap_or(0.0);
     let largest = numbers().max_by(f64::total_cmp).unwrap_or(0.0);

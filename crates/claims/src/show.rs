@@ -2,7 +2,7 @@
 
 use crate::entry::{Claim, Erratum, Parameter};
 use crate::report::{Ledger, Tested};
-use crate::source::Sources;
+use crate::source::LedgerFiles;
 use crate::tables::Tables;
 use crate::uncertain::Outcome;
 use checkout::failure::Failure;
@@ -15,7 +15,7 @@ use serde_json::{Value, json};
 /// # Errors
 /// Usage: a file of the ledger is malformed, or a test of this entry cannot be evaluated.
 pub fn explain(paths: &Paths, id: &str) -> Result<Option<(String, Value)>, Failure> {
-    let mut sources = Sources::read(paths)?;
+    let mut sources = LedgerFiles::read(paths)?;
     sources.claims.retain(|one| one.id == id);
     sources.errata.retain(|one| one.id == id);
     sources.parameters.retain(|one| one.id == id);
@@ -34,7 +34,7 @@ pub fn explain(paths: &Paths, id: &str) -> Result<Option<(String, Value)>, Failu
 /// # Errors
 /// Usage: a file of the ledger is malformed.
 pub fn list(paths: &Paths) -> Result<(String, Value), Failure> {
-    let sources = Sources::read(paths)?;
+    let sources = LedgerFiles::read(paths)?;
     let mut rows = vec![print::row(&["claim", "label", "verdict", "says"])];
     for claim in &sources.claims {
         rows.push(print::row(&[&claim.id, &claim.label, claim.verdict.words(), &claim.says]));

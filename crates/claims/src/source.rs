@@ -32,7 +32,7 @@ struct ParametersFile {
 
 /// All three files.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Sources {
+pub struct LedgerFiles {
     /// In the order of the file.
     pub claims: Vec<Claim>,
     /// In the order of the file.
@@ -55,14 +55,14 @@ impl ClaimLocation {
 /// The tests of an entry, each with its place and whether it is one under a condition.
 pub type Tests<'a> = Vec<(ClaimLocation, bool, &'a Measure)>;
 
-impl Sources {
+impl LedgerFiles {
     /// Reads the three files of the checkout; one that is not there is empty.
     ///
     /// # Errors
     /// Usage: a file is malformed, with its line; or an entry is, with its id and key.
-    pub fn read(paths: &Paths) -> Result<Sources, Failure> {
+    pub fn read(paths: &Paths) -> Result<LedgerFiles, Failure> {
         let [claims, errata, parameters] = LEDGER_SOURCES;
-        Sources::parse([
+        LedgerFiles::parse([
             &disk::read_text(&paths.root.join(claims))?.unwrap_or_default(),
             &disk::read_text(&paths.root.join(errata))?.unwrap_or_default(),
             &disk::read_text(&paths.root.join(parameters))?.unwrap_or_default(),
@@ -72,10 +72,10 @@ impl Sources {
     /// Reads the texts of claims, errata and parameters.
     ///
     /// # Errors
-    /// As [`Sources::read`].
-    pub fn parse([claims, errata, parameters]: [&str; 3]) -> Result<Sources, Failure> {
+    /// As [`LedgerFiles::read`].
+    pub fn parse([claims, errata, parameters]: [&str; 3]) -> Result<LedgerFiles, Failure> {
         let [of_claims, of_errata, of_parameters] = LEDGER_SOURCES;
-        let sources = Sources {
+        let sources = LedgerFiles {
             claims: file::<ClaimsFile>(of_claims, claims)?.claim,
             errata: file::<ErrataFile>(of_errata, errata)?.erratum,
             parameters: file::<ParametersFile>(of_parameters, parameters)?.parameter,

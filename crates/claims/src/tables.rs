@@ -1,7 +1,7 @@
 //! The tables that the ledger reads: where each lies (or that the caller supplied it), and the errors stated for its
 //! columns.
 
-use crate::sheet::{Sheet, Stated};
+use crate::sheet::{LedgerTable, Stated};
 use checkout::failure::Failure;
 use checkout::manifest::{self, Entry};
 use checkout::paths::Paths;
@@ -20,7 +20,7 @@ pub const EVENTS: &str = "events";
 pub struct Tables<'a> {
     /// The paths of tables that have not been read yet; `None` if all were supplied.
     files: Option<Files<'a>>,
-    read: RefCell<BTreeMap<String, Rc<Sheet>>>,
+    read: RefCell<BTreeMap<String, Rc<LedgerTable>>>,
 }
 
 struct Files<'a> {
@@ -49,7 +49,7 @@ impl<'a> Tables<'a> {
     }
 
     /// These tables by name, and no others.
-    pub fn of_memory(sheets: impl IntoIterator<Item = (String, Sheet)>) -> Tables<'static> {
+    pub fn of_memory(sheets: impl IntoIterator<Item = (String, LedgerTable)>) -> Tables<'static> {
         let read = sheets.into_iter().map(|(name, sheet)| (name, Rc::new(sheet))).collect();
         Tables { files: None, read: RefCell::new(read) }
     }
@@ -64,7 +64,7 @@ impl<'a> Tables<'a> {
     ///
     /// # Errors
     /// What is wrong, and how to get it.
-    pub fn get(&self, table: &str) -> Result<Rc<Sheet>, String> {
+    pub fn get(&self, table: &str) -> Result<Rc<LedgerTable>, String> {
         if let Some(sheet) = self.read.borrow().get(table) {
             return Ok(Rc::clone(sheet));
         }
@@ -84,7 +84,7 @@ impl Files<'_> {
         base.output(&Paths::table(table))
     }
 
-    fn read(&self, table: &str) -> Result<Sheet, String> {
+    fn read(&self, table: &str) -> Result<LedgerTable, String> {
         let path = self.path(table);
         if !path.is_file() {
             return Err(match figure_of(table) {
@@ -92,7 +92,7 @@ impl Files<'_> {
                 None => format!("no table {table}: {} is not there", Paths::table(table)),
             });
         }
-        let cells = files::table::Sheet::read(&path).map_err(|error| error.to_string())?;
+        let cells = files::table::MixedTable::read(&path).map_err(|error| error.to_string())?;
         let entry = self.entries.get(&Paths::table(table));
         let error = |column: &str| {
             let entry = entry?;
@@ -101,6 +101,6 @@ impl Files<'_> {
             let of_size = entry.counts.get("method").is_some_and(|method| method == CLOSED_FORM);
             Some(if of_size { Stated::OfSize(part) } else { Stated::OfRange(part) })
         };
-        Ok(Sheet::new(cells, &error))
+        Ok(LedgerTable::new(cells, &error))
     }
 }

@@ -1,5 +1,5 @@
 //! Tables with named columns, written as CSV with LF line ends and numbers in shortest round-trip form. The cells of a
-//! [`Table`] are numbers; those of a [`Sheet`] may also be words or empty.
+//! [`Table`] are numbers; those of a [`MixedTable`] may also be words or empty.
 
 use crate::text;
 use crate::write;
@@ -26,7 +26,7 @@ pub trait Value: Clone + PartialEq {
 
 /// A number, a word, or nothing.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Cell {
+pub enum CellValue {
     /// A finite number.
     Number(f64),
     /// A word.
@@ -35,25 +35,25 @@ pub enum Cell {
     Empty,
 }
 
-impl Cell {
+impl CellValue {
     fn rank(&self) -> u8 {
         match self {
-            Cell::Empty => 0,
-            Cell::Number(_) => 1,
-            Cell::Word(_) => 2,
+            CellValue::Empty => 0,
+            CellValue::Number(_) => 1,
+            CellValue::Word(_) => 2,
         }
     }
 
     /// The number, if it is one.
     pub fn number(&self) -> Option<f64> {
         match self {
-            Cell::Number(number) => Some(*number),
+            CellValue::Number(number) => Some(*number),
             _ => None,
         }
     }
 }
 
-impl Display for Cell {
+impl Display for CellValue {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let mut text = String::new();
         self.write(&mut text);
@@ -85,70 +85,70 @@ impl Value for f64 {
     }
 }
 
-impl Value for Cell {
-    fn parse(text: &str) -> Result<Cell, String> {
+impl Value for CellValue {
+    fn parse(text: &str) -> Result<CellValue, String> {
         Ok(match text.parse() {
-            Ok(number) if f64::is_finite(number) => Cell::Number(number),
-            _ if text.is_empty() => Cell::Empty,
-            _ => Cell::Word(text.to_owned()),
+            Ok(number) if f64::is_finite(number) => CellValue::Number(number),
+            _ if text.is_empty() => CellValue::Empty,
+            _ => CellValue::Word(text.to_owned()),
         })
     }
 
     fn write(&self, text: &mut String) {
         match self {
-            Cell::Number(number) => push_number(text, *number),
-            Cell::Word(word) => text.push_str(word),
-            Cell::Empty => {}
+            CellValue::Number(number) => push_number(text, *number),
+            CellValue::Word(word) => text.push_str(word),
+            CellValue::Empty => {}
         }
     }
 
-    fn order(&self, other: &Cell) -> Ordering {
+    fn order(&self, other: &CellValue) -> Ordering {
         match (self, other) {
-            (Cell::Number(one), Cell::Number(other)) => one.order(other),
-            (Cell::Word(one), Cell::Word(other)) => one.cmp(other),
+            (CellValue::Number(one), CellValue::Number(other)) => one.order(other),
+            (CellValue::Word(one), CellValue::Word(other)) => one.cmp(other),
             _ => self.rank().cmp(&other.rank()),
         }
     }
 
     fn is_word(&self) -> bool {
-        matches!(self, Cell::Word(_))
+        matches!(self, CellValue::Word(_))
     }
 }
 
-impl From<f64> for Cell {
-    fn from(number: f64) -> Cell {
-        Cell::Number(number)
+impl From<f64> for CellValue {
+    fn from(number: f64) -> CellValue {
+        CellValue::Number(number)
     }
 }
 
-impl From<usize> for Cell {
-    fn from(number: usize) -> Cell {
-        Cell::Number(number as f64)
+impl From<usize> for CellValue {
+    fn from(number: usize) -> CellValue {
+        CellValue::Number(number as f64)
     }
 }
 
-impl From<u64> for Cell {
-    fn from(number: u64) -> Cell {
-        Cell::Number(number as f64)
+impl From<u64> for CellValue {
+    fn from(number: u64) -> CellValue {
+        CellValue::Number(number as f64)
     }
 }
 
-impl From<&str> for Cell {
-    fn from(word: &str) -> Cell {
-        Cell::Word(word.to_owned())
+impl From<&str> for CellValue {
+    fn from(word: &str) -> CellValue {
+        CellValue::Word(word.to_owned())
     }
 }
 
-impl<T: Into<Cell>> From<Option<T>> for Cell {
-    fn from(cell: Option<T>) -> Cell {
-        cell.map_or(Cell::Empty, T::into)
+impl<T: Into<CellValue>> From<Option<T>> for CellValue {
+    fn from(cell: Option<T>) -> CellValue {
+        cell.map_or(CellValue::Empty, T::into)
     }
 }
 
 /// A table of numbers.
 pub type Table = Grid<f64>;
 /// A table of numbers, words and empty cells.
-pub type Sheet = Grid<Cell>;
+pub type MixedTable = Grid<CellValue>;
 
 /// Column names and rows. Whole numbers are written without a point.
 #[derive(Clone, Debug, PartialEq)]
@@ -327,14 +327,16 @@ impl<V: Value> Grid<V> {
     }
 }
 
-impl Sheet {
+impl MixedTable {
     /// The rows that have these words in these columns, as numbers of the columns `take`; rows without one are left out.
     ///
     /// # Errors
     /// There is no such column.
     pub fn select(&self, words: &[(&str, &str)], take: &[&str]) -> Result<Table, TableError> {
-        let wanted: Vec<(usize, Cell)> =
-            words.iter().map(|&(name, word)| Ok((self.place(name)?, Cell::from(word)))).collect::<Result<_, _>>()?;
+        let wanted: Vec<(usize, CellValue)> = words
+            .iter()
+            .map(|&(name, word)| Ok((self.place(name)?, CellValue::from(word))))
+            .collect::<Result<_, _>>()?;
         let places: Vec<usize> = take.iter().map(|&name| self.place(name)).collect::<Result<_, _>>()?;
         let mut table = Table::new(take);
         for row in self.rows().filter(|row| wanted.iter().all(|(index, word)| row[*index] == *word)) {

@@ -112,6 +112,18 @@ pub fn can_be_folder(path: &Path) -> io::Result<()> {
     Err(with_path(io::Error::new(io::ErrorKind::InvalidInput, problem), at))
 }
 
+/// Whether two paths name one file, also through a link, whether or not it exists yet.
+pub fn is_same_file(one: &Path, other: &Path) -> bool {
+    let entry = |path: &Path| Some((fs::canonicalize(folder_of(path)).ok()?, path.file_name()?.to_owned()));
+    let is_same = |first: Option<_>, second| first.is_some() && first == second;
+    one == other
+        || is_same(
+            entry(one).map(|(folder, name)| folder.join(name)),
+            entry(other).map(|(folder, name)| folder.join(name)),
+        )
+        || is_same(fs::canonicalize(one).ok(), fs::canonicalize(other).ok())
+}
+
 /// The name of a draft of `name`: no other process has this number, and no other draft of this process that count.
 pub fn draft_name(name: &str) -> String {
     static COUNT: AtomicU64 = AtomicU64::new(0);

@@ -35,12 +35,12 @@
 //!
 //! # Units, ranges, errors
 //!
-//! Formulas know no units: they compute with numbers in the units of their writer, who sees to it that `body` is a length, `v0` or
-//! `scale` a speed, and arguments of functions are dimensionless. Numbers of a text are finite doubles.
+//! Formulas know no units: they compute with numbers in the units of their writer, who sees to it that `body` is a
+//! length, `v0` or `scale` a speed, and arguments of functions are dimensionless. Numbers of a text are finite doubles.
 //!
-//! An [`Error`] carries file, line, column, what was found and what would be valid. [`Bound::eval`] returns one where the result is
-//! not finite; [`Bound::carry_out`] goes on with NaN or infinities, as its numbers do. A node, root or place in a list that belongs
-//! to another formula panics or gives numbers without meaning.
+//! An [`Error`] carries file, line, column, what was found and what would be valid. [`Bound::eval`] returns one where the
+//! result is not finite; [`Bound::carry_out`] goes on with NaN or infinities, as its numbers do. A node, root or place in
+//! a list that belongs to another formula panics or gives numbers without meaning.
 
 mod arena;
 mod bound;

@@ -1,6 +1,6 @@
-//! The stability criteria as the paper prints them, with lengths in units of `a_0` and times in units of `tau`. A negative value
-//! means stable. Parameters are in the ranges of their laws; at a gap that is not in the range stated the value is NaN or has
-//! no meaning.
+//! The stability criteria as the paper prints them, with lengths in units of `a_0` and times in units of `tau`. A
+//! negative value means stable. Parameters are in the ranges of their laws; at a gap that is not in the range stated the
+//! value is NaN or has no meaning.
 
 use crate::laws::{Algebraic, C, Exponential, Logarithmic};
 

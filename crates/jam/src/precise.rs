@@ -1,8 +1,8 @@
 //! The stability of a uniform flow by independent means in double-double arithmetic. The difference from
 //! [`Model::response`] and [`Response::margin`] is their error.
 //!
-//! The law is carried out in double-double numbers; its slopes are differences, not derivatives; the steady speed is improved by
-//! Newton's method; the powers of `e^{ik}` are products. What is shared is the law as a formula.
+//! The law is carried out in double-double numbers; its slopes are differences, not derivatives; the steady speed is
+//! improved by Newton's method; the powers of `e^{ik}` are products. What is shared is the law as a formula.
 
 use crate::force::Source;
 use crate::laws::{Formula, Law, Model};

@@ -1,8 +1,8 @@
 //! Linear stability of the uniform flow, exactly and for every wave number.
 //!
-//! Each law linearises to `eps_n'' = kappa (eps_{n+1}' - eps_n') + phi (eps_{n+1} - eps_n) - beta (eps_n' + eps_{n+1}') - eps_n'`.
-//! A wave `exp(z t + i k n)` then obeys
-//! `z^2 + (1 + beta (1 + e^{ik}) + kappa (1 - e^{ik})) z + phi (1 - e^{ik}) = 0` (eq:stabN, eq:stab_neu_av).
+//! Each law linearises to `eps_n'' = kappa (eps_{n+1}' - eps_n') + phi (eps_{n+1} - eps_n) - beta (eps_n' + eps_{n+1}') -
+//! eps_n'`. A wave `exp(z t + i k n)` then obeys `z^2 + (1 + beta (1 + e^{ik}) + kappa (1 - e^{ik})) z + phi (1 - e^{ik})
+//! = 0` (eq:stabN, eq:stab_neu_av).
 
 use math::complex_sqrt;
 use math::double_double::DoubleDouble;
@@ -111,8 +111,9 @@ impl Response {
         self.over_all(FINER).1
     }
 
-    /// How far a wave `k` in (0, pi] is from stability, in units of `1 / tau^2`, negative when it decays: `-D / ((1 - cos k) sum_j f_{s_j})`, or `-D` where that sum
-    /// is not positive. Where `Re b <= 0`, which no relaxation outweighs, at least `-Re b`.
+    /// How far a wave `k` in (0, pi] is from stability, in units of `1 / tau^2`, negative when it decays: `-D / ((1 - cos
+    /// k) sum_j f_{s_j})`, or `-D` where that sum is not positive. Where `Re b <= 0`, which no relaxation outweighs, at
+    /// least `-Re b`.
     pub fn margin_of(&self, k: f64) -> f64 {
         let half = math::sin(0.5 * k);
         self.margin_with(k, half, self.polynomial_with(k, half))
@@ -260,8 +261,8 @@ impl Response {
         growing
     }
 
-    /// The largest growth rate, in units of `1 / tau`, among the waves of a ring of `N >= 2`, `k = 2 pi l / N` for `l = 1 .. N/2`,
-    /// and its `l`.
+    /// The largest growth rate, in units of `1 / tau`, among the waves of a ring of `N >= 2`, `k = 2 pi l / N` for `l = 1
+    /// .. N/2`, and its `l`.
     pub fn fastest(&self, pedestrians: usize) -> (f64, usize) {
         fastest(pedestrians, |k| self.growth_rate(k))
     }

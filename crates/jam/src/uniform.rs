@@ -150,8 +150,8 @@ fn bisected(mut low: f64, mut high: f64, value: impl Fn(f64) -> f64) -> f64 {
     }
 }
 
-/// The headway at which the uniform flow has this effective gap `d'` (above 0), both in units of `a_0`: the gap grows with the headway, as the steady speed's
-/// share of it does not outrun it; found by bisection to the last bit.
+/// The headway at which the uniform flow has this effective gap `d'` (above 0), both in units of `a_0`: the gap grows
+/// with the headway, as the steady speed's share of it does not outrun it; found by bisection to the last bit.
 ///
 /// # Errors
 /// [`NoUniformFlow`] where no headway up to a million gaps has one.

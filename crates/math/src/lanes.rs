@@ -9,8 +9,8 @@ use crate::number::Number;
 use crate::row::pieces::{self, Room};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// `W` doubles of one unit, one for each pedestrian of a block. Each lane has the bits of the same operations on one double; NaN in
-/// a lane stays in that lane.
+/// `W` doubles of one unit, one for each pedestrian of a block. Each lane has the bits of the same operations on one
+/// double; NaN in a lane stays in that lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lanes<const W: usize>(pub [f64; W]);
 

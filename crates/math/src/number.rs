@@ -20,8 +20,9 @@ use crate::double_double::{DoubleDouble, full};
 use crate::lane;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// What a formula is made of. Operations have the range of the real function, and no value beyond it: NaN in doubles, which
-/// every further operation keeps but `powi` with the exponent 0. Arguments of `exp`, `ln`, `tanh` and their kin are dimensionless.
+/// What a formula is made of. Operations have the range of the real function, and no value beyond it: NaN in doubles,
+/// which every further operation keeps but `powi` with the exponent 0. Arguments of `exp`, `ln`, `tanh` and their kin are
+/// dimensionless.
 ///
 /// Constants enter as the right-hand side of an operation, so a number may belong to
 /// something (a tape, a series) that a constant alone does not know.

@@ -62,8 +62,9 @@ pub(crate) trait Stepper {
         false
     }
 
-    /// Writes by how much the series about a state near the start of the step differ from those of the step, for the orders
-    /// from 1 to `order` or the method's own, after a row of no meaning, and returns their unit of time. Only for methods with [`Stepper::own_error`].
+    /// Writes by how much the series about a state near the start of the step differ from those of the step, for the
+    /// orders from 1 to `order` or the method's own, after a row of no meaning, and returns their unit of time. Only for
+    /// methods with [`Stepper::own_error`].
     fn difference(&mut self, _system: &dyn System, _near: &[f64], _order: usize, _rows: &mut Vec<f64>) -> f64 {
         1.0
     }
@@ -79,8 +80,8 @@ pub(crate) trait Stepper {
     /// Writes components of the solution at the fraction `theta` of the accepted step; returns the evaluations this took.
     fn interpolate(&mut self, system: &dyn System, ends: &Ends<'_>, theta: f64, part: Part<'_>) -> u64;
 
-    /// Does so at two fractions inside the step, for the components from `from` on, and returns the evaluations this took, if the method has a
-    /// way that is quicker than one after the other.
+    /// Does so at two fractions inside the step, for the components from `from` on, and returns the evaluations this
+    /// took, if the method has a way that is quicker than one after the other.
     fn interpolate_both(
         &mut self,
         _system: &dyn System,
@@ -216,7 +217,8 @@ impl Step<'_> {
         }
     }
 
-    /// Writes the rates of any state, one for each component. They are not counted, since an observer does not change the statistics of a run.
+    /// Writes the rates of any state, one for each component. They are not counted, since an observer does not change the
+    /// statistics of a run.
     pub fn rates_of(&self, state: &[f64], rates: &mut [f64]) {
         self.system.rates(state, rates);
     }

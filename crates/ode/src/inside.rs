@@ -1,7 +1,7 @@
 //! The solution within a step of a Runge-Kutta method: the cubic through both ends, and nested terms.
 
 use crate::dense::{Ends, Part, mend};
-use crate::vector::Rows;
+use crate::rows::Rows;
 use math::simd::{Kernel, dispatch};
 
 /// The interpolant at some fractions of a step, `c + theta^2 (1 - theta)^2 (r_0 + theta (r_1 + (1 - theta) (r_2 + theta r_3

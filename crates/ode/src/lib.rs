@@ -47,10 +47,10 @@
 //!
 //! # Units, shapes, ranges, NaN
 //!
-//! A state has [`System::dimension`] components, and so have its rates. Each component has a unit of its own, and there is one
-//! unit of time, which steps share; a rate has the unit of its component over that of time. A tolerance is dimensionless: an error
-//! is compared with the size of a [`Group`], whose components and whose floor share a unit. Fractions of a step (`theta`) are
-//! dimensionless, 0 to 1. Times may have either sign; they go up.
+//! A state has [`System::dimension`] components, and so have its rates. Each component has a unit of its own, and there
+//! is one unit of time, which steps share; a rate has the unit of its component over that of time. A tolerance is
+//! dimensionless: an error is compared with the size of a [`Group`], whose components and whose floor share a unit.
+//! Fractions of a step (`theta`) are dimensionless, 0 to 1. Times may have either sign; they go up.
 //!
 //! Slices are as long as is said; with another length a call panics, or its result has no meaning. A component that becomes NaN
 //! or infinite makes a step of adaptive length shorter until the integration ends as [`Failure::StepTooSmall`], and ends one of
@@ -71,6 +71,7 @@ mod kinks;
 mod linear;
 pub mod methods;
 mod observe;
+mod rows;
 mod runge_kutta;
 mod shadow;
 mod system;

@@ -9,8 +9,8 @@ pub trait Observer {
     /// Looks at a step; `Break` ends the integration after it.
     fn after(&mut self, step: &mut Step<'_>) -> ControlFlow<()>;
 
-    /// The time of the next sample, in the unit of time: steps that end before it need not be shown unless something happens in them. By
-    /// default every step is shown.
+    /// The time of the next sample, in the unit of time: steps that end before it need not be shown unless something
+    /// happens in them. By default every step is shown.
     fn next_sample(&self) -> f64 {
         f64::NEG_INFINITY
     }
@@ -57,7 +57,8 @@ pub struct ResumePoint<'a> {
 /// What steps of adaptive length remember from one to the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pace<'a> {
-    /// The rates at the state, one for each component, to the last bit: some methods know them from a state that lacks its compensation.
+    /// The rates at the state, one for each component, to the last bit: some methods know them from a state that lacks
+    /// its compensation.
     pub rates: &'a [f64],
     /// What rounding has dropped of the state, one number for each component.
     pub compensation: &'a [f64],
@@ -165,10 +166,10 @@ fn last_moment(step: &Step<'_>, until: f64) -> f64 {
     if until < step.end { until } else { step.end + nearby(step.end, step.length()) }
 }
 
-/// The fraction of the step, 0 to 1, at which `value` of the state, in any unit, first is negative, to the last bit of the fraction.
-/// Looked for in `parts`
-/// parts of the step and about every minimum that they show; of two crossings within one part the first may go unseen
-/// only where `value` has several minima there. `None` when it does not get there; NaN is not negative.
+/// The fraction of the step, 0 to 1, at which `value` of the state, in any unit, first is negative, to the last bit of
+/// the fraction. Looked for in `parts` parts of the step and about every minimum that they show; of two crossings within
+/// one part the first may go unseen only where `value` has several minima there. `None` when it does not get there; NaN
+/// is not negative.
 pub fn first_crossing(step: &mut Step<'_>, parts: u32, value: &mut dyn FnMut(&[f64]) -> f64) -> Option<f64> {
     let mut state = vec![0.0; step.before().len()];
     let mut at = |theta: f64| {
@@ -202,8 +203,8 @@ pub fn first_crossing(step: &mut Step<'_>, parts: u32, value: &mut dyn FnMut(&[f
     negative_about_minimum(from, 1.0, &mut at).map(|past| bisect(from, past, &mut at))
 }
 
-/// The first fraction of the step, between `before`, where `value` is not negative, and `past`, where it is, at which it is negative;
-/// one of them if there are several.
+/// The first fraction of the step, between `before`, where `value` is not negative, and `past`, where it is, at which it
+/// is negative; one of them if there are several.
 pub fn crossing_between(step: &mut Step<'_>, before: f64, past: f64, value: &mut dyn FnMut(&[f64]) -> f64) -> f64 {
     let mut state = vec![0.0; step.before().len()];
     bisect(before, past, &mut |theta| {

@@ -3,9 +3,10 @@
 use crate::control::Norm;
 use crate::dense::{Ends, Part, Stepper, Trial};
 use crate::inside::Inside;
+use crate::rows::Rows;
 use crate::system::System;
 use crate::tableau::{Interpolant, Row, Tableau};
-use crate::vector::{Rows, add, add_weighted_sum, weighted_sum};
+use crate::vector::{add, add_weighted_sum, weighted_sum};
 use std::ops::Range;
 
 pub(crate) struct RungeKutta {

@@ -1,74 +1,32 @@
 //! Sums over stages, vectorised over components. The order of the additions is fixed, in blocks of four stages.
 
+use crate::rows::Rows;
 use crate::tableau::Row;
 use math::simd::{Kernel, dispatch};
 use std::ops::Range;
 
-/// Rows of equal length, each of which begins where a line of the cache does: what lies across two of them is read in two
-/// goes.
-pub(crate) struct Rows {
-    memory: Vec<f64>,
-    begin: usize,
-    count: usize,
-    n: usize,
-    stride: usize,
-}
-
-/// Doubles of a line.
-const LINE: usize = 8;
-
-impl Rows {
-    /// So many rows of `n` zeros.
-    pub(crate) fn new(count: usize, n: usize) -> Rows {
-        let stride = n.max(1).next_multiple_of(LINE);
-        let memory = vec![0.0; count * stride + LINE - 1];
-        let begin = memory.as_ptr().align_offset(LINE * size_of::<f64>());
-        // where that is not known, anywhere will do
-        Rows { begin: if begin < LINE { begin } else { 0 }, memory, count, n, stride }
-    }
-
-    /// How many.
-    #[inline(always)]
-    pub(crate) fn count(&self) -> usize {
-        self.count
-    }
-
-    #[inline(always)]
-    pub(crate) fn row(&self, j: usize) -> &[f64] {
-        &self.memory[self.begin + j * self.stride..][..self.n]
-    }
-
-    pub(crate) fn row_mut(&mut self, j: usize) -> &mut [f64] {
-        &mut self.memory[self.begin + j * self.stride..][..self.n]
-    }
-
-    /// All of them, with what fills them up.
-    #[inline(always)]
-    pub(crate) fn iter(&self) -> std::slice::ChunksExact<'_, f64> {
-        self.memory[self.begin..][..self.count * self.stride].chunks_exact(self.stride)
-    }
-
-    fn stages(&self) -> Stages<'_> {
-        Stages { all: &self.memory[self.begin..], stride: self.stride }
-    }
-}
-
-/// Stages one after another, each `stride` numbers behind the one before.
+/// Rows as numbers one after another, each `stride` behind the one before.
 #[derive(Clone, Copy)]
 struct Stages<'a> {
     all: &'a [f64],
     stride: usize,
 }
 
+impl Stages<'_> {
+    fn of(rows: &Rows) -> Stages<'_> {
+        Stages { all: rows.all(), stride: rows.stride() }
+    }
+}
+
 /// Writes the components of `range` of `sum = factor * (w_a k_a + w_b k_b + ...)` where `k_j` are these rows.
 pub(crate) fn weighted_sum(factor: f64, weights: Row, rows: &Rows, range: Range<usize>, sum: &mut [f64]) {
-    let (stages, first, result) = (rows.stages(), range.start, &mut sum[range]);
+    let (stages, first, result) = (Stages::of(rows), range.start, &mut sum[range]);
     dispatch(WeightedSum::<false> { start: &[], factor, weights, stages, first, result });
 }
 
 /// Writes `result = start + factor * (w_a k_a + w_b k_b + ...)`, stages as in [`weighted_sum`].
 pub(crate) fn add_weighted_sum(start: &[f64], factor: f64, weights: Row, rows: &Rows, result: &mut [f64]) {
-    dispatch(WeightedSum::<true> { start, factor, weights, stages: rows.stages(), first: 0, result });
+    dispatch(WeightedSum::<true> { start, factor, weights, stages: Stages::of(rows), first: 0, result });
 }
 
 /// Writes `result = start + change`.

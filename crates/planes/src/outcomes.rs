@@ -2,7 +2,7 @@
 
 use crate::picture::{cells_of, grid};
 use figures::{Failure, Job};
-use files::table::{Cell, Sheet};
+use files::table::{CellValue, MixedTable};
 use files::write::with_path;
 use jam::outcome::Class;
 use plot::Picture;
@@ -15,13 +15,13 @@ pub type Titled<'a> = (&'a str, &'a str);
 ///
 /// # Errors
 /// It is missing, or not one of this sweep.
-fn take(job: &Job, panel: &str) -> Result<(Sweep, Vec<sweep::Cell>), Failure> {
+fn take(job: &Job, panel: &str) -> Result<(Sweep, Vec<sweep::CellOutcome>), Failure> {
     job.take_committed("outcomes", panel)?;
     plane(job, panel)
 }
 
 /// The sweep of a panel, and its cells from the table of the figure.
-fn plane(job: &Job, panel: &str) -> Result<(Sweep, Vec<sweep::Cell>), Failure> {
+fn plane(job: &Job, panel: &str) -> Result<(Sweep, Vec<sweep::CellOutcome>), Failure> {
     let sweep = sweep::read(&job.scene_file.file, &job.panel(panel)?.tables)?;
     let file = job.table_file(panel);
     let text = std::fs::read_to_string(&file).map_err(|error| with_path(error, &file))?;
@@ -34,7 +34,7 @@ fn plane(job: &Job, panel: &str) -> Result<(Sweep, Vec<sweep::Cell>), Failure> {
 /// # Errors
 /// A committed plane is missing, or not that of its panel.
 pub fn tables(job: &Job, planes: &[Titled<'_>]) -> Result<(), Failure> {
-    let mut shares = Sheet::new(&["plane", "flow", "outcome", "cells", "share", "error"]);
+    let mut shares = MixedTable::new(&["plane", "flow", "outcome", "cells", "share", "error"]);
     for (panel, _) in planes {
         let (sweep, cells) = take(job, panel)?;
         let is_unstable = unstable(&sweep)?;
@@ -46,9 +46,9 @@ pub fn tables(job: &Job, planes: &[Titled<'_>]) -> Result<(), Failure> {
             // what is undecided may be anything
             let error = count(Class::Undecided) / all;
             for class in Class::ALL.into_iter().filter(|class| all > 0.0 && count(*class) > 0.0) {
-                let words = [*panel, flow, class.name()].map(Cell::from);
-                let numbers = [count(class), count(class) / all, error].map(Cell::Number);
-                shares.push(words.into_iter().chain(numbers).collect::<Vec<Cell>>());
+                let words = [*panel, flow, class.name()].map(CellValue::from);
+                let numbers = [count(class), count(class) / all, error].map(CellValue::Number);
+                shares.push(words.into_iter().chain(numbers).collect::<Vec<CellValue>>());
             }
         }
     }
@@ -67,7 +67,7 @@ fn unstable(sweep: &Sweep) -> Result<Vec<bool>, Failure> {
 /// # Errors
 /// As [`tables`].
 pub fn bands(job: &Job, panels: &[&str]) -> Result<(), Failure> {
-    let mut bands = Sheet::new(&[
+    let mut bands = MixedTable::new(&[
         "plane",
         "parameter",
         "value",
@@ -82,20 +82,20 @@ pub fn bands(job: &Job, panels: &[&str]) -> Result<(), Failure> {
     for panel in panels {
         let (sweep, cells) = plane(job, panel)?;
         for (column, cells) in cells.chunks(sweep.y.cells).enumerate() {
-            let words = [*panel, &sweep.x.parameter].map(Cell::from);
-            let numbers = band(&sweep, column, cells)?.map(|number| number.map_or(Cell::Empty, Cell::Number));
-            bands.push(words.into_iter().chain(numbers).collect::<Vec<Cell>>());
+            let words = [*panel, &sweep.x.parameter].map(CellValue::from);
+            let numbers = band(&sweep, column, cells)?.map(|number| number.map_or(CellValue::Empty, CellValue::Number));
+            bands.push(words.into_iter().chain(numbers).collect::<Vec<CellValue>>());
         }
     }
     job.write_rows("bands", &bands)
 }
 
 /// The band of waves in a column of cells: the numbers of a row of `bands`.
-fn band(sweep: &Sweep, column: usize, cells: &[sweep::Cell]) -> Result<[Option<f64>; 8], Failure> {
+fn band(sweep: &Sweep, column: usize, cells: &[sweep::CellOutcome]) -> Result<[Option<f64>; 8], Failure> {
     let height = (sweep.y.to - sweep.y.from) / sweep.y.cells as f64;
     let place = column as f64 + 0.5;
     let threshold = threshold(sweep, place)?;
-    let has = |class: Class| move |cell: &sweep::Cell| cell.class == class;
+    let has = |class: Class| move |cell: &sweep::CellOutcome| cell.class == class;
     let rows = |class: Class| cells.iter().enumerate().filter(move |(_, cell)| cell.class == class).map(|(row, _)| row);
     let first = cells.iter().position(has(Class::Waves));
     let last = cells.iter().rposition(has(Class::Waves));
@@ -147,8 +147,8 @@ pub fn how_sure(job: &mut Job, planes: &[Titled<'_>]) -> Result<(), Failure> {
         return Err(Failure::work("how_sure.csv: five columns"));
     };
     for (panel, _) in planes {
-        let rows = table.rows().filter(|row| row[plane] == Cell::from(*panel));
-        let words = |row: &[Cell]| {
+        let rows = table.rows().filter(|row| row[plane] == CellValue::from(*panel));
+        let words = |row: &[CellValue]| {
             let [change, cells, differ, decided] =
                 [change, cells, differ, decided].map(|column| row[column].to_string());
             format!("{change}: {differ} of {cells} differ, {decided} of them decided both times")

@@ -5,7 +5,7 @@ use figures::titles::symbol;
 use jam::outcome::Class;
 use plot::style::COLUMN_WIDTH;
 use plot::{Axis, Fill, Key, Picture, Plane};
-use sweep::{Cell, Exact, Sweep, table};
+use sweep::{CellOutcome, Exact, Sweep, table};
 
 /// Classes in the order of keys, with their colours: those that touch most often differ most in lightness.
 const LOOKS: [(Class, Fill); 9] = [
@@ -32,7 +32,7 @@ const HEIGHT: f64 = 84.0;
 ///
 /// # Errors
 /// The cells are not those of the plane.
-pub fn picture(sweep: &Sweep, cells: &[Cell]) -> Result<Picture, Failure> {
+pub fn picture(sweep: &Sweep, cells: &[CellOutcome]) -> Result<Picture, Failure> {
     grid(&[("", sweep, cells)], 1, [COLUMN_WIDTH, HEIGHT])
 }
 
@@ -41,7 +41,11 @@ pub fn picture(sweep: &Sweep, cells: &[Cell]) -> Result<Picture, Failure> {
 ///
 /// # Errors
 /// The cells of a plane are not those of the plane.
-pub fn grid(planes: &[(&str, &Sweep, &[Cell])], columns: usize, [width, height]: [f64; 2]) -> Result<Picture, Failure> {
+pub fn grid(
+    planes: &[(&str, &Sweep, &[CellOutcome])],
+    columns: usize,
+    [width, height]: [f64; 2],
+) -> Result<Picture, Failure> {
     let mut picture = Picture::new(width, height).columns(columns);
     let mut shown = Shown { classes: [false; LOOKS.len()], lines: [false; 2] };
     for (index, (title, sweep, cells)) in planes.iter().enumerate() {
@@ -57,7 +61,7 @@ pub fn grid(planes: &[(&str, &Sweep, &[Cell])], columns: usize, [width, height]:
 ///
 /// # Errors
 /// A line that is not one of this plane.
-pub fn cells_of(file: &str, text: &str, sweep: &Sweep) -> Result<Vec<Cell>, Failure> {
+pub fn cells_of(file: &str, text: &str, sweep: &Sweep) -> Result<Vec<CellOutcome>, Failure> {
     table::cells(sweep, text).map_err(|problem| Failure::input(format!("{file}:{problem}")))
 }
 
@@ -77,12 +81,12 @@ impl Shown {
     }
 }
 
-fn panel(sweep: &Sweep, cells: &[Cell], [x, y]: [Axis; 2], shown: &mut Shown) -> Result<Plane, Failure> {
+fn panel(sweep: &Sweep, cells: &[CellOutcome], [x, y]: [Axis; 2], shown: &mut Shown) -> Result<Plane, Failure> {
     let (columns, rows) = (sweep.x.cells, sweep.y.cells);
     if cells.len() != columns * rows {
         return Err(Failure::work(format!("{} cells for a plane of {columns} x {rows}", cells.len())));
     }
-    let look = |cell: &Cell| LOOKS.iter().position(|(class, _)| *class == cell.class).unwrap_or(0);
+    let look = |cell: &CellOutcome| LOOKS.iter().position(|(class, _)| *class == cell.class).unwrap_or(0);
     // the table runs up the columns of the plane, the picture along its rows
     let classes: Vec<usize> = (0..columns * rows).map(|i| look(&cells[(i % columns) * rows + i / columns])).collect();
     for class in &classes {
@@ -148,9 +152,9 @@ mod tests {
     }
 
     /// Cells of some classes, one of them with a number.
-    fn cells() -> Vec<Cell> {
+    fn cells() -> Vec<CellOutcome> {
         let numbers = [12.5, 0.1, -1e-300, f64::NAN, f64::NAN, 3e-9];
-        let cell = |class| Cell { class, backward_flow: true, decided_by: DecidedBy::Run, numbers };
+        let cell = |class| CellOutcome { class, backward_flow: true, decided_by: DecidedBy::Run, numbers };
         [Class::Contact, Class::Waves, Class::Decays].map(cell).repeat(4)
     }
 

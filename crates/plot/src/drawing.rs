@@ -5,7 +5,7 @@ use crate::elements::{Area, EVERYWHERE, Shape};
 use crate::error::PlotError;
 use crate::frame::Margins;
 use crate::geometry::Point;
-use crate::grid::Cell;
+use crate::grid::PanelBox;
 use crate::page::{Pen, units};
 use crate::picture::Panel;
 use crate::style::{AXIS_WIDTH, Color, INK, PANEL, POINT, REFERENCE_DASH, pen, text};
@@ -88,7 +88,7 @@ impl Panel for Drawing {
         Ok(Margins::default())
     }
 
-    fn draw(&self, page: &Area, cell: &Cell, _: Option<&ColorScale>) -> Result<(), PlotError> {
+    fn draw(&self, page: &Area, cell: &PanelBox, _: Option<&ColorScale>) -> Result<(), PlotError> {
         let rect = cell.rect;
         let at = |(x, y): Point| (units(rect.left + x), units(rect.bottom() - y));
         self.items.iter().try_for_each(|item| item(page, &at))

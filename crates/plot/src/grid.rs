@@ -10,7 +10,7 @@ const LEAST: f64 = 5.0;
 
 /// A panel's box and the room around it, which panels of one column and row share.
 #[derive(Debug, Clone, Copy)]
-pub struct Cell {
+pub struct PanelBox {
     pub rect: Rect,
     pub room: Margins,
 }
@@ -40,7 +40,7 @@ impl Grid<'_> {
     ///
     /// # Errors
     /// Shares are wrong, or a box would be smaller than 5 mm.
-    pub fn cells(&self, margins: &[Margins]) -> Result<Vec<Cell>, PlotError> {
+    pub fn cells(&self, margins: &[Margins]) -> Result<Vec<PanelBox>, PlotError> {
         let rows = margins.len().div_ceil(self.columns);
         let (mut across, mut down) = (Track::new(self.columns), Track::new(rows));
         for (index, margins) in margins.iter().enumerate() {
@@ -59,7 +59,7 @@ impl Grid<'_> {
             let rect = Rect { left, top, width: across.lengths[column], height: down.lengths[row] };
             let (left, right) = (across.before[column], across.after[column]);
             let (top, bottom) = (down.before[row], down.after[row]);
-            Cell { rect, room: Margins { left, right, top, bottom } }
+            PanelBox { rect, room: Margins { left, right, top, bottom } }
         };
         Ok((0..margins.len()).map(cell).collect())
     }

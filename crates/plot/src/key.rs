@@ -6,7 +6,7 @@ use crate::error::PlotError;
 use crate::fill::Fill;
 use crate::frame::Margins;
 use crate::geometry::{Rect, larger, largest};
-use crate::grid::Cell;
+use crate::grid::PanelBox;
 use crate::label::Label;
 use crate::page::units;
 use crate::picture::Panel;
@@ -149,7 +149,7 @@ impl Panel for Key {
         Ok(Margins::default())
     }
 
-    fn draw(&self, page: &Area, cell: &Cell, _: Option<&ColorScale>) -> Result<(), PlotError> {
+    fn draw(&self, page: &Area, cell: &PanelBox, _: Option<&ColorScale>) -> Result<(), PlotError> {
         let rect = cell.rect;
         let fitting = ((rect.height / ENTRY) as usize).max(1);
         let rows = fitting.min(self.entries.len().max(1));

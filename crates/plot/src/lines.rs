@@ -6,7 +6,7 @@ use crate::elements::{Area, Shape, sides};
 use crate::error::PlotError;
 use crate::frame::{Frame, Margins};
 use crate::geometry::{Point, Rect, larger, largest};
-use crate::grid::Cell;
+use crate::grid::PanelBox;
 use crate::label::Label;
 use crate::page::{Pen, units};
 use crate::picture::Panel;
@@ -60,8 +60,8 @@ impl Panel for Lines {
         Ok(Margins { right: larger(margins.right, MARKER_RADIUS), ..margins })
     }
 
-    fn draw(&self, page: &Area, cell: &Cell, _: Option<&ColorScale>) -> Result<(), PlotError> {
-        let Cell { rect, room } = cell;
+    fn draw(&self, page: &Area, cell: &PanelBox, _: Option<&ColorScale>) -> Result<(), PlotError> {
+        let PanelBox { rect, room } = cell;
         let mut chart = self.frame().chart(page, rect, room)?;
         let sides = sides(&chart);
         self.frame().draw(page, &mut chart)?;
@@ -155,7 +155,7 @@ impl Lines {
             return Err(PlotError::room("an inset's box", rect.width, rect.height));
         }
         page.draw(&Rectangle::new(room.corners(), PAPER.filled()))?;
-        self.draw(page, &Cell { rect, room: margins }, None)
+        self.draw(page, &PanelBox { rect, room: margins }, None)
     }
 
     fn note_size(&self) -> f64 {

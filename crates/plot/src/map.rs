@@ -7,7 +7,7 @@ use crate::elements::{Area, Shape, sides};
 use crate::error::PlotError;
 use crate::frame::{Frame, Margins};
 use crate::geometry::{Point, Rect};
-use crate::grid::Cell;
+use crate::grid::PanelBox;
 use crate::label::Label;
 use crate::page::Pen;
 use crate::picture::Panel;
@@ -39,8 +39,8 @@ impl Panel for Map {
         self.frame().margins()
     }
 
-    fn draw(&self, page: &Area, cell: &Cell, scale: Option<&ColorScale>) -> Result<(), PlotError> {
-        let Cell { rect, room } = cell;
+    fn draw(&self, page: &Area, cell: &PanelBox, scale: Option<&ColorScale>) -> Result<(), PlotError> {
+        let PanelBox { rect, room } = cell;
         let scale = scale.ok_or_else(|| PlotError("layout: this panel needs Picture::scale".to_owned()))?;
         let expected = self.columns * self.rows;
         if self.values.len() != expected || expected == 0 {

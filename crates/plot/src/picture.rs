@@ -5,7 +5,7 @@ use crate::elements::Area;
 use crate::error::PlotError;
 use crate::frame::Margins;
 use crate::geometry::{Rect, larger, largest};
-use crate::grid::{Cell, Grid};
+use crate::grid::{Grid, PanelBox};
 use crate::key::Key;
 use crate::page::{Page, units};
 use crate::pixels::Pixels;
@@ -30,7 +30,7 @@ pub trait Panel {
     #[doc(hidden)]
     fn margins(&self) -> Result<Margins, PlotError>;
     #[doc(hidden)]
-    fn draw(&self, page: &Area, cell: &Cell, scale: Option<&ColorScale>) -> Result<(), PlotError>;
+    fn draw(&self, page: &Area, cell: &PanelBox, scale: Option<&ColorScale>) -> Result<(), PlotError>;
     /// Whether the panel counts among the lettered ones.
     #[doc(hidden)]
     fn is_lettered(&self) -> bool {
@@ -164,7 +164,7 @@ impl Picture {
         self.panels.iter().map(margins).collect()
     }
 
-    fn cells(&self) -> Result<Vec<Cell>, PlotError> {
+    fn cells(&self) -> Result<Vec<PanelBox>, PlotError> {
         if self.panels.is_empty() {
             return Err(PlotError("layout: a picture needs at least one panel".to_owned()));
         }

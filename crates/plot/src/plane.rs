@@ -8,7 +8,7 @@ use crate::error::PlotError;
 use crate::fill::{Fill, in_units};
 use crate::frame::{Frame, Margins};
 use crate::geometry::{Point, Rect};
-use crate::grid::Cell;
+use crate::grid::PanelBox;
 use crate::label::Label;
 use crate::map::is_dark;
 use crate::page::{Pen, units};
@@ -170,8 +170,8 @@ impl Panel for Plane {
         self.frame().margins()
     }
 
-    fn draw(&self, page: &Area, cell: &Cell, _: Option<&ColorScale>) -> Result<(), PlotError> {
-        let Cell { rect, room } = cell;
+    fn draw(&self, page: &Area, cell: &PanelBox, _: Option<&ColorScale>) -> Result<(), PlotError> {
+        let PanelBox { rect, room } = cell;
         self.check()?;
         let mut chart = self.frame().chart(page, rect, room)?;
         page.draw(&Shape::image(self.raster(), rect.corners()))?;

@@ -7,7 +7,7 @@ use crate::error::PlotError;
 use crate::field::Snapshot;
 use crate::frame::{Frame, Margins};
 use crate::geometry::{Point, Rect, larger};
-use crate::grid::Cell;
+use crate::grid::PanelBox;
 use crate::page::Pen;
 use crate::picture::Panel;
 use crate::raster::Raster;
@@ -43,8 +43,8 @@ impl Panel for SpaceTime {
         self.frame().margins()
     }
 
-    fn draw(&self, page: &Area, cell: &Cell, scale: Option<&ColorScale>) -> Result<(), PlotError> {
-        let Cell { rect, room } = cell;
+    fn draw(&self, page: &Area, cell: &PanelBox, scale: Option<&ColorScale>) -> Result<(), PlotError> {
+        let PanelBox { rect, room } = cell;
         let scale = scale.ok_or_else(|| PlotError("layout: this panel needs Picture::scale".to_owned()))?;
         self.check()?;
         let mut chart = self.frame().chart(page, rect, room)?;

@@ -13,7 +13,7 @@ use jam::uniform;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use scene::summary::{self, Ended};
+use scene::summary::{self, FinishedRun};
 use scene::{tables, uniform::stability};
 
 /// Runs a scene: `std` (t, std), `trajectories` (t, n, x, v) or None, `x` and `v` of the final state, all flat, and the
@@ -46,7 +46,7 @@ pub fn simulate<'py>(
             Ok(outcome) => (outcome, None),
             Err(broken) => (*broken.outcome.clone(), Some(broken)),
         };
-        let mut ended = Ended { outcome, broken, seconds: clock.elapsed().as_secs_f64(), resumed_steps: 0, propagated };
+        let mut ended = FinishedRun { outcome, broken, seconds: clock.elapsed().as_secs_f64(), resumed_steps: 0, propagated };
         let mut again = watch.judging;
         watch.judging = Judging::No;
         watch.turn_to(ended.outcome.statistics.time, share, 1.0 - share);
@@ -55,7 +55,7 @@ pub fn simulate<'py>(
         (ended, stability(&scene), errors)
     })?;
     let summary = summary::of_run(&scene, &ended, flow.as_ref(), errors.as_ref()).to_string();
-    let Ended { outcome, broken, .. } = ended;
+    let FinishedRun { outcome, broken, .. } = ended;
     let made = PyDict::new(py);
     made.set_item("title", chosen.title)?;
     made.set_item("summary", summary)?;

@@ -2,7 +2,7 @@
 
 use crate::given::{Given, choose, scene_error};
 use crate::watch::{Watch, detached};
-use ::sweep::{Cell, DecidedBy, NUMBERS, Pool, Sweep, tiles};
+use ::sweep::{CellOutcome, DecidedBy, NUMBERS, Pool, Sweep, tiles};
 use files::reader::SceneError;
 use files::scene_file::Kind;
 use jam::outcome::Class;
@@ -38,8 +38,8 @@ pub fn sweep<'py>(
     made.set_item("classes", Class::ALL.map(Class::name))?;
     made.set_item("words", Class::ALL.map(Class::in_words))?;
     made.set_item("deciders", DecidedBy::ALL.map(DecidedBy::name))?;
-    let index_of = |cell: &Cell| Class::ALL.iter().position(|class| *class == cell.class).map_or(-1, |i| i as i8);
-    let decider_of = |cell: &Cell| DecidedBy::ALL.iter().position(|by| *by == cell.decided_by).map_or(-1, |i| i as i8);
+    let index_of = |cell: &CellOutcome| Class::ALL.iter().position(|class| *class == cell.class).map_or(-1, |i| i as i8);
+    let decider_of = |cell: &CellOutcome| DecidedBy::ALL.iter().position(|by| *by == cell.decided_by).map_or(-1, |i| i as i8);
     made.set_item("outcome", PyArray1::from_iter(py, cells.iter().map(index_of)))?;
     made.set_item("decided_by", PyArray1::from_iter(py, cells.iter().map(decider_of)))?;
     made.set_item("backward_flow", PyArray1::from_iter(py, cells.iter().map(|cell| cell.backward_flow)))?;
@@ -55,7 +55,7 @@ pub fn sweep<'py>(
 const PAUSE: Duration = Duration::from_millis(20);
 
 /// All cells, column by column. This thread looks after those that compute.
-fn compute(sweep: &Sweep, jobs: Option<NonZero<usize>>, watch: &Watch<'_>) -> Result<Vec<Cell>, String> {
+fn compute(sweep: &Sweep, jobs: Option<NonZero<usize>>, watch: &Watch<'_>) -> Result<Vec<CellOutcome>, String> {
     let jobs = jobs.map(NonZero::get).or_else(|| std::thread::available_parallelism().ok().map(NonZero::get));
     let pool = Pool::new(sweep, tiles::tiles(sweep), Vec::new());
     let found = std::thread::scope(|scope| {
@@ -77,5 +77,5 @@ fn compute(sweep: &Sweep, jobs: Option<NonZero<usize>>, watch: &Watch<'_>) -> Re
     for ([i, j], cell) in found.unwrap_or_default() {
         cells[i * sweep.y.cells + j] = Some(cell);
     }
-    cells.into_iter().collect::<Option<Vec<Cell>>>().ok_or_else(|| "cells are missing".to_owned())
+    cells.into_iter().collect::<Option<Vec<CellOutcome>>>().ok_or_else(|| "cells are missing".to_owned())
 }

@@ -1,5 +1,6 @@
 //! Stability over two parameters: `[map]` with `[law]` and `[uniform]`.
 
+use crate::axis::Axis;
 use crate::law;
 use files::reader::{FINITE, POSITIVE, Reader, SceneError, Section};
 use files::table::{Table, push_number};
@@ -8,26 +9,6 @@ use jam::laws::Model;
 use jam::precise::Precise;
 use jam::stability::{Linear, Waves};
 use jam::uniform::{self, steady_speed};
-
-/// One axis: cells of equal width, values at their centres.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Axis {
-    /// The parameter it runs over.
-    pub parameter: String,
-    /// Its lower end.
-    pub from: f64,
-    /// Its upper end.
-    pub to: f64,
-    /// The number of cells.
-    pub cells: usize,
-}
-
-impl Axis {
-    /// The centre of cell `i`.
-    pub fn centre(&self, i: usize) -> f64 {
-        self.from + (self.to - self.from) * ((i as f64 + 0.5) / self.cells as f64)
-    }
-}
 
 /// Which number a map shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -189,20 +170,13 @@ fn uniform(file: &str, section: &Section) -> Result<Point, SceneError> {
 
 fn axis(file: &str, name: &'static str, section: &Section) -> Result<Axis, SceneError> {
     let mut reader = Reader::new(file, name, section);
-    let axis = Axis {
-        parameter: reader.text("parameter", "a parameter of the law, d_gap, headway or k")?.to_owned(),
-        from: reader.number("from", FINITE)?,
-        to: reader.number("to", FINITE)?,
-        cells: reader.count("cells", 1, 2_000)?,
-    };
-    if axis.to <= axis.from {
-        return Err(reader.complaint("to", &format!("must be above from = {:?}", axis.from)));
-    }
+    let axis = Axis::read(&mut reader, "a parameter of the law, d_gap, headway or k", 2_000)?;
     reader.finish()?;
     Ok(axis)
 }
 
-/// Which key of this axis does not fit the law, and why, if one does not. Of a formula every name is a parameter, if the formulas use it.
+/// Which key of this axis does not fit the law, and why, if one does not. Of a formula every name is a parameter, if the
+/// formulas use it.
 fn unfit(law: &Section, axis: &Axis) -> Option<(&'static str, String)> {
     let law = law::built_in(law)?;
     let (kind, own) = (law.name(), law.parameters());
@@ -383,8 +357,8 @@ fn stability(model: &Model, point: &Point) -> Result<(f64, Linear), String> {
     })
 }
 
-/// The exact criterion, normalised like the paper's, through the coefficients of the linearised law: `phi / (1 + 2 beta) - kappa - 1/2`, which for the
-/// logarithmic law the paper divides once more by `1 + 2 beta`.
+/// The exact criterion, normalised like the paper's, through the coefficients of the linearised law: `phi / (1 + 2 beta)
+/// - kappa - 1/2`, which for the logarithmic law the paper divides once more by `1 + 2 beta`.
 fn criterion_of(model: &Model, linear: &Linear) -> f64 {
     let Linear { phi, beta, kappa } = *linear;
     let widened = 1.0 + 2.0 * beta;

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 /// A run that has ended.
 #[derive(Debug)]
-pub struct Ended {
+pub struct FinishedRun {
     /// What it gave; of a run that broke, until then.
     pub outcome: Outcome,
     /// Why it went no further, if it broke.
@@ -24,7 +24,7 @@ pub struct Ended {
     pub propagated: Option<Propagated>,
 }
 
-impl Ended {
+impl FinishedRun {
     /// The errors of its numbers. Samples that the check does not confirm are left out, and the run then counts as one that
     /// broke there. `onlooker` sees a second run, if there is one, and `again` the run up to where it is confirmed.
     pub fn checked(&mut self, scene: &Scene, onlooker: &mut dyn RunObserver, again: &mut dyn RunObserver) -> Errors {
@@ -39,8 +39,8 @@ impl Ended {
 }
 
 /// The contents of `summary.json` for a run.
-pub fn of_run(scene: &Scene, ended: &Ended, flow: Option<&Stability>, errors: Option<&Errors>) -> Value {
-    let Ended { outcome, broken, seconds, resumed_steps, .. } = ended;
+pub fn of_run(scene: &Scene, ended: &FinishedRun, flow: Option<&Stability>, errors: Option<&Errors>) -> Value {
+    let FinishedRun { outcome, broken, seconds, resumed_steps, .. } = ended;
     let control = match scene.control {
         Control::Fixed { step } => json!({ "dt": step }),
         Control::Adaptive { tolerance } => json!({ "tolerance": tolerance }),

@@ -12,7 +12,8 @@ pub struct Stability {
     pub margin: f64,
     /// The same over the waves of the ring.
     pub margin_on_ring: f64,
-    /// The bands of wave numbers that grow, in ascending order, each from its least to its largest; 0 is the limit of long waves.
+    /// The bands of wave numbers that grow, in ascending order, each from its least to its largest; 0 is the limit of
+    /// long waves.
     pub growing: Vec<(f64, f64)>,
     /// The growth rate of the fastest wave of the ring.
     pub growth_rate: f64,

@@ -1,6 +1,6 @@
 //! Distances of the published curves of figures 12 (left) and 13 from runs with fixed steps and with other parameters.
 
-use crate::hard::rows::{Cell, Rows, row};
+use crate::hard::rows::{CellValue, Rows, row};
 use crate::parameters::jammed::{Run, Start, snapshots};
 use figures::failure::Failure;
 use files::table::Table;
@@ -109,7 +109,7 @@ pub struct Published {
 ///
 /// # Errors
 /// The run lacks a sample.
-pub fn scheme(name: &str, step: Option<f64>, run: &Sampled, published: &Published) -> Result<Vec<Cell>, Failure> {
+pub fn scheme(name: &str, step: Option<f64>, run: &Sampled, published: &Published) -> Result<Vec<CellValue>, Failure> {
     let [std_largest, std_rms, std_median] = sizes(&run.spread_differences(&published.spread)?);
     let [speed_largest, speed_rms, speed_median] = sizes(&run.speed_differences(&published.speeds)?);
     Ok(row![name, step, std_largest, std_rms, std_median, speed_largest, speed_rms, speed_median])

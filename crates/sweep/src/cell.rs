@@ -60,7 +60,7 @@ impl DecidedBy {
 
 /// The outcome of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cell {
+pub struct CellOutcome {
     /// The outcome.
     pub class: Class,
     /// Whether the uniform flow walks backwards.
@@ -72,7 +72,7 @@ pub struct Cell {
     pub numbers: [f64; 6],
 }
 
-/// The columns of [`Cell::numbers`].
+/// The columns of [`CellOutcome::numbers`].
 pub const NUMBERS: [&str; 6] = ["t_decided", "least_gap", "least_speed", "std", "wave_speed", "error"];
 
 /// The second run of a cell has so much larger a tolerance, or steps so much longer: its error is far above that of the
@@ -108,7 +108,7 @@ impl Sweep {
         let axes = [(self.x.parameter.as_str(), x), (self.y.parameter.as_str(), y)];
         let value = |name: &str| axes.iter().find(|(parameter, _)| *parameter == name).map(|(_, value)| *value);
         let mut model = self.model.clone();
-        for (parameter, value) in axes.iter().filter(|(name, _)| !super::axis::OF_THE_RUN.contains(name)) {
+        for (parameter, value) in axes.iter().filter(|(name, _)| !super::read::OF_THE_RUN.contains(name)) {
             model = model.with(parameter, *value)?;
         }
         let mut ring = self.ring;
@@ -192,12 +192,12 @@ impl Sweep {
     ///
     /// # Errors
     /// As [`Sweep::place`].
-    pub fn compute(&self, cell: [usize; 2]) -> Result<Cell, String> {
+    pub fn compute(&self, cell: [usize; 2]) -> Result<CellOutcome, String> {
         let scene = match self.scene(cell)? {
             Ok(scene) => scene,
             Err(class) => {
                 let numbers = [f64::NAN; 6];
-                return Ok(Cell { class, backward_flow: false, decided_by: DecidedBy::Criterion, numbers });
+                return Ok(CellOutcome { class, backward_flow: false, decided_by: DecidedBy::Criterion, numbers });
             }
         };
         let verdict = judged(&scene);
@@ -216,7 +216,7 @@ impl Sweep {
         ];
         let decided_by = if class == Class::Decays { DecidedBy::Both } else { DecidedBy::Run };
         let numbers = numbers.map(|number| if number.is_finite() { number } else { f64::NAN });
-        Ok(Cell { class, backward_flow: verdict.backward_flow, decided_by, numbers })
+        Ok(CellOutcome { class, backward_flow: verdict.backward_flow, decided_by, numbers })
     }
 }
 

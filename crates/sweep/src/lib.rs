@@ -3,17 +3,16 @@
 //! Each cell is a separate scene. Its result depends only on the scene file and the cell, so cells can be computed in
 //! any order and on any machine. [`tiles`] decides which cells are computed.
 
-mod axis;
 mod cell;
 mod pool;
 mod read;
 pub mod table;
 pub mod tiles;
 
-pub use axis::Axis;
-pub use cell::{Cell, DecidedBy, Exact, NUMBERS, Precheck};
+pub use cell::{CellOutcome, DecidedBy, Exact, NUMBERS, Precheck};
 pub use pool::Pool;
 pub use read::read;
+pub use scene::axis::Axis;
 
 use jam::laws::Model;
 use jam::ring::{Ring, Start};

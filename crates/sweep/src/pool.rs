@@ -1,7 +1,7 @@
 //! Computes several tiles at a time, each cell once.
 
 use super::tiles::{self, Found, Tile};
-use super::{Cell, Sweep};
+use super::{CellOutcome, Sweep};
 use std::collections::BTreeMap;
 use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -13,7 +13,7 @@ pub struct Pool<'a> {
     sweep: &'a Sweep,
     tiles: Vec<Tile>,
     /// Every cell that was run: neighbouring tiles share their borders.
-    run: Mutex<BTreeMap<[usize; 2], Cell>>,
+    run: Mutex<BTreeMap<[usize; 2], CellOutcome>>,
     /// The tile to be taken next.
     next: AtomicUsize,
     done: AtomicUsize,
@@ -98,7 +98,7 @@ impl<'a> Pool<'a> {
         &self,
         cell: [usize; 2],
         hear: &impl Fn(&Found) -> Result<(), E>,
-    ) -> Result<Cell, Halt<E>> {
+    ) -> Result<CellOutcome, Halt<E>> {
         if self.is_over.load(Ordering::Relaxed) {
             return Err(Halt::Stopped);
         }

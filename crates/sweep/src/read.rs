@@ -1,11 +1,11 @@
 //! Reads a sweep from the tables of a scene.
 
-use super::axis::{Axis, OF_THE_RUN};
 use super::{Settings, Sweep};
 use files::reader::{Entry, FINITE, POSITIVE, Reader, SceneError, Section, Value};
 use jam::laws::Model;
 use jam::ring::{Ring, Start};
 use ode::{Control, Method};
+use scene::axis::Axis;
 use scene::law;
 use scene::run::{self, AtOverlap, FORMS};
 
@@ -24,7 +24,7 @@ pub fn read(file: &str, tables: &Section) -> Result<Sweep, SceneError> {
         sweep.one_of("value", &[("outcome", ())])?;
     }
     let [x_section, y_section] = [sweep.section("x")?, sweep.section("y")?];
-    let (x, y) = (Axis::read(file, "sweep.x", x_section)?, Axis::read(file, "sweep.y", y_section)?);
+    let (x, y) = (axis(file, "sweep.x", x_section)?, axis(file, "sweep.y", y_section)?);
     let refine = !sweep.has("refine") || sweep.flag("refine")?;
     sweep.finish()?;
     if x.cells.saturating_mul(y.cells) > MOST_CELLS {
@@ -78,6 +78,26 @@ pub fn read(file: &str, tables: &Section) -> Result<Sweep, SceneError> {
     held.section("sweep")?;
     held.finish()?;
     Ok(Sweep { x, y, refine, model, ring, gap, start, speed, settings })
+}
+
+/// Axes that are no parameters of a law: the shift of pedestrian 0; headway and effective gap of the uniform flow, with the
+/// number of pedestrians kept; that number, with the headway kept.
+pub(super) const OF_THE_RUN: [&str; 4] = ["shift", "headway", "d_gap", "pedestrians"];
+
+fn axis(file: &str, name: &'static str, section: &Section) -> Result<Axis, SceneError> {
+    let mut reader = Reader::new(file, name, section);
+    let parameters = "a parameter of the law, shift, headway, d_gap or pedestrians";
+    let mut axis = Axis::read(&mut reader, parameters, 20_000)?;
+    axis.is_log = reader.has("scale") && reader.one_of("scale", &[("linear", false), ("log", true)])?;
+    axis.is_whole = axis.parameter == "pedestrians";
+    if axis.is_log && axis.from <= 0.0 {
+        return Err(reader.complaint("from", "must be a number > 0.0 where scale = \"log\""));
+    }
+    if axis.is_whole && axis.from < 2.0 {
+        return Err(reader.complaint("from", "must be a number >= 2.0"));
+    }
+    reader.finish()?;
+    Ok(axis)
 }
 
 /// The effective gap of the uniform flow, where `[uniform]` gives it instead of the ring's length, which is arbitrary

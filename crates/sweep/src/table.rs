@@ -1,7 +1,7 @@
 //! Cells as lines of text: in shards, and in the table of a whole plane.
 
 use super::cell::NUMBERS;
-use super::{Cell, DecidedBy, Sweep};
+use super::{CellOutcome, DecidedBy, Sweep};
 use files::table::push_number;
 use jam::outcome::Class;
 
@@ -15,14 +15,14 @@ fn header(axes: [&str; 2]) -> String {
 }
 
 /// The line of a cell in a shard, without its end.
-pub fn shard_line([i, j]: [usize; 2], cell: &Cell) -> String {
+pub fn shard_line([i, j]: [usize; 2], cell: &CellOutcome) -> String {
     let mut line = format!("{i},{j}");
     push_cell(&mut line, cell);
     line
 }
 
 /// A line of a shard; `None` for anything else.
-pub fn parse(line: &str) -> Option<([usize; 2], Cell)> {
+pub fn parse(line: &str) -> Option<([usize; 2], CellOutcome)> {
     let mut words = line.split(',');
     let index = |word: Option<&str>| word?.parse::<usize>().ok();
     let indices = [index(words.next())?, index(words.next())?];
@@ -30,7 +30,7 @@ pub fn parse(line: &str) -> Option<([usize; 2], Cell)> {
 }
 
 /// The content of a line after its first two words.
-fn parse_cell<'a>(mut words: impl Iterator<Item = &'a str>) -> Option<Cell> {
+fn parse_cell<'a>(mut words: impl Iterator<Item = &'a str>) -> Option<CellOutcome> {
     let class = Class::of_name(words.next()?)?;
     let backward_flow = match words.next()? {
         "0" => false,
@@ -46,11 +46,11 @@ fn parse_cell<'a>(mut words: impl Iterator<Item = &'a str>) -> Option<Cell> {
             word => *number = word.parse().ok().filter(|number: &f64| number.is_finite())?,
         }
     }
-    words.next().is_none().then_some(Cell { class, backward_flow, decided_by, numbers })
+    words.next().is_none().then_some(CellOutcome { class, backward_flow, decided_by, numbers })
 }
 
 /// The table of a whole plane: a row for each cell, column by column of the plane.
-pub fn table(sweep: &Sweep, cells: &[Cell]) -> String {
+pub fn table(sweep: &Sweep, cells: &[CellOutcome]) -> String {
     let mut text = header([&sweep.x.parameter, &sweep.y.parameter]) + "\n";
     for (index, cell) in cells.iter().enumerate() {
         let [x, y] = sweep.at([index / sweep.y.cells, index % sweep.y.cells]);
@@ -67,7 +67,7 @@ pub fn table(sweep: &Sweep, cells: &[Cell]) -> String {
 ///
 /// # Errors
 /// The line that is not one of this plane, and what it must be.
-pub fn cells(sweep: &Sweep, text: &str) -> Result<Vec<Cell>, String> {
+pub fn cells(sweep: &Sweep, text: &str) -> Result<Vec<CellOutcome>, String> {
     let mut lines = text.lines();
     let expected = header([&sweep.x.parameter, &sweep.y.parameter]);
     let first = lines.next().unwrap_or("");
@@ -88,7 +88,7 @@ pub fn cells(sweep: &Sweep, text: &str) -> Result<Vec<Cell>, String> {
         }
         parse_cell(words).ok_or_else(|| format!("{}: {line:?}: not a cell; must have {expected}", index + 2))
     });
-    let cells = cells.collect::<Result<Vec<Cell>, String>>()?;
+    let cells = cells.collect::<Result<Vec<CellOutcome>, String>>()?;
     if cells.len() == sweep.cells() {
         Ok(cells)
     } else {
@@ -96,7 +96,7 @@ pub fn cells(sweep: &Sweep, text: &str) -> Result<Vec<Cell>, String> {
     }
 }
 
-fn push_cell(line: &mut String, cell: &Cell) {
+fn push_cell(line: &mut String, cell: &CellOutcome) {
     let backward = if cell.backward_flow { "1" } else { "0" };
     for word in [cell.class.name(), backward, cell.decided_by.name()] {
         line.push(',');
@@ -112,12 +112,13 @@ fn push_cell(line: &mut String, cell: &Cell) {
 
 #[cfg(test)]
 mod tests {
-    use super::{Cell, Class, DecidedBy, parse, shard_line};
+    use super::{CellOutcome, Class, DecidedBy, parse, shard_line};
 
     #[test]
     fn a_line_is_read_as_it_was_written_and_no_part_of_it_is() {
         let numbers = [12.5, 0.1, -1e-300, f64::NAN, f64::NAN, 3e-9];
-        let cell = Cell { class: Class::WavesBackwards, backward_flow: true, decided_by: DecidedBy::Run, numbers };
+        let cell =
+            CellOutcome { class: Class::WavesBackwards, backward_flow: true, decided_by: DecidedBy::Run, numbers };
         let line = shard_line([3, 14], &cell);
         let (indices, read) = parse(&line).expect("a cell");
         assert_eq!((indices, shard_line(indices, &read)), ([3, 14], line.clone()));

@@ -4,7 +4,7 @@
 //! shows several outcomes, or a cell within lies beside the line of stability (or beside another line that is known without
 //! a run). What lies within a border of one outcome gets it from there.
 
-use super::{Cell, DecidedBy, Precheck, Sweep};
+use super::{CellOutcome, DecidedBy, Precheck, Sweep};
 use jam::outcome::Class;
 
 /// Distance of the borders of tiles, in cells.
@@ -20,7 +20,7 @@ pub struct Tile {
 }
 
 /// A cell with its outcome.
-pub type Found = ([usize; 2], Cell);
+pub type Found = ([usize; 2], CellOutcome);
 
 /// The tiles of a plane of the given size, column by column.
 pub fn tiles(sweep: &Sweep) -> Vec<Tile> {
@@ -84,7 +84,7 @@ struct Work<'a, F> {
     compute: &'a mut F,
     /// Cells beside a line that is known without a run.
     beside: Vec<bool>,
-    found: Vec<Option<Cell>>,
+    found: Vec<Option<CellOutcome>>,
 }
 
 /// Computes a tile with what computes a cell, and fills in the rest; all its cells, in order.
@@ -94,7 +94,7 @@ struct Work<'a, F> {
 pub fn compute<E: From<String>>(
     sweep: &Sweep,
     tile: Tile,
-    compute: &mut impl FnMut([usize; 2]) -> Result<Cell, E>,
+    compute: &mut impl FnMut([usize; 2]) -> Result<CellOutcome, E>,
 ) -> Result<Vec<Found>, E> {
     let places = Places::new(sweep, tile)?;
     let beside = tile.indices().map(|cell| places.is_beside(cell)).collect();
@@ -125,7 +125,7 @@ pub fn least(sweep: &Sweep, tile: Tile) -> Result<Vec<[usize; 2]>, String> {
     Ok(cells)
 }
 
-impl<E, F: FnMut([usize; 2]) -> Result<Cell, E>> Work<'_, F> {
+impl<E, F: FnMut([usize; 2]) -> Result<CellOutcome, E>> Work<'_, F> {
     fn index(&self, cell: [usize; 2]) -> usize {
         let height = self.tile.high[1] - self.tile.low[1] + 1;
         (cell[0] - self.tile.low[0]) * height + (cell[1] - self.tile.low[1])
@@ -167,7 +167,7 @@ impl<E, F: FnMut([usize; 2]) -> Result<Cell, E>> Work<'_, F> {
         let cells = self.tile.indices().zip(self.found);
         cells
             .map(|(cell, found)| {
-                let found = found.unwrap_or_else(|| Cell {
+                let found = found.unwrap_or_else(|| CellOutcome {
                     class: last,
                     backward_flow: places.of(cell).backward_flow,
                     decided_by: DecidedBy::Neighbours,

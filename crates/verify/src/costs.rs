@@ -6,7 +6,7 @@ use checkout::failure::Failure;
 use checkout::figure::{self, Figure};
 use checkout::paths::Paths;
 use checkout::print;
-use claims::source::Sources;
+use claims::source::LedgerFiles;
 use claims::tables::figure_of;
 use std::collections::BTreeSet;
 
@@ -78,7 +78,7 @@ pub fn markdown(paths: &Paths, all: &[Figure]) -> Result<String, Failure> {
 /// nothing.
 fn claims(paths: &Paths, costs: &[(&Figure, Cost)]) -> Result<String, Failure> {
     let mut rows = String::new();
-    for claim in Sources::read(paths)?.claims {
+    for claim in LedgerFiles::read(paths)?.claims {
         let mut tables = BTreeSet::new();
         for (place, _, measure) in claim.all_tests() {
             tables.extend(measure.tables(&place)?);

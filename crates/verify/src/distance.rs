@@ -7,7 +7,7 @@ use checkout::figure::{self, Figure};
 use checkout::paths::{Paths, Scheme};
 use checkout::print;
 use files::pairs::{KEYS, pairs};
-use files::table::{Cell, Sheet, Table};
+use files::table::{CellValue, MixedTable, Table};
 use std::path::Path;
 
 /// The table of distances, by name.
@@ -48,8 +48,8 @@ pub fn tell(paths: &Paths, as_json: bool) -> Result<(), Failure> {
 }
 
 /// Compares every table that both schemes have, in the order of the figures.
-fn of(paths: &Paths, all: &[Figure]) -> Result<Sheet, Failure> {
-    let mut distances = Sheet::new(&COLUMNS);
+fn of(paths: &Paths, all: &[Figure]) -> Result<MixedTable, Failure> {
+    let mut distances = MixedTable::new(&COLUMNS);
     for figure in all {
         let [accurate, verbatim] = [Scheme::Adaptive, Scheme::Paper].map(|scheme| {
             let paths = paths.with_scheme(scheme);
@@ -61,7 +61,7 @@ fn of(paths: &Paths, all: &[Figure]) -> Result<Sheet, Failure> {
             for column in tables[0].columns.iter().filter(|name| !KEYS.contains(&name.as_str())) {
                 let (Ok(a), Ok(b)) = (tables[0].place(column), tables[1].place(column)) else { continue };
                 let names = [&*figure.id, stem, column];
-                let mut row = names.map(Cell::from).to_vec();
+                let mut row = names.map(CellValue::from).to_vec();
                 row.extend(compare(&tables, (a, b)));
                 row.extend(published(paths, names, &tables)?);
                 distances.push(row);
@@ -77,7 +77,7 @@ fn read(path: &Path) -> Result<Table, Failure> {
 
 /// The number of rows that both have; the largest difference, where it is, and the two values there; the largest
 /// difference as a part of an accurate value other than 0, and where that is. Of equal ones the first.
-fn compare([verbatim, accurate]: &[Table; 2], (a, b): (usize, usize)) -> [Cell; 9] {
+fn compare([verbatim, accurate]: &[Table; 2], (a, b): (usize, usize)) -> [CellValue; 9] {
     let (rows, _) = pairs(verbatim, accurate);
     let (mut absolute, mut relative) = ((0.0, None), (0.0, None));
     for (_, mine, theirs) in &rows {
@@ -90,7 +90,7 @@ fn compare([verbatim, accurate]: &[Table; 2], (a, b): (usize, usize)) -> [Cell; 
         }
     }
     let key = |name: &str, at: Option<(&[f64], &[f64])>| {
-        Cell::from(at.zip(verbatim.place(name).ok()).map(|((mine, _), place)| mine[place]))
+        CellValue::from(at.zip(verbatim.place(name).ok()).map(|((mine, _), place)| mine[place]))
     };
     let (mine, theirs) = absolute.1.map_or((0.0, 0.0), |(mine, theirs)| (mine[a], theirs[b]));
     [
@@ -107,23 +107,27 @@ fn compare([verbatim, accurate]: &[Table; 2], (a, b): (usize, usize)) -> [Cell; 
 }
 
 /// The number of published points that both schemes have a value at, and how far they are at most; nothing without points.
-fn published(paths: &Paths, [figure, table, column]: [&str; 3], tables: &[Table; 2]) -> Result<[Cell; 3], Failure> {
+fn published(
+    paths: &Paths,
+    [figure, table, column]: [&str; 3],
+    tables: &[Table; 2],
+) -> Result<[CellValue; 3], Failure> {
     let is_meant = |curve: &&Curve| curve.table == format!("{figure}/{table}") && curve.columns[1] == column;
     let Some(curve) = CURVES.iter().find(is_meant).filter(|curve| curve.is_there(paths)) else {
-        return Ok([Cell::Empty, Cell::Empty, Cell::Empty]);
+        return Ok([CellValue::Empty, CellValue::Empty, CellValue::Empty]);
     };
     let (verbatim, accurate) = (curve.beside(paths, &tables[0])?, curve.beside(paths, &tables[1])?);
     Ok([verbatim.x.len().into(), verbatim.largest().into(), accurate.largest().into()])
 }
 
 /// The distances for a reader.
-fn to_text(distances: &Sheet) -> String {
+fn to_text(distances: &MixedTable) -> String {
     let head = ["the paper's scheme", "column", "differs by", "at", "relative", "at", "from published", "accurate run"];
     let mut rows = vec![print::row(&head)];
     for row in distances.rows() {
         let number = |at: usize| row[at].number().map_or(String::new(), |number| format!("{number:.1e}"));
         let place = |at: usize| {
-            let keys = ["t", "n"].iter().zip(&row[at..]).filter(|(_, cell)| **cell != Cell::Empty);
+            let keys = ["t", "n"].iter().zip(&row[at..]).filter(|(_, cell)| **cell != CellValue::Empty);
             keys.map(|(name, cell)| format!("{name} = {cell}")).collect::<Vec<_>>().join(", ")
         };
         let (table, column) = (format!("{}/{}", row[0], row[1]), row[2].to_string());

@@ -1,7 +1,7 @@
 //! Distances between two tables.
 
 use files::pairs::{KEYS, Pair, pairs};
-use files::table::{Cell, Sheet};
+use files::table::{CellValue, MixedTable};
 use serde::Serialize;
 
 /// A distance and where it was found.
@@ -70,8 +70,8 @@ const CLEARLY: f64 = 4.0;
 /// # Errors
 /// The tables have other columns; both are named.
 pub fn compare(
-    committed: &Sheet,
-    fresh: &Sheet,
+    committed: &MixedTable,
+    fresh: &MixedTable,
     step: usize,
     tolerance: &dyn Fn(&str) -> Tolerance,
 ) -> Result<Distance, String> {
@@ -122,24 +122,24 @@ pub fn compare(
 }
 
 /// The part of a column's tolerance that is the same for all rows, and the part relative to a value.
-fn constant(committed: &Sheet, column: &str, tolerance: &dyn Fn(&str) -> Tolerance) -> (f64, f64) {
+fn constant(committed: &MixedTable, column: &str, tolerance: &dyn Fn(&str) -> Tolerance) -> (f64, f64) {
     let Tolerance { absolute, relative, of_scale } = tolerance(column);
     let values = committed.column(column).unwrap_or_default();
-    let scale = values.iter().filter_map(Cell::number).map(f64::abs).max_by(f64::total_cmp).unwrap_or(0.0);
+    let scale = values.iter().filter_map(CellValue::number).map(f64::abs).max_by(f64::total_cmp).unwrap_or(0.0);
     (absolute + of_scale * scale, relative)
 }
 
 /// The cells that name a row.
-fn place(table: &Sheet, row: &[Cell]) -> String {
+fn place(table: &MixedTable, row: &[CellValue]) -> String {
     let named = table.columns.iter().zip(row).filter(|(name, _)| KEYS.contains(&name.as_str()));
     named.map(|(name, value)| format!("{name} = {value}")).collect::<Vec<_>>().join(", ")
 }
 
-fn course(committed: &Sheet, pairs: &[Pair<'_, Cell>], column: &str) -> Option<Course> {
+fn course(committed: &MixedTable, pairs: &[Pair<'_, CellValue>], column: &str) -> Option<Course> {
     let index = |name: &str| committed.columns.iter().position(|other| other == name);
     let (t, value) = (index("t")?, index(column)?);
-    let apart = |(_, a, b): &Pair<'_, Cell>| apart(&a[value], &b[value]);
-    let differs = |(_, a, b): &&Pair<'_, Cell>| !same(&a[value], &b[value]);
+    let apart = |(_, a, b): &Pair<'_, CellValue>| apart(&a[value], &b[value]);
+    let differs = |(_, a, b): &&Pair<'_, CellValue>| !same(&a[value], &b[value]);
     let since = pairs.iter().find(differs)?.1[t].number()?;
     let quarter = pairs.len().div_ceil(4).max(1);
     let mut quarters = [0.0; 4];
@@ -171,17 +171,17 @@ pub fn relative(a: f64, b: f64) -> f64 {
 }
 
 /// Whether two cells are the same, to the bit.
-fn same(a: &Cell, b: &Cell) -> bool {
+fn same(a: &CellValue, b: &CellValue) -> bool {
     match (a, b) {
-        (Cell::Number(a), Cell::Number(b)) => a.to_bits() == b.to_bits(),
+        (CellValue::Number(a), CellValue::Number(b)) => a.to_bits() == b.to_bits(),
         _ => a == b,
     }
 }
 
 /// |a - b|; infinite for cells that differ and are not both numbers.
-fn apart(a: &Cell, b: &Cell) -> f64 {
+fn apart(a: &CellValue, b: &CellValue) -> f64 {
     match (a, b) {
-        (Cell::Number(a), Cell::Number(b)) => (a - b).abs(),
+        (CellValue::Number(a), CellValue::Number(b)) => (a - b).abs(),
         _ if a == b => 0.0,
         _ => f64::INFINITY,
     }

@@ -3,7 +3,7 @@
 use checkout::disk;
 use checkout::failure::Failure;
 use checkout::paths::{ACCURACY, Paths};
-use files::table::Sheet;
+use files::table::MixedTable;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -81,12 +81,13 @@ impl Scene {
     /// # Errors
     /// A column is not there, or a line of the first is malformed.
     pub fn parse(name: &str, text: &str, timed: &str) -> Result<Scene, String> {
-        let table = Sheet::parse(text.as_bytes()).map_err(|error| error.to_string())?;
+        let table = MixedTable::parse(text.as_bytes()).map_err(|error| error.to_string())?;
         let place = |column: &str| table.place(column).map_err(|error| error.to_string());
         let (method, control) = (place("method")?, place("control")?);
         let (work, gap, speed) = (place("right_hand_sides")?, place("error_gap")?, place("error_speed")?);
         // none are archived of a scene without the second table
-        let timed = Sheet::parse(timed.as_bytes()).unwrap_or_else(|_| Sheet::new(&["method", "control", "seconds"]));
+        let timed =
+            MixedTable::parse(timed.as_bytes()).unwrap_or_else(|_| MixedTable::new(&["method", "control", "seconds"]));
         let times: Vec<(String, String, Option<f64>)> = timed
             .rows()
             .filter_map(|row| match row {

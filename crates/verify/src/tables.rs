@@ -7,7 +7,7 @@ use checkout::disk;
 use checkout::failure::Failure;
 use checkout::figure::Figure;
 use checkout::paths::Paths;
-use files::table::Sheet;
+use files::table::MixedTable;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What a table was compared with.
@@ -103,7 +103,8 @@ fn compare(
 }
 
 /// Reads two tables with their names.
-fn parse(tables: [(&[u8], &str); 2]) -> Result<[Sheet; 2], String> {
-    let [one, other] = tables.map(|(bytes, which)| Sheet::parse(bytes).map_err(|error| format!("{which}: {error}")));
+fn parse(tables: [(&[u8], &str); 2]) -> Result<[MixedTable; 2], String> {
+    let [one, other] =
+        tables.map(|(bytes, which)| MixedTable::parse(bytes).map_err(|error| format!("{which}: {error}")));
     Ok([one?, other?])
 }

@@ -146,6 +146,57 @@ fn a_pipe_is_no_place_for_a_state() {
     }
 }
 
+/// `simulate` on a copy of the example scene in a folder, with these options; exit code and message.
+fn in_folder(folder: &Path, options: &[&str]) -> (Option<i32>, String) {
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_simulate"));
+    let output = command.current_dir(folder).args(["my.toml", "--t-end", "2", "--no-check"]).args(options).output();
+    let output = output.expect("it starts");
+    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+}
+
+#[test]
+fn no_file_of_the_user_is_overwritten_or_removed() {
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    let folder = scratch.path();
+    let scene = std::fs::read(root().join("scenes/ring.toml")).expect("the example scene");
+    std::fs::write(folder.join("my.toml"), &scene).expect("a scene");
+    std::fs::write(folder.join("precious.csv"), "1,2\n").expect("a table");
+    for (options, words) in [
+        (&["--state", "./my.toml"][..], "my.toml: is the scene"),
+        (&["--checkpoint", "my.toml"], "my.toml: is the scene"),
+        (&["--checkpoint", "precious.csv"], "precious.csv: is no checkpoint"),
+        (&["--checkpoint", "."], "directory"),
+        (&["--state", "end.csv", "--checkpoint", "./end.csv"], "the checkpoint is removed at the end"),
+        (&["--out", ".", "--checkpoint", "std.csv"], "the checkpoint is removed at the end"),
+    ] {
+        let (code, told) = in_folder(folder, options);
+        assert_eq!(code, Some(2), "{options:?}: {told}");
+        assert!(told.contains(words), "{options:?}: {told}");
+        let mut names: Vec<_> =
+            std::fs::read_dir(folder).expect("a folder").map(|e| e.expect("a file").file_name()).collect();
+        names.sort();
+        assert_eq!(names, ["my.toml", "precious.csv"], "{options:?}");
+        assert_eq!(std::fs::read(folder.join("my.toml")).expect("the scene"), scene);
+        assert_eq!(std::fs::read(folder.join("precious.csv")).expect("the table"), b"1,2\n");
+    }
+}
+
+#[test]
+fn what_an_earlier_run_left_in_the_folder_is_named() {
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    let folder = scratch.path();
+    let scene = std::fs::read_to_string(root().join("scenes/ring.toml")).expect("the example scene");
+    std::fs::write(folder.join("my.toml"), &scene).expect("a scene");
+    assert_eq!(in_folder(folder, &["--out", "run"]), (Some(0), String::new()));
+    std::fs::write(folder.join("my.toml"), scene.replace("\"trajectories\"", "\"std\"")).expect("a scene");
+    let (code, told) = in_folder(folder, &["--out", "run"]);
+    assert_eq!(code, Some(0), "{told}");
+    for name in ["trajectories.csv", "trajectories.svg", "trajectories.png"] {
+        assert!(told.contains(&format!("{name}: not of this run")), "{told}");
+    }
+    assert_eq!(told.lines().count(), 3, "{told}");
+}
+
 /// Runs a binary on a scene of its own that is made of these lines; the folder of its tables is `out`.
 fn on_scene(binary: &str, text: &str, out: &Path, arguments: &[&str]) -> Output {
     let folder = tempfile::tempdir().expect("a scratch folder");

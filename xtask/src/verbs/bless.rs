@@ -5,7 +5,7 @@ use crate::cli::BlessArgs;
 use crate::gate;
 use crate::lock::Lock;
 use crate::record::{self, Records};
-use crate::sources::Sources;
+use crate::sources::SourceHashes;
 use checkout::failure::Failure;
 use checkout::figure;
 use checkout::paths::{Paths, Scheme};
@@ -23,7 +23,7 @@ pub fn run(paths: &Paths, arguments: &BlessArgs) -> Result<(), Failure> {
     selected.retain(|figure| paths.scheme == Scheme::Adaptive || figure.runs().next().is_some());
     let _lock = Lock::take(paths)?;
     refuse_modified(paths)?;
-    let sources = Sources::read(paths)?;
+    let sources = SourceHashes::read(paths)?;
     let surveys = record::survey(paths, &selected, &sources, &Records::read(paths)?)?;
     gate::fresh(&surveys)?;
     let whole = arguments.selection.ids.is_empty();

@@ -4,7 +4,7 @@
 use super::judge;
 use crate::cli::ExplainArgs;
 use crate::record::{self, FigureState, Record, Records};
-use crate::sources::Sources;
+use crate::sources::SourceHashes;
 use checkout::failure::Failure;
 use checkout::figure;
 use checkout::paths::Paths;
@@ -29,7 +29,7 @@ pub fn run(paths: &Paths, arguments: &ExplainArgs) -> Result<(), Failure> {
         }
     };
     let records = Records::read(paths)?;
-    let surveys = record::survey(paths, &selected, &Sources::read(paths)?, &records)?;
+    let surveys = record::survey(paths, &selected, &SourceHashes::read(paths)?, &records)?;
     for survey in &surveys {
         let record = records.get(paths, survey.figure);
         if arguments.json {

@@ -9,7 +9,7 @@ use crate::measured;
 use crate::plan::{self, Needs, Node, Task};
 use crate::pool::Outcome;
 use crate::record::{self, FigureState, Record, Records};
-use crate::sources::Sources;
+use crate::sources::SourceHashes;
 use crate::store;
 use crate::work::{self, Ends, NodeOutput};
 use checkout::disk;
@@ -42,7 +42,7 @@ pub fn run(paths: &Paths, arguments: &FiguresArgs) -> Result<(), Failure> {
     }
     let _lock = Lock::take(paths)?;
     work::sweep(paths, &all)?;
-    let sources = Sources::read(paths)?;
+    let sources = SourceHashes::read(paths)?;
     compile::ensure(paths, &all, &sources, &Package::of(&selected))?;
     let mut records = Records::read(paths)?;
     let mut surveys = record::survey(paths, &selected, &sources, &records)?;
@@ -131,7 +131,7 @@ fn measure(
     paths: &Paths,
     all: &[Figure],
     surveys: &[FigureState<'_>],
-    sources: &Sources,
+    sources: &SourceHashes,
     records: &mut Records,
 ) -> Result<(), Failure> {
     let scenes = record::scenes(paths, all, &sources.numeric());
@@ -165,7 +165,7 @@ fn checks_are_stored(paths: &Paths, survey: &FigureState<'_>) -> bool {
 }
 
 fn dry_run(paths: &Paths, all: &[Figure], selected: &[&Figure], arguments: &FiguresArgs) -> Result<(), Failure> {
-    let sources = Sources::read(paths)?;
+    let sources = SourceHashes::read(paths)?;
     let records = Records::read(paths)?;
     let surveys = record::survey(paths, selected, &sources, &records)?;
     let nodes = plan::make(paths, &surveys, &needs(paths, &surveys, &records, arguments), arguments.force)?;

@@ -3,7 +3,7 @@
 use crate::cli::ForwardArgs;
 use crate::compile::{self, FIGURES, PLANES};
 use crate::lock::Lock;
-use crate::sources::Sources;
+use crate::sources::SourceHashes;
 use checkout::failure::Failure;
 use checkout::paths::Paths;
 use checkout::process;
@@ -30,7 +30,7 @@ pub fn sweep(paths: &Paths, arguments: &ForwardArgs) -> Result<(), Failure> {
     let program = {
         let _lock = Lock::take(paths)?;
         compile::tools(paths, PLANES)?;
-        Sources::read(paths)?.sweep()
+        SourceHashes::read(paths)?.sweep()
     };
     let mut command = Command::new(paths.binary("sweep"));
     process::run_shown(command.args(&arguments.arguments).arg(format!("--program={program}")))

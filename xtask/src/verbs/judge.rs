@@ -2,7 +2,7 @@
 
 use crate::compile;
 use crate::record::{self, FigureState};
-use crate::sources::Sources;
+use crate::sources::SourceHashes;
 use checkout::disk;
 use checkout::failure::Failure;
 use checkout::figure::Figure;
@@ -49,7 +49,7 @@ pub fn request(paths: &Paths, request: &Request) -> Result<PathBuf, Failure> {
 }
 
 /// A request about these figures; everything else is as without figures picked.
-pub fn about(made: &Paths, all: &[Figure], sources: &Sources, surveys: &[FigureState<'_>]) -> Request {
+pub fn about(made: &Paths, all: &[Figure], sources: &SourceHashes, surveys: &[FigureState<'_>]) -> Request {
     let entry = |one: &FigureState<'_>| Entry {
         id: one.figure.id.clone(),
         runs: one.runs.clone(),

@@ -2,7 +2,7 @@
 
 use crate::cli::StatusArgs;
 use crate::record::{self, FigureState, Records};
-use crate::sources::Sources;
+use crate::sources::SourceHashes;
 use checkout::failure::Failure;
 use checkout::figure;
 use checkout::paths::Paths;
@@ -19,7 +19,7 @@ const SHOWN: usize = 3;
 pub fn run(paths: &Paths, arguments: &StatusArgs) -> Result<(), Failure> {
     let all = figure::discover(paths)?;
     let selected = figure::select(&all, &arguments.selection.ids, arguments.selection.all)?;
-    let surveys = record::survey(paths, &selected, &Sources::read(paths)?, &Records::read(paths)?)?;
+    let surveys = record::survey(paths, &selected, &SourceHashes::read(paths)?, &Records::read(paths)?)?;
     if arguments.json {
         let figures: Vec<Value> = surveys.iter().map(to_json).collect();
         print::json(json!({ "figures": figures }))?;

@@ -9,7 +9,7 @@ use crate::gate;
 use crate::lock::Lock;
 use crate::plan::{self, Needs, Node};
 use crate::record::{self, FigureState, Records};
-use crate::sources::Sources;
+use crate::sources::SourceHashes;
 use crate::work::{self, NodeOutput};
 use checkout::costs::Costs;
 use checkout::disk;
@@ -34,7 +34,7 @@ pub fn run(paths: &Paths, arguments: &VerifyArgs) -> Result<(), Failure> {
     let mut selected = choose(paths, &all, arguments)?;
     refuse_without_sums(paths, &selected, &committed)?;
     work::sweep(paths, &all)?;
-    let sources = Sources::read(paths)?;
+    let sources = SourceHashes::read(paths)?;
     compile::ensure(paths, &all, &sources, &Package::of(&selected))?;
     let scratch = paths.scratch();
     disk::remove(&scratch.base)?;
@@ -72,7 +72,7 @@ pub fn run(paths: &Paths, arguments: &VerifyArgs) -> Result<(), Failure> {
 pub fn made(paths: &Paths, ids: &[String]) -> Result<(), Failure> {
     let all = figure::discover(paths)?;
     let _lock = Lock::take(paths)?;
-    let sources = Sources::read(paths)?;
+    let sources = SourceHashes::read(paths)?;
     let selected = figure::select(&all, ids, ids.is_empty())?;
     let surveys = record::survey(paths, &selected, &sources, &Records::read(paths)?)?;
     gate::fresh(&surveys)?;
@@ -108,7 +108,7 @@ fn keep_what_fits(
     paths: &Paths,
     scratch: &Paths,
     selected: &mut Vec<&Figure>,
-    sources: &Sources,
+    sources: &SourceHashes,
     arguments: &VerifyArgs,
     budget: f64,
 ) -> Result<Vec<(String, Option<f64>)>, Failure> {
@@ -130,7 +130,7 @@ fn recompute<'a>(
     paths: &Paths,
     scratch: &Paths,
     selected: &[&'a Figure],
-    sources: &Sources,
+    sources: &SourceHashes,
     arguments: &VerifyArgs,
 ) -> Result<Vec<FigureState<'a>>, Failure> {
     let surveys = record::survey(scratch, selected, sources, &Records::default())?;

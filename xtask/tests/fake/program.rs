@@ -192,8 +192,8 @@ fn spoilt(program: &str, what: &str) -> Option<usize> {
     Some(row.unwrap_or(0))
 }
 
-/// Moves one cell of each table by an `ulp`, flips its `sign`, `cut`s the table off behind the row, loses it (`gone`), or puts a
-/// wrong word into it (`words`).
+/// Moves one cell of each table by an `ulp`, flips its `sign`, `cut`s the table off behind the row, loses it (`gone`), or
+/// puts a wrong word into it (`words`).
 fn spoil_tables(id: &str, tables: &Path) -> io::Result<()> {
     for file in fs::read_dir(tables)?.map(|entry| entry.map(|entry| entry.path())).collect::<io::Result<Vec<_>>>()? {
         let text = fs::read_to_string(&file)?;

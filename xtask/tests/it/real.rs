@@ -1,7 +1,7 @@
 //! The runner on a copy of this checkout with the real programs: what a wrong scene does to the verdict, and, with programs
 //! built from changed sources, what another colour map, a wrong bit and a wrong length of a step do.
 
-use crate::shop::Ended;
+use crate::shop::CommandOutput;
 use serde_json::Value;
 use std::ffi::OsString;
 use std::fs;
@@ -75,12 +75,12 @@ impl Copy {
         fs::write(path, text.replace(from, to)).expect("a file");
     }
 
-    fn xtask(&self, arguments: &[&str]) -> Ended {
+    fn xtask(&self, arguments: &[&str]) -> CommandOutput {
         let mut command = Command::new(env!("CARGO_BIN_EXE_xtask"));
         command.arg("--root").arg(&self.root).args(arguments).current_dir(&self.root);
         command.env("CARGO_TARGET_DIR", &self.target).env("CARGO", &self.cargo);
         command.env("GIT_DIR", self.root.join(".git"));
-        Ended::of(&command.output().expect("the runner starts"))
+        CommandOutput::of(&command.output().expect("the runner starts"))
     }
 
     /// What `verify` says of one figure, and its exit code.

@@ -78,19 +78,19 @@ impl Shop {
     }
 
     /// Runs the runner.
-    pub fn xtask(&self, arguments: &[&str]) -> Ended {
+    pub fn xtask(&self, arguments: &[&str]) -> CommandOutput {
         self.xtask_as(arguments, false)
     }
 
     /// Runs the runner, as on a machine for continuous integration or not.
-    pub fn xtask_as(&self, arguments: &[&str], is_ci: bool) -> Ended {
+    pub fn xtask_as(&self, arguments: &[&str], is_ci: bool) -> CommandOutput {
         let mut command = Command::new(env!("CARGO_BIN_EXE_xtask"));
         command.env_remove("CI").envs(is_ci.then_some(("CI", "true")));
         command.arg("--root").arg(&self.root).args(arguments).current_dir(&self.root);
         command.env("CARGO_TARGET_DIR", self.root.join("target")).env("CARGO", self.root.join("cargo"));
         // the temporary folder may lie inside a repository, which is not the one under test
         command.env("GIT_CEILING_DIRECTORIES", &self.root).env("GIT_DIR", self.root.join(".git"));
-        Ended::of(&command.output().expect("the runner starts"))
+        CommandOutput::of(&command.output().expect("the runner starts"))
     }
 
     /// Runs git; whether it went well.
@@ -112,16 +112,16 @@ impl Shop {
 }
 
 /// How the runner ended.
-pub struct Ended {
+pub struct CommandOutput {
     pub code: i32,
     pub out: String,
     pub err: String,
 }
 
-impl Ended {
-    pub fn of(output: &Output) -> Ended {
+impl CommandOutput {
+    pub fn of(output: &Output) -> CommandOutput {
         let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-        Ended { code: output.status.code().unwrap_or(-1), out: text(&output.stdout), err: text(&output.stderr) }
+        CommandOutput { code: output.status.code().unwrap_or(-1), out: text(&output.stdout), err: text(&output.stderr) }
     }
 
     pub fn json(&self) -> serde_json::Value {
@@ -130,7 +130,7 @@ impl Ended {
 
     /// Asserts the exit code; shows what was printed when it is another one.
     #[track_caller]
-    pub fn expect(self, code: i32) -> Ended {
+    pub fn expect(self, code: i32) -> CommandOutput {
         assert_eq!(self.code, code, "stdout:\n{}\nstderr:\n{}", self.out, self.err);
         self
     }

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::Command;
 use xtask::compile;
 use xtask::pins;
-use xtask::sources::Sources;
+use xtask::sources::SourceHashes;
 
 /// The programs that a plan would start, sorted.
 fn planned(shop: &Shop) -> Vec<String> {
@@ -50,7 +50,7 @@ fn every_kind_of_change_leads_to_exactly_the_needed_work() {
     assert!(planned(&shop).is_empty());
     let scene = shop.read("figures/fig04-growth/scene.toml").replace("mu = 0.5", "mu = 0.6");
     let lock = shop.read("Cargo.lock").replace("0.18.1", "0.18.2");
-    let cases: [Case; 20] = [
+    let cases: [Case; 21] = [
         // sources
         ("figures/fig05-exponential-map/main.rs", Some("//! Another."), &[&["fig05-exponential-map"]]),
         ("figures/fig05-exponential-map/scene.toml", Some("title = \"x\""), &[&["fig05-exponential-map"]]),
@@ -74,6 +74,7 @@ fn every_kind_of_change_leads_to_exactly_the_needed_work() {
         // what reaches no figure
         ("data/accuracy/unnamed.csv", Some("t\n"), &[]),
         ("README.md", Some("words"), &[]),
+        ("crates/math/LICENSE-MIT", Some("words"), &[]),
         ("crates/math/tests/a.rs", Some("//! A test."), &[]),
         ("data/golden/fig05/left.csv", None, &[]),
         ("data/SHA256SUMS", None, &[]),
@@ -155,7 +156,7 @@ fn compiled_from(paths: &Paths, program: &str) -> BTreeSet<String> {
 #[ignore = "needs the release binaries: cargo xtask ci --full"]
 fn what_the_compiler_read_is_what_is_hashed() {
     let paths = Paths::find(Some(root())).expect("the checkout");
-    let sources = Sources::read(&paths).expect("sources");
+    let sources = SourceHashes::read(&paths).expect("sources");
     for figure in figure::discover(&paths).expect("figures") {
         let hashed: BTreeSet<String> = sources.figure(&figure, &[]).into_keys().filter(|name| is_file(name)).collect();
         let read = compiled_from(&paths, &figure.slug);
@@ -202,7 +203,7 @@ fn programs_open_only_what_is_hashed() {
         return;
     }
     let paths = Paths::find(Some(root())).expect("the checkout");
-    let sources = Sources::read(&paths).expect("sources");
+    let sources = SourceHashes::read(&paths).expect("sources");
     let costs = checkout::costs::read(&paths).expect("costs");
     let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("opened");
     for figure in figure::discover(&paths).expect("figures") {

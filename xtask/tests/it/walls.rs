@@ -85,7 +85,7 @@ fn the_runner_links_no_physics_and_the_figures_nothing_about_the_result() {
     }
 }
 
-/// Sources below a folder.
+/// SourceHashes below a folder.
 fn sources(folder: &str) -> Vec<(String, String)> {
     let found = checkout::disk::walk(&root().join(folder), &|_| true).expect("a folder");
     let sources = found.into_iter().filter(|path| path.extension().is_some_and(|ending| ending == "rs"));

@@ -4,8 +4,8 @@ use checkout::paths::{Paths, Scheme};
 use claims::again;
 use claims::entry::{Claim, Verdict};
 use claims::report::Ledger;
-use claims::sheet::{Sheet, Stated};
-use claims::source::Sources;
+use claims::sheet::{LedgerTable, Stated};
+use claims::source::LedgerFiles;
 use claims::tables::{Tables, figure_of};
 use std::fs;
 use std::path::Path;
@@ -37,7 +37,7 @@ fn the_committed_ledger_is_written_as_it_is_read() {
 #[test]
 fn the_committed_ledger_belongs_to_the_files_written_by_hand() {
     let paths = checkout();
-    let sources = Sources::read(&paths).expect("the ledger's files");
+    let sources = LedgerFiles::read(&paths).expect("the ledger's files");
     let text = fs::read_to_string(paths.ledger()).expect("data/ledger.json");
     let ledger: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     let claims = ledger["claims"].as_array().expect("claims");
@@ -58,7 +58,7 @@ fn the_committed_ledger_belongs_to_the_files_written_by_hand() {
 #[test]
 fn claims_over_committed_tables_are_found_as_committed() {
     let paths = checkout();
-    let mut sources = Sources::read(&paths).expect("the ledger's files");
+    let mut sources = LedgerFiles::read(&paths).expect("the ledger's files");
     let is_committed = |claim: &Claim| {
         let tests = claim.all_tests();
         let tables = tests.iter().flat_map(|(place, _, measure)| measure.tables(place).expect("tables"));
@@ -80,17 +80,17 @@ fn claims_over_committed_tables_are_found_as_committed() {
 fn of_memory(paths: &Paths, names: &[&str]) -> Tables<'static> {
     let manifest = checkout::manifest::read(paths).expect("a manifest");
     Tables::of_memory(names.iter().map(|&name| {
-        let cells = files::table::Sheet::read(&paths.output(&Paths::table(name))).expect("a table");
+        let cells = files::table::MixedTable::read(&paths.output(&Paths::table(name))).expect("a table");
         let entry = manifest.get(&Paths::table(name));
         let error = |column: &str| Some(Stated::OfRange(entry?.error.get(column)?.unwrap_or(f64::INFINITY)));
-        (name.to_owned(), Sheet::new(cells, &error))
+        (name.to_owned(), LedgerTable::new(cells, &error))
     }))
 }
 
 #[test]
 fn tables_in_memory_give_the_findings_of_files() {
     let paths = checkout();
-    let sources = Sources::read(&paths).expect("the ledger's files");
+    let sources = LedgerFiles::read(&paths).expect("the ledger's files");
     let files = Tables::new(&paths, &paths).expect("tables");
     let runs: [(&[&str], usize); 3] = [
         (&["fig04/stable", "fig04/unstable", "events"], 3),
@@ -121,10 +121,10 @@ fn a_test_without_a_value_leaves_its_claim_open() {
              [[claim.test]]\ntake = \"only\"\nof = \"v\"\ntable = \"fig11/a\"\nwhere = [\"v > 5\"]\nis = \"> 0\"\n\
              [[claim.test]]\ntake = \"count\"\ntable = \"fig11/a\"\nis = \"{is}\"\n"
         );
-        Sources::parse([&text, "", ""]).expect("a claim")
+        LedgerFiles::parse([&text, "", ""]).expect("a claim")
     };
-    let cells = files::table::Sheet::parse(b"v\n1\n2\n").expect("a table");
-    let tables = Tables::of_memory([("fig11/a".to_owned(), Sheet::new(cells, &|_| None))]);
+    let cells = files::table::MixedTable::parse(b"v\n1\n2\n").expect("a table");
+    let tables = Tables::of_memory([("fig11/a".to_owned(), LedgerTable::new(cells, &|_| None))]);
     for (is, expected) in [("= 2", Verdict::Open), ("= 3", Verdict::Fails)] {
         let sources = claim(is);
         let (verdict, tests) = again::judge(&sources.claims[0], &tables).expect("a verdict");

@@ -3,7 +3,7 @@
 use checkout::failure::Failure;
 use checkout::paths::{Paths, Scheme};
 use claims::report::{Ledger, Tested};
-use claims::source::Sources;
+use claims::source::LedgerFiles;
 use claims::tables::Tables;
 use std::fs;
 use std::path::Path;
@@ -37,7 +37,7 @@ impl Desk {
     }
 
     pub fn ledger(&self, claims: &str) -> Result<Ledger, Failure> {
-        let sources = Sources::parse([claims, "", ""])?;
+        let sources = LedgerFiles::parse([claims, "", ""])?;
         Ledger::new(&sources, &Tables::new(&self.paths, &self.paths)?)
     }
 

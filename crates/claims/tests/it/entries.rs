@@ -2,7 +2,7 @@
 
 use crate::desk::{Desk, claim, numbers, open_claim};
 use claims::entry::Verdict;
-use claims::source::Sources;
+use claims::source::LedgerFiles;
 use claims::uncertain::Uncertain;
 use claims::{report, words};
 
@@ -74,12 +74,12 @@ fn bad_tests_are_named() {
 #[test]
 fn malformed_files_are_named_with_their_line() {
     let failure = |claims: &str| {
-        let failure = Sources::parse([claims, "", ""]).expect_err(claims);
+        let failure = LedgerFiles::parse([claims, "", ""]).expect_err(claims);
         assert_eq!(failure.code(), 2);
         failure.text().to_owned()
     };
     let good = claim("holds", &["> 0"], &[]);
-    Sources::parse([&good, "", ""]).expect("a claim");
+    LedgerFiles::parse([&good, "", ""]).expect("a claim");
     for (from, to, wanted) in [
         ("take = \"only\"", "take = \"some\"", "paper/claims.toml:8 (at or after one): unknown variant `some`"),
         ("of = \"x\"", "off = \"x\"", "unknown field `off`"),
@@ -98,7 +98,7 @@ fn malformed_files_are_named_with_their_line() {
         assert!(found.contains(wanted), "{to}: {found}");
     }
     assert!(failure(&format!("{good}{good}")).contains("id: appears twice"));
-    assert_eq!(Sources::parse(["", "", ""]).expect("no files"), Sources::default());
+    assert_eq!(LedgerFiles::parse(["", "", ""]).expect("no files"), LedgerFiles::default());
 }
 
 #[test]

@@ -1,13 +1,13 @@
 //! Which rows of two tables belong together.
 
 use files::pairs::pairs;
-use files::table::{Sheet, Table};
+use files::table::{MixedTable, Table};
 
 /// The rows of the first table that have a partner, with the last cell of each, and the number of rows without one.
 fn sheets(one: &str, other: &str) -> (Vec<(usize, String)>, usize) {
-    let [one, other] = [one, other].map(|text| Sheet::parse(text.as_bytes()).expect("a table"));
+    let [one, other] = [one, other].map(|text| MixedTable::parse(text.as_bytes()).expect("a table"));
     let (rows, unmatched) = pairs(&one, &other);
-    let last = |row: &[files::table::Cell]| row.last().map(ToString::to_string).unwrap_or_default();
+    let last = |row: &[files::table::CellValue]| row.last().map(ToString::to_string).unwrap_or_default();
     (rows.into_iter().map(|(row, _, partner)| (row, last(partner))).collect(), unmatched)
 }
 

@@ -1,6 +1,6 @@
 //! A table that is written and read back has the same bits.
 
-use files::table::{Cell, Sheet, Table, TableError};
+use files::table::{CellValue, MixedTable, Table, TableError};
 
 /// The generator splitmix64 (Steele, Lea, Flood 2014).
 fn splitmix(state: &mut u64) -> u64 {
@@ -172,14 +172,14 @@ fn a_malformed_file_is_named_with_its_line() {
 
 #[test]
 fn sheets_keep_numbers_words_and_nothing_apart() {
-    let mut sheet = Sheet::new(&["method", "error", "note"]);
-    sheet.push(&["heun".into(), 0.1.into(), Cell::Empty]);
-    sheet.push(&["a, b".into(), Cell::Empty, "say \"x\"".into()]);
+    let mut sheet = MixedTable::new(&["method", "error", "note"]);
+    sheet.push(&["heun".into(), 0.1.into(), CellValue::Empty]);
+    sheet.push(&["a, b".into(), CellValue::Empty, "say \"x\"".into()]);
     let csv = sheet.to_csv();
     assert_eq!(csv, b"method,error,note\nheun,0.1,\n\"a, b\",,\"say \"\"x\"\"\"\n");
-    assert_eq!(Sheet::parse(&csv).expect("a sheet"), sheet);
-    let cells = Sheet::parse(b"a,b,c\nnan,inf,1e999\n").expect("words");
-    assert!(cells.rows().flatten().all(|cell| matches!(cell, Cell::Word(_))), "{cells:?}");
+    assert_eq!(MixedTable::parse(&csv).expect("a sheet"), sheet);
+    let cells = MixedTable::parse(b"a,b,c\nnan,inf,1e999\n").expect("words");
+    assert!(cells.rows().flatten().all(|cell| matches!(cell, CellValue::Word(_))), "{cells:?}");
     let chosen = sheet.select(&[("method", "heun")], &["error"]).expect("columns");
     assert_eq!(chosen.column("error").expect("a column"), [0.1]);
     assert_eq!(sheet.select(&[], &["error"]).expect("columns").len(), 1);

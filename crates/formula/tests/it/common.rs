@@ -1,6 +1,11 @@
 //! Short laws for tests, and reproducible random numbers.
 
+#[path = "../../../math/tests/it/splitmix.rs"]
+mod splitmix;
+
 use formula::{Bound, Definition, Error, Given, Graph, Location, Variable, law};
+
+pub use splitmix::Random;
 
 /// A law from its lines: names and expressions, names and numbers. Line 1 is the header; keys stand in column 1, values in
 /// column 9.
@@ -37,17 +42,7 @@ pub fn state(variable: Variable) -> f64 {
     }
 }
 
-/// The generator splitmix64 (Steele, Lea, Flood 2014).
-pub struct Random(pub u64);
-
 impl Random {
-    pub fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
     pub fn below(&mut self, count: usize) -> usize {
         (self.bits() % count as u64) as usize
     }

@@ -71,7 +71,8 @@ pub trait Force: std::fmt::Debug + Send {
         0
     }
 
-    /// Whether Taylor's method does not suit some of them; see [`Model::has_unsuited_kinks`](crate::laws::Model::has_unsuited_kinks).
+    /// Whether Taylor's method does not suit some of them; see
+    /// [`Model::has_unsuited_kinks`](crate::laws::Model::has_unsuited_kinks).
     fn has_unsuited_kinks(&self) -> bool {
         false
     }

@@ -48,8 +48,9 @@ pub struct Parameter<L> {
 /// Width of the smooth ramp of the algebraic and exponential laws, where a scene names none (text after eq:aTheta).
 const RAMP_WIDTH: f64 = 0.1;
 
-/// A law of motion as a formula in Rust: `dv_n/dt` from the net gap to the pedestrian ahead, the own speed and that of the
-/// pedestrian ahead. [`Model::own`] makes a [`Model`] of it. Only [`Law::CONTACT`] and [`Law::acceleration`] have to be written.
+/// A law of motion as a formula in Rust: `dv_n/dt` from the net gap to the pedestrian ahead, the own speed and that of
+/// the pedestrian ahead. [`Model::own`] makes a [`Model`] of it. Only [`Law::CONTACT`] and [`Law::acceleration`] have to
+/// be written.
 ///
 /// ```
 /// use jam::laws::{Law, Model, Parameter, Range};

@@ -132,15 +132,17 @@ pub struct Verdict {
     pub backward_flow: bool,
     /// The least effective gap of the run, of the logarithmic law the least spacing, in units of `a_0`.
     pub least_gap: f64,
-    /// The least speed of the run, in units of `a_0 / tau`, the start from rest ([`START`]) left out; of a shorter run, of all of it.
+    /// The least speed of the run, in units of `a_0 / tau`, the start from rest ([`START`]) left out; of a shorter run,
+    /// of all of it.
     pub least_speed: f64,
-    /// The standard deviation of the speeds, in units of `a_0 / tau`: of waves the mean over the last window, else that at the end.
+    /// The standard deviation of the speeds, in units of `a_0 / tau`: of waves the mean over the last window, else that
+    /// at the end.
     pub std: f64,
     /// The least speed in the windows by which waves were judged; only for waves. The least speed of the whole run may
     /// occur while they grow.
     pub lasting_least_speed: Option<f64>,
-    /// The speed at which waves travel along the ring, on the ground, in units of `a_0 / tau`, against the direction of walking if
-    /// negative; only of waves.
+    /// The speed at which waves travel along the ring, on the ground, in units of `a_0 / tau`, against the direction of
+    /// walking if negative; only of waves.
     pub wave_speed: Option<f64>,
     /// How far the deciding numbers are from another verdict, in the unit of each: of waves the least of the contrast above
     /// its threshold, the least gap (both relative) and the distance of the least speed from 0; of a decay the margin of

@@ -76,8 +76,9 @@ pub enum AtOverlap {
 pub const TOLERANCE: f64 = 1e-10;
 
 impl Run {
-    /// A run up to `t_end` by the [usual method](usual_method) with a tolerance of [`TOLERANCE`], in deviations from the uniform flow where there is
-    /// one, that keeps a sample at every unit of time and the trajectories. Other choices replace its fields.
+    /// A run up to `t_end` by the [usual method](usual_method) with a tolerance of [`TOLERANCE`], in deviations from the
+    /// uniform flow where there is one, that keeps a sample at every unit of time and the trajectories. Other choices
+    /// replace its fields.
     ///
     /// # Errors
     /// Fewer than two pedestrians, or fewer than the law looks at; a length or time that is not above 0; gaps that are closed

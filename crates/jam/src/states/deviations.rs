@@ -47,20 +47,28 @@ impl Deviations {
         slopes[1] + slopes[2]
     }
 
-    /// Writes how the accelerations of the deviations answer to the speed of the uniform flow: by a difference, since that of
-    /// the slopes here and in the uniform flow has no digits where deviations are small. A steady flow is not off.
-    fn write_answers(&self, flow: Flow, now: Rows<'_>, room: &mut [f64], answers: &mut [f64]) {
+    /// Writes how the accelerations of the deviations answer to the speed of the uniform flow, from the `slopes` by speeds here
+    /// and the `rate` of the flow. They do not to one that is steady, or where the force is linear in speeds.
+    fn write_answers(&self, flow: Flow, now: Rows<'_>, [slopes, rate]: [&[f64]; 2], answers: &mut [f64]) {
         let mut acceleration = [0.0];
         self.force.accelerations(&[flow.net_gap], &[flow.speed], &mut acceleration);
-        if self.is_steady(flow, acceleration[0]) {
+        if !self.force.uses_speeds() || self.is_steady(flow, acceleration[0]) {
             return answers.fill(0.0);
         }
+        answers.fill(-rate[0]);
+        for slopes in slopes.chunks_exact(self.pedestrians) {
+            answers.iter_mut().zip(slopes).for_each(|(answer, slope)| *answer += slope);
+        }
+        if ode::largest(answers) >= DIGITS * ode::largest(slopes) {
+            return;
+        }
+        // of small deviations that difference has no digits: that of their accelerations does
         let change = NEAR * math::larger(flow.speed.abs(), acceleration[0].abs());
-        let faster = Flow { speed: flow.speed + change, ..flow };
-        self.force.deviations(flow, now.spacings, now.speeds, room);
+        let (faster, mut here) = (Flow { speed: flow.speed + change, ..flow }, vec![0.0; self.pedestrians]);
+        self.force.deviations(flow, now.spacings, now.speeds, &mut here);
         self.force.deviations(faster, now.spacings, now.speeds, answers);
         let share = 1.0 / (faster.speed - flow.speed);
-        answers.iter_mut().zip(room).for_each(|(answer, here)| *answer = share * (*answer - *here));
+        answers.iter_mut().zip(here).for_each(|(answer, here)| *answer = share * (*answer - here));
     }
 
     fn headway(&self) -> f64 {
@@ -76,6 +84,9 @@ impl Deviations {
 
 /// A change of the speed of the uniform flow that is small, as a part of it or of what it gains in a unit of time.
 const NEAR: f64 = 1e-6;
+
+/// A difference of slopes has digits if it is this part of them.
+const DIGITS: f64 = 1e-9;
 
 /// Adds what a change of the speed of the uniform flow makes of deviations of speeds.
 fn push(answers: &[f64], change: f64, speeds: &mut [f64]) {
@@ -151,12 +162,12 @@ impl System for Deviations {
         let (n, flow) = (self.pedestrians, self.flow(state));
         let now = Rows { spacings: &state[..n], speeds: &state[n..2 * n] };
         let (of_ring, of_flow) = tangent.split_at_mut(tangent::size(&*self.force, n));
+        let fastest = tangent::write(&*self.force, flow, now, of_ring);
         let (answers, rate) = of_flow.split_at_mut(if of_flow.is_empty() { 0 } else { n });
         if let [rate] = rate {
             *rate = self.flow_rate(flow);
-            self.write_answers(flow, now, &mut of_ring[..n], answers);
+            self.write_answers(flow, now, [&of_ring[n..3 * n], &[*rate]], answers);
         }
-        let fastest = tangent::write(&*self.force, flow, now, of_ring);
         if answers.iter().chain(&*rate).all(|answer| answer.is_finite()) { fastest } else { f64::NAN }
     }
 

@@ -107,3 +107,23 @@ fn a_declaration_is_read_without_its_body() {
     ];
     assert_eq!(declarations(text), wanted);
 }
+
+/// Both licences ask to be handed on with the source. An archive of a package holds no file from outside its folder.
+#[test]
+fn a_package_brings_its_licences_and_says_what_it_is() {
+    let read =
+        |path: &std::path::Path| std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    for (package, name) in
+        [("math", "jamming-math"), ("formula", "jamming-formula"), ("ode", "jamming-ode"), ("jam", "jamming")]
+    {
+        let folder = crates().join(package);
+        for licence in ["LICENSE-MIT", "LICENSE-APACHE"] {
+            let own = read(&folder.join(licence));
+            assert_eq!(own, read(&crates().join("..").join(licence)), "{package}/{licence}");
+        }
+        assert_eq!(read(&folder.join("README.md")).lines().next(), Some(format!("# {name}").as_str()));
+        let manifest = read(&folder.join("Cargo.toml"));
+        let packed = manifest.lines().find(|line| line.starts_with("include = ")).expect("what is packed");
+        assert!(packed.contains("\"README.md\"") && packed.contains("\"LICENSE-*\""), "{package}: {packed}");
+    }
+}

@@ -1,20 +1,14 @@
 //! Reproducible random numbers, and random laws with every combination of terms.
 
+#[path = "../../../math/tests/it/splitmix.rs"]
+mod splitmix;
+
 use jam::force::Flow;
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
 
-/// The generator splitmix64 (Steele, Lea, Flood 2014).
-pub struct Random(pub u64);
+pub use splitmix::Random;
 
 impl Random {
-    /// 64 random bits.
-    pub fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
     /// A number between the two, all equally likely.
     pub fn uniform(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * ((self.bits() >> 11) as f64 / (1u64 << 53) as f64)

@@ -56,8 +56,9 @@ const HEADWAY: f64 = 3.0;
 const UNIT: f64 = 0.75;
 
 /// The largest difference between the derivative of the series and the rates at its value, relative to the size of the
-/// perturbation, and the largest for what the form keeps beside gaps and speeds, of order 1. Both the rounding of a few dozen operations and the term of order 18, below 1e-17 of the first at this
-/// time, stay far under the bound of the callers.
+/// perturbation, and the largest for what the form keeps beside gaps and speeds, of order 1. Both the rounding of a few
+/// dozen operations and the term of order 18, below 1e-17 of the first at this time, stay far under the bound of the
+/// callers.
 fn residual(
     model: &Model,
     kind: StateVariables,

@@ -88,8 +88,8 @@ impl<const W: usize> Div for Changed<W> {
     }
 }
 
-/// A function of a number: its value, the values it stores of the reference, and its rule for changes. It is not part of a kernel:
-/// functions are needed only at order 0, so they are compiled once.
+/// A function of a number: its value, the values it stores of the reference, and its rule for changes. It is not part of
+/// a kernel: functions are needed only at order 0, so they are compiled once.
 #[inline(never)]
 fn apply(
     number: f64,

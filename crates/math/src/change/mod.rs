@@ -3,8 +3,8 @@
 //! A formula is carried out twice. First at the reference, with [`Reference`] numbers: every operation that is not linear
 //! leaves on a [`Tape`] what it needs of the reference. Then with [`Change`]s, as often as wanted: the operations take
 //! what they find on the tape, in the same order, and give the difference to a relative error of the order of rounding,
-//! however small it is (see [`rules`]). A difference has the unit of the value; where the reference or the changed argument lies
-//! beyond the range of a function it is NaN.
+//! however small it is (see [`rules`]). A difference has the unit of the value; where the reference or the changed
+//! argument lies beyond the range of a function it is NaN.
 
 mod changed;
 pub mod rules;

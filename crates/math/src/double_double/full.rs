@@ -1,8 +1,9 @@
 //! Elementary functions of double-double numbers to about 100 bits, for loops that vectorise.
 //!
 //! The methods of the same names ([`DoubleDouble::exp`] and its kin) are faster for one value and stop at 80 bits, enough
-//! for rounding once to a double. These are free of branches; what they call is inlined. NaN gives NaN. Between -700 and 700 (of the
-//! exponent) their relative error is below 2^-100, that of an argument known exactly; `tests/it/full.rs` measures it.
+//! for rounding once to a double. These are free of branches; what they call is inlined. NaN gives NaN. Between -700 and
+//! 700 (of the exponent) their relative error is below 2^-100, that of an argument known exactly; `tests/it/full.rs`
+//! measures it.
 
 use super::DoubleDouble;
 use crate::lane;

@@ -101,7 +101,8 @@ pub struct OrderMemory<'t, C: Copy> {
 impl<'t, C: Coefficient> OrderMemory<'t, C> {
     /// For the coefficients of this `order`, from 0, of series of `length` coefficients (`order < length`). The blocks are
     /// [`memory(length)`](memory()) for each operation of the formula that is not linear
-    /// ([`Tape::histories`](crate::change::Tape::histories)); with fewer it panics. Orders are computed one after the other, from 0.
+    /// ([`Tape::histories`](crate::change::Tape::histories)); with fewer it panics. Orders are computed one after the
+    /// other, from 0.
     #[inline(always)]
     pub fn new(memory: &'t [Block<C>], length: usize, order: usize) -> OrderMemory<'t, C> {
         OrderMemory { memory, length, order, next: Cell::new(0) }

@@ -1,23 +1,17 @@
 //! Reproducible random arguments, errors in units in the last place, and a loop over a lane function.
 
+#[path = "splitmix.rs"]
+mod splitmix;
+
 use math::double_double::DoubleDouble;
 use math::simd::Kernel;
+
+pub use splitmix::Random;
 
 /// How many random arguments a function is judged by.
 pub const COUNT: usize = if cfg!(debug_assertions) { 50_000 } else { 1_000_000 };
 
-/// The generator splitmix64 (Steele, Lea, Flood 2014).
-pub struct Random(pub u64);
-
 impl Random {
-    /// 64 random bits.
-    pub fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
     /// A number between the two, all equally likely.
     pub fn uniform(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * ((self.bits() >> 11) as f64 / (1u64 << 53) as f64)

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::io::ErrorKind;
 use std::path::PathBuf;
-use sweep::{Cell, DecidedBy, table};
+use sweep::{CellOutcome, DecidedBy, table};
 
 /// Gathers the shards in the folder.
 ///
@@ -47,8 +47,8 @@ pub(super) fn gather(task: &Task, arguments: &Arguments) -> Result<(), Failure> 
 }
 
 /// How many cells have each outcome, and how many were run.
-fn summary(task: &Task, cells: &[Cell]) -> Value {
-    let count = |is: &dyn Fn(&Cell) -> bool| cells.iter().filter(|cell| is(cell)).count();
+fn summary(task: &Task, cells: &[CellOutcome]) -> Value {
+    let count = |is: &dyn Fn(&CellOutcome) -> bool| cells.iter().filter(|cell| is(cell)).count();
     let outcomes: serde_json::Map<String, Value> =
         Class::ALL.iter().map(|class| (class.name().to_owned(), json!(count(&|cell| cell.class == *class)))).collect();
     json!({
@@ -65,10 +65,10 @@ fn summary(task: &Task, cells: &[Cell]) -> Value {
 }
 
 /// All cells of the plane, column by column.
-fn cells(task: &Task) -> Result<Vec<Cell>, Failure> {
+fn cells(task: &Task) -> Result<Vec<CellOutcome>, Failure> {
     let count = split(task)?;
     let rows = task.sweep.y.cells;
-    let mut found: Vec<Option<Cell>> = vec![None; task.sweep.cells()];
+    let mut found: Vec<Option<CellOutcome>> = vec![None; task.sweep.cells()];
     let mut missing = Vec::new();
     for index in 1..=count {
         let shard = Shard { index, count };
@@ -97,12 +97,12 @@ fn cells(task: &Task) -> Result<Vec<Cell>, Failure> {
         );
         return Err(Failure { message, code: 3 });
     }
-    found.into_iter().collect::<Option<Vec<Cell>>>().ok_or_else(|| Failure::work("shards without all cells"))
+    found.into_iter().collect::<Option<Vec<CellOutcome>>>().ok_or_else(|| Failure::work("shards without all cells"))
 }
 
 /// The same outcome and the same bits.
-fn agree(one: &Cell, other: &Cell) -> bool {
-    let bits = |cell: &Cell| cell.numbers.map(f64::to_bits);
+fn agree(one: &CellOutcome, other: &CellOutcome) -> bool {
+    let bits = |cell: &CellOutcome| cell.numbers.map(f64::to_bits);
     (one.class, one.backward_flow, one.decided_by) == (other.class, other.backward_flow, other.decided_by)
         && bits(one) == bits(other)
 }

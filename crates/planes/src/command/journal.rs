@@ -8,7 +8,7 @@ use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use sweep::tiles::{Found, Tile, of_shard, tiles};
-use sweep::{Cell, table};
+use sweep::{CellOutcome, table};
 
 /// Which shard, from 1.
 pub(super) struct Shard {
@@ -87,7 +87,7 @@ impl Journal {
     }
 
     /// Adds a cell.
-    pub(super) fn add(&mut self, cell: [usize; 2], found: &Cell) -> Result<(), Failure> {
+    pub(super) fn add(&mut self, cell: [usize; 2], found: &CellOutcome) -> Result<(), Failure> {
         let line = table::shard_line(cell, found) + "\n";
         self.file.write_all(line.as_bytes()).map_err(|error| with_path(error, &self.path))?;
         if self.flushed.elapsed() > EVERY {
@@ -110,7 +110,7 @@ impl Journal {
     }
 }
 
-fn is_run(cell: &Cell) -> bool {
+fn is_run(cell: &CellOutcome) -> bool {
     cell.decided_by != sweep::DecidedBy::Neighbours
 }
 

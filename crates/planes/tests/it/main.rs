@@ -30,7 +30,7 @@ length      = 15.0
 shift = 0.1
 [run]
 t_end     = 300.0
-method    = "dop853"
+method    = "taylor"
 tolerance = 1e-6
 [sweep]
 x = { parameter = "a_v", from = 0.0, to = 0.6, cells = 60 }
@@ -53,7 +53,7 @@ struct SceneFolder {
 }
 
 /// What a sweep has said, and its exit code.
-struct Ended {
+struct CommandOutput {
     code: Option<i32>,
     out: String,
     err: String,
@@ -97,10 +97,10 @@ impl SceneFolder {
         command
     }
 
-    fn sweep(&self, out: &str, words: &[&str]) -> Ended {
+    fn sweep(&self, out: &str, words: &[&str]) -> CommandOutput {
         let output = self.command(out, words).output().expect("the program starts");
         let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-        Ended { code: output.status.code(), out: text(&output.stdout), err: text(&output.stderr) }
+        CommandOutput { code: output.status.code(), out: text(&output.stdout), err: text(&output.stderr) }
     }
 
     /// A sweep that must end well; what it has printed.

@@ -10,8 +10,8 @@ use serde_json::{Value, json};
 /// The folder of the gallery.
 const GALLERY: &str = "scenes/gallery";
 
-/// Every run, one for each panel: `name`, `source`, `origin` (of a run of the paper: figure and panel), and the tables `law`, `ring`, `start`, `uniform`, `run` as lists of key and value
-/// in the order of the file.
+/// Every run, one for each panel: `name`, `source`, `origin` (of a run of the paper: figure and panel), and the tables
+/// `law`, `ring`, `start`, `uniform`, `run` as lists of key and value in the order of the file.
 ///
 /// # Errors
 /// A scene of the gallery is missing or malformed.

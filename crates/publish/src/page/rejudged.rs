@@ -5,7 +5,7 @@ use checkout::disk;
 use checkout::failure::Failure;
 use checkout::paths::{LEDGER_SOURCES, Paths};
 use claims::again;
-use claims::source::Sources;
+use claims::source::LedgerFiles;
 use std::collections::BTreeSet;
 
 /// They, as `paper/claims.toml` has them.
@@ -14,7 +14,7 @@ use std::collections::BTreeSet;
 /// The file is malformed.
 pub fn text(source: &Source<'_>) -> Result<String, Failure> {
     let text = disk::read_text(&source.paths.root.join(LEDGER_SOURCES[0]))?.unwrap_or_default();
-    let sources = Sources::parse([&text, "", ""])?;
+    let sources = LedgerFiles::parse([&text, "", ""])?;
     let is_of_run = |table: &str| {
         let entry = source.manifest.get(&Paths::table(table));
         table.starts_with("fig") && entry.is_some_and(|entry| entry.run.is_some())

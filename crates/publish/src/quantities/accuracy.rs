@@ -3,7 +3,7 @@
 use super::{Quantities, Source, table};
 use checkout::failure::Failure;
 use checkout::paths::ACCURACY;
-use files::table::Cell;
+use files::table::CellValue;
 use verify::precision::{COARSE_TARGETS, COSTS, FIXED, SCENES, Scene, TARGETS};
 
 /// Adds all of it.
@@ -91,7 +91,7 @@ fn savings(all: &mut Quantities) {
 fn fastest(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
     for law in ["algebraic", "exponential", "logarithmic"] {
         let name = format!("{ACCURACY}/mode_growth_{law}.csv");
-        let unstable = table::<Cell>(source.paths, &name)?.select(&[("flow", "unstable")], &["exact", "l"]);
+        let unstable = table::<CellValue>(source.paths, &name)?.select(&[("flow", "unstable")], &["exact", "l"]);
         let unstable = unstable.map_err(Failure::failed)?;
         // of equal ones the first
         let Some(fastest) = unstable.rows().reduce(|best, row| if row[0] > best[0] { row } else { best }) else {

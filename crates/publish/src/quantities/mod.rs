@@ -13,7 +13,7 @@ use checkout::failure::Failure;
 use checkout::figure::Figure;
 use checkout::manifest;
 use checkout::paths::Paths;
-use files::table::{Cell, Grid, Sheet};
+use files::table::{CellValue, Grid, MixedTable};
 use form::Form;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
@@ -64,9 +64,9 @@ fn table<V: files::table::Value>(paths: &Paths, name: &str) -> Result<Grid<V>, F
 ///
 /// # Errors
 /// Failed: there is no such column.
-fn numbers(sheet: &Sheet, column: &str) -> Result<Vec<f64>, Failure> {
+fn numbers(sheet: &MixedTable, column: &str) -> Result<Vec<f64>, Failure> {
     let cells = sheet.column(column).map_err(Failure::failed)?;
-    Ok(cells.iter().filter_map(Cell::number).collect())
+    Ok(cells.iter().filter_map(CellValue::number).collect())
 }
 
 /// The largest of numbers, of which there must be one.

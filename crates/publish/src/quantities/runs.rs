@@ -4,7 +4,7 @@ use super::{Quantities, Source, largest, least, numbers, table};
 use checkout::disk;
 use checkout::failure::Failure;
 use checkout::paths::EVENTS;
-use files::table::Cell;
+use files::table::CellValue;
 
 /// Adds all of it.
 ///
@@ -53,8 +53,14 @@ const REFERENCES: [(&str, &str); 2] =
 fn events(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
     let text = disk::read_text(&source.paths.root.join(REFERENCE_EVENTS))?.unwrap_or_default();
     let references = checkout::events::parse_all(REFERENCE_EVENTS, &text)?;
-    for row in table::<Cell>(source.paths, EVENTS)?.rows() {
-        let [Cell::Word(scene), Cell::Word(event), Cell::Number(time), Cell::Number(n), Cell::Number(spread)] = row
+    for row in table::<CellValue>(source.paths, EVENTS)?.rows() {
+        let [
+            CellValue::Word(scene),
+            CellValue::Word(event),
+            CellValue::Number(time),
+            CellValue::Number(n),
+            CellValue::Number(spread),
+        ] = row
         else {
             return Err(Failure::Usage(format!(
                 "{EVENTS}: expected scene,event,t,n,uncertainty, found a row of {} other cells",

@@ -70,7 +70,7 @@ fn a_run_resumed_from_any_checkpoint_has_the_same_bits() {
         assert_eq!(words(&whole), words(&run(&scene).expect("it runs")), "keeping changes nothing");
         let stop = whole.stop().expect("this scene stops, and goes on").time;
         let mut after_stop = [0, 0];
-        for bytes in kept.iter().step_by(3).chain(kept.last()) {
+        for bytes in kept.iter().step_by(5).chain(kept.last()) {
             let checkpoint = Checkpoint::parse(bytes, &scene).expect("a checkpoint");
             assert!(checkpoint.steps() > 0 && checkpoint.fraction(&scene) < 1.0);
             after_stop[usize::from(checkpoint.fraction(&scene) * scene.t_end > stop)] += 1;
@@ -128,7 +128,7 @@ fn adaptive_runs_resumed_from_any_checkpoint_have_the_same_bits() {
         let (whole, kept) = checkpoints(&scene);
         assert_eq!(words(&whole), words(&run(&scene).expect("it runs")), "keeping changes nothing");
         assert!(!kept.is_empty(), "{lines}: {} checkpoints", kept.len());
-        let (mut parts, every) = (Vec::new(), kept.len().div_ceil(4));
+        let (mut parts, every) = (Vec::new(), kept.len().div_ceil(3));
         for bytes in kept.iter().step_by(every).chain(kept.last()) {
             let checkpoint = Checkpoint::parse(bytes, &scene).expect("a checkpoint");
             parts.push(checkpoint.fraction(&scene));

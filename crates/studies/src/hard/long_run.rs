@@ -3,7 +3,7 @@
 use super::Tables;
 use super::fixed_steps::name;
 use super::rows::{Rows, row};
-use super::run::{Case, Ended, Leg, two_methods};
+use super::run::{Case, HardRun, Leg, two_methods};
 use figures::failure::Failure;
 use jam::laws::{Algebraic, Logarithmic, Model};
 use jam::observe::speed_std;
@@ -79,7 +79,7 @@ pub fn tables(quick: bool) -> Result<Tables, Failure> {
 }
 
 /// `sum(s_n) - L`, summed without rounding.
-fn drift(run: &Ended, ring: Ring) -> f64 {
+fn drift(run: &HardRun, ring: Ring) -> f64 {
     run.gaps.iter().fold(DoubleDouble::from(-ring.length), |sum, &gap| sum + gap).hi
 }
 

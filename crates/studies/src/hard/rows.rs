@@ -1,9 +1,9 @@
 //! Rows of cells, each made from a word, a number or an optional number.
 
-pub use files::table::{Cell, Sheet as Rows};
+pub use files::table::{CellValue, MixedTable as Rows};
 
 /// A row for a table of words and numbers.
 macro_rules! row {
-    ($($cell:expr),+ $(,)?) => { vec![$($crate::hard::rows::Cell::from($cell)),+] };
+    ($($cell:expr),+ $(,)?) => { vec![$($crate::hard::rows::CellValue::from($cell)),+] };
 }
 pub(crate) use row;

@@ -49,7 +49,7 @@ pub struct Stop {
 
 /// A run that has ended.
 #[derive(Clone, Debug)]
-pub struct Ended {
+pub struct HardRun {
     /// Why before its time; `None` where it reached its end.
     pub stop: Option<Stop>,
     /// The first event of each kind.
@@ -104,12 +104,12 @@ impl Case {
     }
 
     /// Runs from the start of the paper with this shift.
-    pub fn run(&self, shift: f64, leg: Leg) -> Ended {
+    pub fn run(&self, shift: f64, leg: Leg) -> HardRun {
         self.run_from(&self.form().start(Start { shift }), leg)
     }
 
     /// Runs from a state.
-    pub fn run_from(&self, start: &[f64], leg: Leg) -> Ended {
+    pub fn run_from(&self, start: &[f64], leg: Leg) -> HardRun {
         let form = self.form();
         let count = self.ring.pedestrians;
         let mut looking = Looking { watch: Watch::new(self.model.clone(), &*form, count), steps: 0, last: Vec::new() };
@@ -130,7 +130,7 @@ impl Case {
             (None, Err(failure)) => Some(self.failed(failure, &gaps, &speeds)),
             (None, Ok(_)) => None,
         };
-        Ended { stop, events, state, gaps, speeds, steps: looking.steps, evaluations }
+        HardRun { stop, events, state, gaps, speeds, steps: looking.steps, evaluations }
     }
 
     fn failed(&self, failure: &ode::Failure, gaps: &[f64], speeds: &[f64]) -> Stop {
@@ -146,12 +146,12 @@ impl Case {
     }
 }
 
-impl Ended {
+impl HardRun {
     /// The run, if it reached its end.
     ///
     /// # Errors
     /// It was stopped: when, where and by what.
-    pub fn whole(self) -> Result<Ended, Failure> {
+    pub fn whole(self) -> Result<HardRun, Failure> {
         match &self.stop {
             None => Ok(self),
             Some(Stop { name, time, pedestrian, gap, step }) => Err(Failure::work(format!(

@@ -3,7 +3,7 @@
 
 use super::Tables;
 use super::rows::{Rows, row};
-use super::run::{Case, Ended, Leg, difference, figure_4, two_methods};
+use super::run::{Case, HardRun, Leg, difference, figure_4, two_methods};
 use figures::failure::Failure;
 use jam::ring::Ring;
 use jam::states::StateVariables;
@@ -13,7 +13,7 @@ const END: f64 = 1.0;
 /// The shift travels to one more pedestrian behind with every derivative: in this time to these with more than rounding.
 const NEAR: usize = 10;
 
-fn run(pedestrians: usize, how: (ode::Method, ode::Control)) -> Result<Ended, Failure> {
+fn run(pedestrians: usize, how: (ode::Method, ode::Control)) -> Result<HardRun, Failure> {
     let model = figure_4(0.55);
     let ring = Ring { pedestrians, length: pedestrians as f64 * HEADWAY };
     let case = Case { model, ring, kind: StateVariables::Deviations };
@@ -21,7 +21,7 @@ fn run(pedestrians: usize, how: (ode::Method, ode::Control)) -> Result<Ended, Fa
 }
 
 /// The speeds of the shifted pedestrian and those behind it, nearest first.
-fn behind(run: &Ended) -> Vec<f64> {
+fn behind(run: &HardRun) -> Vec<f64> {
     let count = run.speeds.len();
     (0..NEAR).map(|k| run.speeds[(count * NEAR - k) % count]).collect()
 }

@@ -2,7 +2,7 @@
 
 use super::Tables;
 use super::rows::{Rows, row};
-use super::run::{Case, Ended, Leg, difference, two_methods};
+use super::run::{Case, HardRun, Leg, difference, two_methods};
 use figures::failure::Failure;
 use jam::laws::{Logarithmic, Model};
 use jam::ring::Ring;
@@ -45,11 +45,11 @@ pub fn tables(quick: bool) -> Result<Tables, Failure> {
     Ok(vec![("stiffness", collisions), ("stiffness_steps", steps)])
 }
 
-fn overlap(run: &Ended) -> Option<f64> {
+fn overlap(run: &HardRun) -> Option<f64> {
     run.stop.as_ref().filter(|stop| stop.name == "overlap").map(|stop| stop.time)
 }
 
-fn effort(case: &Case, v0: f64, method: Method, until: f64) -> Result<Vec<super::rows::Cell>, Failure> {
+fn effort(case: &Case, v0: f64, method: Method, until: f64) -> Result<Vec<super::rows::CellValue>, Failure> {
     let run = |method, control| case.run(SHIFT, Leg { method, control, begin: 0.0, end: until });
     let exact = run(Method::Dop853, Control::Adaptive { tolerance: 1e-13 }).whole()?;
     let adaptive = method.is_adaptive().then(|| run(method, Control::Adaptive { tolerance: 1e-6 }));

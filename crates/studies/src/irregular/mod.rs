@@ -5,7 +5,7 @@
 mod lyapunov;
 mod observed;
 
-use crate::hard::rows::{Cell, Rows, row};
+use crate::hard::rows::{CellValue, Rows, row};
 use crate::hard::run::{Case, Leg, two_methods};
 use figures::failure::Failure;
 use jam::laws::{Algebraic, Model};
@@ -108,7 +108,7 @@ impl Run {
     }
 
     /// The row of `runs`: until when the waves are irregular and what they are then, what they are in the last window.
-    fn row(&self, case: &Case, scheme: Scheme) -> Result<Vec<Cell>, Failure> {
+    fn row(&self, case: &Case, scheme: Scheme) -> Result<Vec<CellValue>, Failure> {
         let count = self.windows.iter().rposition(|window| window.least_gap < IRREGULAR).map_or(0, |last| last + 1);
         let (irregular, last) = (&self.windows[..count], &self.windows[WINDOWS - 1]);
         let stds: Vec<f64> = irregular.iter().map(|window| window.std).collect();

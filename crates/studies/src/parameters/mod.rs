@@ -5,7 +5,7 @@
 pub mod jammed;
 
 use crate::hard::Tables;
-use crate::hard::rows::{Cell, Rows, row};
+use crate::hard::rows::{CellValue, Rows, row};
 use figures::failure::Failure;
 use jam::jams::{self, Jam};
 use jam::uniform::steady_speed;
@@ -65,7 +65,7 @@ pub fn tables() -> Result<Tables, Failure> {
 fn table(name: &str, runs: &[(f64, Run)]) -> Result<Rows, Failure> {
     let mut rows = Rows::new(&[&[name][..], &OBSERVED].concat());
     for (value, changed) in runs {
-        rows.push([vec![Cell::from(*value)], observed(changed)?].concat());
+        rows.push([vec![CellValue::from(*value)], observed(changed)?].concat());
     }
     Ok(rows)
 }
@@ -77,7 +77,7 @@ fn shifts(main: &Run) -> Result<Rows, Failure> {
     let random = [1e-4, 0.1].map(|size| ("random", Start::Random(size)));
     for (word, start) in one.into_iter().chain(random) {
         let (Start::One(size) | Start::Random(size)) = start;
-        rows.push([vec![Cell::from(word), Cell::from(size)], observed(&Run { start, ..*main })?].concat());
+        rows.push([vec![CellValue::from(word), CellValue::from(size)], observed(&Run { start, ..*main })?].concat());
     }
     Ok(rows)
 }
@@ -88,7 +88,7 @@ fn tolerances(main: &Run) -> Result<Rows, Failure> {
     let mut rows = Rows::new(&[&["tolerance"][..], &OBSERVED].concat());
     for tolerance in [1e-5, 1e-7, 1e-9, 1e-11, 1e-13] {
         let one = run(main, (Method::Taylor, Control::Adaptive { tolerance }))?;
-        rows.push([vec![Cell::from(tolerance)], cells(main, &one, &strict)?].concat());
+        rows.push([vec![CellValue::from(tolerance)], cells(main, &one, &strict)?].concat());
     }
     Ok(rows)
 }
@@ -142,27 +142,27 @@ fn count(run: &Run, at: &Snapshot, share: f64) -> usize {
     jams_of(run, at, share).len()
 }
 
-fn observed(changed: &Run) -> Result<Vec<Cell>, Failure> {
+fn observed(changed: &Run) -> Result<Vec<CellValue>, Failure> {
     let by = |method| run(changed, (method, Control::Adaptive { tolerance: TOLERANCE }));
     cells(changed, &by(Method::Taylor)?, &by(Method::Dop853)?)
 }
 
 /// The columns [`OBSERVED`]: what one run shows, and how far the other one is off.
-fn cells(changed: &Run, one: &Jammed, other: &Jammed) -> Result<Vec<Cell>, Failure> {
+fn cells(changed: &Run, one: &Jammed, other: &Jammed) -> Result<Vec<CellValue>, Failure> {
     let model = changed.model();
     let headway = changed.ring().headway();
     let steady = steady_speed(&model, headway).map_err(Failure::work)?;
     let growth = model.linearise(headway, steady).fastest(changed.pedestrians).0;
     let mut cells = vec![
-        Cell::from(steady),
-        Cell::from(growth),
-        Cell::from(one.stop.map_or("t_end", |stop| stop.0)),
-        Cell::from(one.stop.map(|stop| stop.1)),
+        CellValue::from(steady),
+        CellValue::from(growth),
+        CellValue::from(one.stop.map_or("t_end", |stop| stop.0)),
+        CellValue::from(one.stop.map(|stop| stop.1)),
     ];
     for number in Jammed::NUMBERS {
         let (a, b) = (number(one), number(other));
-        cells.push(Cell::from(a));
-        cells.push(Cell::from(a.zip(b).map(|(a, b)| (a - b).abs())));
+        cells.push(CellValue::from(a));
+        cells.push(CellValue::from(a.zip(b).map(|(a, b)| (a - b).abs())));
     }
     Ok(cells)
 }

@@ -1,6 +1,6 @@
 //! Critical values of the parameters: for all waves, for those of a ring, for negative `delta`.
 
-use crate::hard::rows::{Cell, Rows, row};
+use crate::hard::rows::{CellValue, Rows, row};
 use figures::failure::Failure;
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
 use jam::stability::Linear;
@@ -89,7 +89,7 @@ struct Asked {
 
 impl Asked {
     /// A row for a number of pedestrians, or 0 for all waves.
-    fn row(&self, count: usize, found: Option<(f64, f64)>) -> Vec<Cell> {
+    fn row(&self, count: usize, found: Option<(f64, f64)>) -> Vec<CellValue> {
         let Asked { quantity, law, delta, q, a_v, b, v0, d_gap, headway, closed } = *self;
         let (value, error) = (found.map(|found| found.0), found.map(|found| (found.0 - found.1).abs()));
         let closed = closed.filter(|_| count == 0);

@@ -6,7 +6,7 @@ mod elimination;
 mod presets;
 mod wave;
 
-use crate::hard::rows::{Cell, Rows, row};
+use crate::hard::rows::{CellValue, Rows, row};
 use crate::hard::run::two_methods;
 use figures::failure::Failure;
 use jam::laws::{Algebraic, Model};
@@ -213,7 +213,7 @@ fn watched_by_nobody(_: &mut Step<'_>) -> ControlFlow<()> {
 }
 
 /// A run from a wave with one disturbed pedestrian, by two methods: a row of `runs`.
-fn lasts(family: &Family, wave: &Wave, pedestrians: usize) -> Result<Vec<Cell>, Failure> {
+fn lasts(family: &Family, wave: &Wave, pedestrians: usize) -> Result<Vec<CellValue>, Failure> {
     let model = Model::Algebraic(law(wave.strength));
     let headway = headway_of_gap(&model, GAP).map_err(Failure::work)?;
     let form = StateVariables::Spacings.build(&model, Ring { pedestrians, length: headway * pedestrians as f64 });

@@ -1,7 +1,7 @@
 //! Lists of sums, samples, and distances.
 
 use checkout::sums::{State, Sums};
-use files::table::Sheet;
+use files::table::MixedTable;
 use verify::golden;
 use verify::numbers::{self, Tolerance, relative, ulps};
 
@@ -73,8 +73,8 @@ fn distances_in_units_of_the_last_place() {
 
 #[test]
 fn the_place_of_the_largest_distance_is_named() {
-    let golden = Sheet::parse(b"t,std\n0,1\n3,1e-8\n6,5\n").expect("a table");
-    let fresh = Sheet::parse(b"t,std\n0,1\n3,2e-8\n6,5.5\n").expect("a table");
+    let golden = MixedTable::parse(b"t,std\n0,1\n3,1e-8\n6,5\n").expect("a table");
+    let fresh = MixedTable::parse(b"t,std\n0,1\n3,2e-8\n6,5.5\n").expect("a table");
     let distance = numbers::compare(&golden, &fresh, 3, &exact).expect("one shape");
     assert_eq!(distance.cells, 2);
     assert_eq!((distance.absolute.row, distance.absolute.column.as_str()), (6, "std"));
@@ -84,7 +84,7 @@ fn the_place_of_the_largest_distance_is_named() {
 
 #[test]
 fn tables_of_another_shape_are_not_compared() {
-    let table = |text: &str| Sheet::parse(text.as_bytes()).expect("a table");
+    let table = |text: &str| MixedTable::parse(text.as_bytes()).expect("a table");
     let columns = numbers::compare(&table("t,std\n0,1\n"), &table("t,x\n0,1\n"), 1, &exact).expect_err("columns");
     assert_eq!(columns, "expected the columns t,std, found t,x");
     let rows = numbers::compare(&table("t\n0\n1\n"), &table("t\n0\n"), 1, &exact).expect("the rows of both");
@@ -95,7 +95,7 @@ fn tables_of_another_shape_are_not_compared() {
 fn differences_along_t_grow_shrink_or_stay() {
     let table = |error: &dyn Fn(i32) -> f64| {
         let rows: String = (0..40).map(|t| format!("{t},{:?}\n", 1.0 + error(t))).collect();
-        Sheet::parse(format!("t,std\n{rows}").as_bytes()).expect("a table")
+        MixedTable::parse(format!("t,std\n{rows}").as_bytes()).expect("a table")
     };
     let small = |t: i32| f64::from(t) * 1e-6;
     for (error, course, since) in [
@@ -117,7 +117,7 @@ fn differences_along_t_grow_shrink_or_stay() {
 
 #[test]
 fn tolerances_add_up() {
-    let table = |value: f64| Sheet::parse(format!("n,v\n0,{value:?}\n1,-8\n").as_bytes()).expect("a table");
+    let table = |value: f64| MixedTable::parse(format!("n,v\n0,{value:?}\n1,-8\n").as_bytes()).expect("a table");
     let tolerance = |_: &str| Tolerance { absolute: 0.25, relative: 0.5, of_scale: 0.125 };
     // 0.25 + 0.125 * 8 + 0.5 * the larger of the two
     for (value, beyond) in [(3.25, 0), (4.5, 0), (4.75, 1)] {

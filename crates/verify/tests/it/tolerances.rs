@@ -1,7 +1,7 @@
 //! Tolerances: each is derived again by its rule, and all are tried on other methods and other parameters.
 
 use checkout::paths::Paths;
-use files::table::{Sheet, Table};
+use files::table::{MixedTable, Table};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -23,8 +23,8 @@ fn tolerances() -> Tolerances {
     Tolerances::read(&Paths::find(Some(root())).expect("the checkout")).expect("data/tolerances.toml")
 }
 
-fn sample(table: &str) -> Sheet {
-    Sheet::read(&root().join(format!("data/golden/{table}.csv"))).expect("a committed sample")
+fn sample(table: &str) -> MixedTable {
+    MixedTable::read(&root().join(format!("data/golden/{table}.csv"))).expect("a committed sample")
 }
 
 /// The columns of a table, and the numbers in one of them; cells without a number are left out.
@@ -195,7 +195,7 @@ fn run(scene: &str, table: &str, made: &str, options: &[&str]) -> Distance {
     assert!(command.output().expect("the binary starts").status.success(), "{command:?}");
     let text = fs::read_to_string(out.join(made)).expect("a table");
     let (id, file) = table.split_once('/').expect("figure and table");
-    let fresh = Sheet::parse(golden::sample(&text).as_bytes()).expect("a table");
+    let fresh = MixedTable::parse(golden::sample(&text).as_bytes()).expect("a table");
     let tolerances = tolerances();
     numbers::compare(&sample(table), &fresh, 1, &|column| tolerances.column(id, file, column)).expect("one shape")
 }

@@ -40,7 +40,7 @@ pub struct Checkout {
 }
 
 /// How a run ended.
-pub struct Ended {
+pub struct CommandOutput {
     /// `None`: a signal ended it.
     pub code: Option<i32>,
     pub words: String,
@@ -134,8 +134,8 @@ impl Checkout {
         env::join_paths(iter::once(folder).chain(env::split_paths(&rest))).expect("a path without colons")
     }
 
-    pub fn run(&self, figures: &[&str]) -> Ended {
-        Ended::of(&mut self.command(figures))
+    pub fn run(&self, figures: &[&str]) -> CommandOutput {
+        CommandOutput::of(&mut self.command(figures))
     }
 
     /// A plain run: it must end well, with the right sums and nothing left over.
@@ -158,7 +158,7 @@ impl Checkout {
     }
 
     /// Judges a disturbed run: it may have failed, but if it says that all is well, all must be.
-    pub fn must_not_lie(&self, ended: &Ended, figures: &[&str], after: &str) {
+    pub fn must_not_lie(&self, ended: &CommandOutput, figures: &[&str], after: &str) {
         if ended.code == Some(0) {
             self.must_be_right(figures, after);
         }
@@ -237,14 +237,14 @@ impl Checkout {
     }
 }
 
-impl Ended {
-    pub fn of(command: &mut Command) -> Ended {
-        Ended::from(&command.output().expect("the runner starts"))
+impl CommandOutput {
+    pub fn of(command: &mut Command) -> CommandOutput {
+        CommandOutput::from(&command.output().expect("the runner starts"))
     }
 
-    pub fn from(output: &Output) -> Ended {
+    pub fn from(output: &Output) -> CommandOutput {
         let words = [&output.stdout[..], &output.stderr].concat();
-        Ended { code: output.status.code(), words: String::from_utf8_lossy(&words).into_owned() }
+        CommandOutput { code: output.status.code(), words: String::from_utf8_lossy(&words).into_owned() }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The runner is killed, alone or with all its programs, at moments spread over its whole duration and within writes.
 
 use super::Tally;
-use super::checkout::{Checkout, Ended};
+use super::checkout::{Checkout, CommandOutput};
 use super::random::Random;
 use std::collections::BTreeSet;
 use std::os::unix::process::CommandExt as _;
@@ -79,7 +79,7 @@ fn durations(checkout: &Checkout) -> Vec<[Duration; 4]> {
             Start::Forced | Start::PartialRun => {}
         }
         let clock = Instant::now();
-        let ended = Ended::of(&mut checkout.command(&arguments(figures, start)));
+        let ended = CommandOutput::of(&mut checkout.command(&arguments(figures, start)));
         assert_eq!(ended.code, Some(0), "{}", ended.words);
         clock.elapsed()
     };

@@ -2,7 +2,7 @@
 //! paths.
 
 use super::Tally;
-use super::checkout::{Checkout, Ended, copy, make_executable, remove};
+use super::checkout::{Checkout, CommandOutput, copy, make_executable, remove};
 use super::random::Random;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -116,7 +116,7 @@ pub fn clocks(checkout: &Checkout, tally: &mut Tally) {
                     checkout.forget(true);
                 }
                 let mut command = checkout.under(&["faketime", "-f", date], &[&["figures"], &FIGURES[..]].concat());
-                let ended = Ended::of(command.env("PATH", checkout.path_with_true_clock_for_the_compiler()));
+                let ended = CommandOutput::of(command.env("PATH", checkout.path_with_true_clock_for_the_compiler()));
                 assert_eq!(ended.code, Some(0), "the clock at {date}: {}", ended.words);
                 checkout.must_be_right(&FIGURES, date);
                 checkout.must_recover(&FIGURES, &format!("the clock at {date}"));
@@ -176,7 +176,7 @@ pub fn together(checkout: &Checkout, tally: &mut Tally) {
             })
             .collect();
         for child in all {
-            let ended = Ended::from(&child.wait_with_output().expect("a child"));
+            let ended = CommandOutput::from(&child.wait_with_output().expect("a child"));
             assert_eq!(ended.code, Some(0), "three runs at once: {}", ended.words);
             count += 1;
         }
@@ -223,9 +223,9 @@ pub fn paths(checkout: &Checkout, place: &Path, tally: &mut Tally) {
     tally.add("paths with blanks, quotes and letters beyond ASCII", 3, "runs of all figures");
 }
 
-fn limited(checkout: &Checkout, limit: &str, figures: &[&str]) -> Ended {
+fn limited(checkout: &Checkout, limit: &str, figures: &[&str]) -> CommandOutput {
     let shell = ["sh", "-c", &format!("{limit} && exec \"$0\" \"$@\"")];
-    Ended::of(&mut checkout.under(&shell, &[&["figures"], figures].concat()))
+    CommandOutput::of(&mut checkout.under(&shell, &[&["figures"], figures].concat()))
 }
 
 /// Installs it where that is possible.

@@ -54,7 +54,7 @@ fn after_every_fault_a_plain_run_gives_the_right_sums() {
     checkout::remove(&place);
     let clock = Instant::now();
     let copy = Checkout::new(&place.join("checkout"));
-    let (mut random, mut tally) = (Random::new(seed), Tally::default());
+    let (mut random, mut tally) = (Random(seed), Tally::default());
     let parts: [Part<'_>; 12] = [
         ("kills", &mut |random, tally| kills::kills(&copy, count, random, tally)),
         ("store", &mut |random, tally| damage::store(&copy, random, tally)),

@@ -81,8 +81,8 @@ pub struct Memory<C: Copy> {
 }
 
 impl<C: Along> Memory<C> {
-    /// Writes the arguments of the operations with kinks, which begin at these histories: `order` rows, in each for each of them
-    /// one number for each pedestrian.
+    /// Writes the arguments of the operations with kinks, which begin at these histories: `order` rows, in each for each
+    /// of them one number for each pedestrian.
     pub fn arguments(&self, kinks: &[usize], pedestrians: usize, order: usize, arguments: &mut [f64]) {
         let (blocks, count) = (pedestrians.div_ceil(C::WIDTH), kinks.len() * pedestrians);
         let histories = Histories { memory: &self.histories, blocks, length: order, order: 0 };

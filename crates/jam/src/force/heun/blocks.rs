@@ -2,8 +2,9 @@
 //!
 //! A step of Heun's scheme asks for two pedestrians ahead, never for one behind. So a block that is to make `m` steps
 //! takes `2 m` more from ahead with it as they are at the beginning, and makes some of their steps again: their last two
-//! become wrong with every step, the block itself never. Blocks are done in order, the foremost last, so that those
-//! ahead are still as they were. Every pedestrian is computed by the same operations as in one piece: the same bits, for any cut.
+//! become wrong with every step, the block itself never. Blocks are done in order, the foremost last, so that those ahead
+//! are still as they were. Every pedestrian is computed by the same operations as in one piece: the same bits, for any
+//! cut.
 
 use super::segment::{Scheme, Segment};
 use crate::force::Steps;

@@ -1,0 +1,58 @@
+//! An axis of a plane of cells: of a stability map or of a sweep.
+
+use files::reader::{FINITE, Reader, SceneError};
+
+/// Cells of equal width, or of equal ratio, with the values at their centres.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// The parameter it runs over.
+    pub parameter: String,
+    /// Its lower end.
+    pub from: f64,
+    /// Its upper end.
+    pub to: f64,
+    /// The number of cells.
+    pub cells: usize,
+    /// Whether the cells have equal ratios.
+    pub is_log: bool,
+    /// Whether the values are whole: each is rounded to the nearest.
+    pub is_whole: bool,
+}
+
+impl Axis {
+    /// Reads a linear axis of at most `most` cells; `parameters` says what it can run over.
+    ///
+    /// # Errors
+    /// What is missing or out of range.
+    pub fn read(reader: &mut Reader<'_>, parameters: &str, most: usize) -> Result<Axis, SceneError> {
+        let axis = Axis {
+            parameter: reader.text("parameter", parameters)?.to_owned(),
+            from: reader.number("from", FINITE)?,
+            to: reader.number("to", FINITE)?,
+            cells: reader.count("cells", 1, most)?,
+            is_log: false,
+            is_whole: false,
+        };
+        if axis.to <= axis.from {
+            return Err(reader.complaint("to", &format!("must be above from = {:?}", axis.from)));
+        }
+        Ok(axis)
+    }
+
+    /// The value at the centre of cell `i`.
+    pub fn centre(&self, i: usize) -> f64 {
+        self.at(i as f64 + 0.5)
+    }
+
+    /// The value at a place counted in cells from the lower end: cell `i` reaches from `i` to `i + 1`.
+    pub fn at(&self, place: f64) -> f64 {
+        let share = place / self.cells as f64;
+        let value = if self.is_log {
+            let (low, high) = (math::ln(self.from), math::ln(self.to));
+            math::exp(low + (high - low) * share)
+        } else {
+            self.from + (self.to - self.from) * share
+        };
+        if self.is_whole { value.round() } else { value }
+    }
+}
