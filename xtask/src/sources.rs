@@ -157,5 +157,6 @@ fn is_source(name: &str) -> bool {
     let output = Paths::is_output(name) || name.split('/').any(files::write::is_draft_name);
     let in_figures = name.starts_with("figures/");
     let code = [".rs", ".toml"].iter().any(|end| name.ends_with(end));
-    !apart && !output && ![".md", ".py"].iter().any(|end| name.ends_with(end)) && (!in_figures || code)
+    let document = [".md", ".py", "/LICENSE-MIT", "/LICENSE-APACHE"].iter().any(|end| name.ends_with(end));
+    !apart && !output && !document && (!in_figures || code)
 }

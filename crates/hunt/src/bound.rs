@@ -15,7 +15,7 @@ pub struct Bound {
 }
 
 /// Times the stated error.
-const FACTOR: f64 = 10.0;
+pub const FACTOR: f64 = 10.0;
 
 impl Bound {
     /// The errors of a run that states these.

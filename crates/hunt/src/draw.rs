@@ -1,6 +1,7 @@
 //! Draws random scenes, with every parameter varied over decades, as the text of scene files.
 
 mod formulas;
+mod wider;
 
 use crate::random::Random;
 use math::{larger, smaller};
@@ -47,8 +48,14 @@ pub const FORMULAS: u64 = 1_000_000;
 /// Seeds from this on draw the scenes of seeds lower by this, but all by Taylor's method with steps of adaptive length.
 pub const TAYLOR: u64 = 2_000_000;
 
+/// Seeds from this on draw scenes with what the others never have.
+pub const WIDER: u64 = 10_000_000;
+
 /// The scene of this seed.
 pub fn scene(seed: u64) -> String {
+    if seed >= WIDER {
+        return wider::scene(seed);
+    }
     if seed >= TAYLOR {
         return by_taylor(&scene(seed - TAYLOR), &mut Random::new(seed));
     }

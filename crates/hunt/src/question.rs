@@ -52,8 +52,15 @@ pub fn read(text: &str, panel: &str) -> Result<Question, String> {
         pedestrians: number("ring", "pedestrians")? as usize,
         length: number("ring", "length")?,
         shift: number("start", "shift")?,
+        displacements: displacements(text),
         times: Vec::new(),
     })
+}
+
+/// The displacements that a scene of the hunt gives in a comment: scene files have none, the library has.
+pub fn displacements(text: &str) -> Vec<f64> {
+    let given = text.lines().find_map(|line| line.strip_prefix("# displacements = [")?.strip_suffix(']'));
+    given.map_or(Vec::new(), |given| given.split(", ").filter_map(|number| number.parse().ok()).collect())
 }
 
 /// The law of a text that has no more than that.

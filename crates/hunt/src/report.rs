@@ -120,10 +120,14 @@ fn honesty(all: &[Hunted]) -> String {
 /// What the stated errors cost, in right-hand sides: in all, and run by run.
 fn cost(all: &[Hunted]) -> String {
     let verdicts = all.iter().flat_map(|hunted| &hunted.verdicts);
-    let costs: Vec<(f64, u64)> = verdicts.filter_map(|verdict| verdict.cost).collect();
+    let costs = verdicts.filter(|verdict| verdict.evaluations > 0);
+    let costs: Vec<(f64, u64)> = costs.filter_map(|verdict| Some((verdict.cost?, verdict.evaluations))).collect();
+    if costs.is_empty() {
+        return String::new();
+    }
     let of_check: f64 = costs.iter().map(|(ratio, evaluations)| ratio * *evaluations as f64).sum();
     let of_runs: f64 = costs.iter().map(|(_, evaluations)| *evaluations as f64).sum();
-    let mean = costs.iter().map(|(ratio, _)| ratio).sum::<f64>() / costs.len().max(1) as f64;
+    let mean = costs.iter().map(|(ratio, _)| ratio).sum::<f64>() / costs.len() as f64;
     let ratios = distribution(costs.iter().map(|(ratio, _)| *ratio).collect());
     format!(
         "cost of stating errors, in right-hand sides: {:.2} of the runs in all, {mean:.2} on average; {ratios}\n",

@@ -75,8 +75,8 @@ pub fn ratios(scene: &Scene, outcome: &Outcome, answer: &Answer, stated: &Stated
     ratios
 }
 
-/// The part of a run that places within steps are known to.
-pub(crate) const FINEST: f64 = 1e-17;
+/// The part of a run that places within steps are known to: half a rounding.
+pub(crate) const FINEST: f64 = 1e-16;
 
 /// What a run states, and the run up to there if its check does not confirm all of it; of the table of trajectories, of which
 /// it states nothing, the difference from a second run.
@@ -156,6 +156,7 @@ fn difference(scene: &Scene, outcome: &Outcome) -> Stated {
 /// A few roundings.
 const ROUNDING: f64 = 1e-15;
 
-fn largest(values: impl Iterator<Item = f64>) -> f64 {
-    values.fold(0.0, |largest, value| if value.abs() <= largest { largest } else { value.abs() })
+/// The largest in size; NaN if there is one.
+pub(crate) fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |largest, value| if value.abs() <= largest || largest.is_nan() { largest } else { value.abs() })
 }

@@ -311,7 +311,7 @@ impl<'a> Run<'a> {
     /// not have seen, or since the law says otherwise at its end than its solution.
     fn too_long(&mut self, h: f64, norm: &Norm, bends: Option<&mut Bends>) -> Option<f64> {
         let shortened = bends.and_then(|bends| bends.shortened(self.system, &self.next, &self.next_rates, h));
-        if shortened.is_some() {
+        if shortened.is_some_and(|part| part > LEAST_PART) {
             return shortened;
         }
         let ends = Ends {
@@ -322,7 +322,8 @@ impl<'a> Run<'a> {
             h,
         };
         let defect = self.stepper.defect(&ends, norm);
-        (defect.is_nan() || defect > LARGEST_DEFECT).then_some(0.5)
+        // from an end where the law says otherwise, with a rate beyond all bounds perhaps, no path to a bend follows
+        (defect.is_nan() || defect > LARGEST_DEFECT).then_some(0.5).or(shortened)
     }
 
     fn propose(&mut self, norm: &Norm) -> Option<f64> {
@@ -390,6 +391,9 @@ pub const SHORTEST: f64 = 1e-290;
 /// So many steps in a row that had to be shortened and changed no component end a run: at the end of the domain the
 /// compensation of the sums takes in ever shorter ones.
 const MOST_IN_PLACE: u32 = 256;
+
+/// A path that touches a bend in an earlier part of a step than this is doubted: it may be that of an end that means nothing.
+const LEAST_PART: f64 = 1e-4;
 
 /// A larger defect is taken for a sign that the law is another one at the end of the step than at its start.
 const LARGEST_DEFECT: f64 = 32.0;

@@ -49,14 +49,20 @@ impl<T: Real> Flow<T> {
         }
     }
 
-    /// Equal spacings, all at rest, pedestrian 0 moved forward.
-    pub fn start(&self, shift: f64) -> Vec<T> {
-        let (n, shift) = (self.pedestrians, T::from(shift));
+    /// Equal spacings, all at rest, pedestrian 0 moved forward, and everybody by their displacement if there are any.
+    pub fn start(&self, shift: f64, displacements: &[f64]) -> Vec<T> {
+        let n = self.pedestrians;
         let mut state = vec![T::from(0.0); self.dimension()];
         state[..n].fill(self.headway - self.base());
-        state[0] = state[0] - shift;
-        state[n - 1] = state[n - 1] + shift;
-        state[2 * n] = shift;
+        let all = std::iter::once((0, shift)).chain(displacements.iter().copied().enumerate());
+        for (own, by) in all.filter(|(_, by)| *by != 0.0) {
+            let (by, behind) = (T::from(by), (own + n - 1) % n);
+            state[own] = state[own] - by;
+            state[behind] = state[behind] + by;
+            if own == 0 {
+                state[2 * n] = state[2 * n] + by;
+            }
+        }
         state
     }
 

@@ -18,6 +18,8 @@ pub struct Question {
     pub length: f64,
     /// How far pedestrian 0 is moved forward at the start.
     pub shift: f64,
+    /// How far everybody is, besides; nobody if empty.
+    pub displacements: Vec<f64>,
     /// The times at which the solution is wanted, ascending, the first after 0.
     pub times: Vec<f64>,
 }
@@ -134,7 +136,7 @@ const LEAST_ROOM: f64 = 1e-280;
 /// clearances become the state. Speeds above `fastest` times the desired one, or 1, are a blow-up.
 pub fn solve<T: Real>(question: &Question, form: Form, care: Care, fastest: f64) -> Solution {
     let flow: Flow<T> = Flow::new(question.formula.clone(), question.pedestrians, question.length, form);
-    let start = flow.start(question.shift);
+    let start = flow.start(question.shift, &question.displacements);
     let mut solver = Solver::new(flow, start, care);
     let bound = fastest * larger(question.formula.desired_speed(), 1.0);
     let mut solution = Solution {

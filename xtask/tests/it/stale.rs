@@ -50,7 +50,7 @@ fn every_kind_of_change_leads_to_exactly_the_needed_work() {
     assert!(planned(&shop).is_empty());
     let scene = shop.read("figures/fig04-growth/scene.toml").replace("mu = 0.5", "mu = 0.6");
     let lock = shop.read("Cargo.lock").replace("0.18.1", "0.18.2");
-    let cases: [Case; 20] = [
+    let cases: [Case; 21] = [
         // sources
         ("figures/fig05-exponential-map/main.rs", Some("//! Another."), &[&["fig05-exponential-map"]]),
         ("figures/fig05-exponential-map/scene.toml", Some("title = \"x\""), &[&["fig05-exponential-map"]]),
@@ -74,6 +74,7 @@ fn every_kind_of_change_leads_to_exactly_the_needed_work() {
         // what reaches no figure
         ("data/accuracy/unnamed.csv", Some("t\n"), &[]),
         ("README.md", Some("words"), &[]),
+        ("crates/math/LICENSE-MIT", Some("words"), &[]),
         ("crates/math/tests/a.rs", Some("//! A test."), &[]),
         ("data/golden/fig05/left.csv", None, &[]),
         ("data/SHA256SUMS", None, &[]),

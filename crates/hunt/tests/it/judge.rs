@@ -1,7 +1,11 @@
 //! The judge detects faults: it is given a run and a scene that differs slightly from the one that was run.
 
 use hunt::draw;
+use hunt::judge::numbers::Compared;
+use hunt::judge::refusals::is_advice_true;
 use hunt::judge::{self, Verdict};
+use jam::errors::stated;
+use scene::run::Scene;
 
 const SCENE: &str = "title = \"two laws\"\n[law]\nkind = \"exponential\"\na = 3.0\nb = 1.5\nc = 4.0\na_v = 0.1\nepsilon = 0.01\nv0 = 1.2\n[ring]\npedestrians = 12\nlength = 36.0\n[start]\nshift = 0.3\n[run]\nmethod = \"dop853\"\ntolerance = 1e-12\nt_end = 20.0\nsample = 2.0\n";
 
@@ -55,6 +59,70 @@ fn every_number_of_a_formula_matters_to_the_judge() {
         let other = FORMULA.replace(from, to);
         assert_ne!(other, FORMULA, "{from}");
         assert!(!judged_as(&other).findings.is_empty(), "{to} goes unseen");
+    }
+}
+
+/// A run that pedestrians end: some turn back, then two overlap.
+const EVENTS: &str = "title = \"events\"\n[law]\nkind = \"exponential\"\na = 3.0\nb = 0.3\nv0 = 1.2\n[ring]\npedestrians = 12\nlength = 30.0\n[start]\nshift = 0.4\n[run]\nmethod = \"dop853\"\ntolerance = 1e-12\nt_end = 20.0\nsample = 2.0\n";
+
+/// A ring whose speeds grow beyond all bounds.
+const BLOW_UP: &str = "title = \"blow-up\"\n[law]\nkind = \"algebraic\"\nmu = 1.0\nq = 2.0\nv0 = 4.0\n[ring]\npedestrians = 10\nlength = 27.0\n[start]\nshift = 0.1\n[run]\nmethod = \"dop853\"\ntolerance = 1e-12\nt_end = 60.0\nsample = 10.0\n";
+
+#[test]
+fn the_times_of_events_matter_to_the_judge() {
+    for (text, from, to, words) in
+        [(EVENTS, "shift = 0.4", "shift = 0.40001", "event at t"), (BLOW_UP, "mu = 1.0", "mu = 1.001", "blow-up at t")]
+    {
+        let verdict = judge::scene_as(text, text).pop().expect("a panel");
+        assert!(verdict.findings.is_empty() && verdict.undecided.is_empty(), "{verdict:#?}");
+        let other = text.replace(from, to);
+        assert_ne!(other, text);
+        let verdict = judge::scene_as(text, &other).pop().expect("a panel");
+        assert!(verdict.findings.iter().any(|finding| finding.starts_with(words)), "{verdict:#?}");
+    }
+}
+
+fn scene(text: &str) -> Scene {
+    let scene_file = files::scene_file::parse("scene.toml", text).expect("a scene");
+    scene::run::read("scene.toml", &scene_file.panels[0].tables).expect("a scene")
+}
+
+#[test]
+fn a_row_that_is_missing_and_an_end_without_reason_are_seen() {
+    let scene = scene(SCENE);
+    let (right, _) = stated(&scene).expect("it runs");
+    let judged = |change: &dyn Fn(&mut jam::run::Outcome)| {
+        let (mut verdict, mut outcome) = (judge::named("main"), right.clone());
+        change(&mut outcome);
+        judge::is_whole(&mut verdict, &scene, &outcome, None);
+        verdict.findings.join("; ")
+    };
+    assert_eq!(judged(&|_| ()), "");
+    // the last one lies on the end itself
+    assert!(judged(&|outcome| outcome.samples.times.truncate(9)).contains("9 rows"));
+    assert!(judged(&|outcome| outcome.statistics.time = 18.5).contains("without an event"));
+}
+
+#[test]
+fn a_number_that_is_not_finite_is_seen_among_others() {
+    for found in [f64::NAN, f64::INFINITY] {
+        let mut verdict = judge::named("main");
+        let (what, time, right, uncertainty, range) = ("std", 1.0, 0.0, 0.0, 1.0);
+        Compared { what, time, found, right, uncertainty, allowed: 1.0, range }.note(&mut verdict);
+        assert_eq!(verdict.findings.len(), 1, "{verdict:#?}");
+    }
+}
+
+/// Positions lose small gaps: deviations do not, but more steps would not help.
+#[test]
+fn advice_that_leads_no_further_is_seen() {
+    let scene = scene(&draw::scene(370_716));
+    let mut broken = jam::run::run(&scene).expect_err("positions lead no further");
+    assert!(broken.advice.is_some_and(|advice| advice.contains("deviations")), "{broken}");
+    assert!(is_advice_true(&scene, &broken));
+    for advice in [Some("raise most_steps"), None] {
+        broken.advice = advice;
+        assert!(!is_advice_true(&scene, &broken), "{advice:?}");
     }
 }
 

@@ -44,7 +44,8 @@ fn a_small_shift_keeps_its_digits_whatever_terms_the_law_has() {
             let outcome = run(&own).expect("it ends");
 
             let (pedestrians, length) = (ring.pedestrians, ring.length);
-            let question = Question { formula: formula.clone(), pedestrians, length, shift, times: times.clone() };
+            let (formula, times, displacements) = (formula.clone(), times.clone(), Vec::new());
+            let question = Question { formula, pedestrians, length, shift, displacements, times };
             let care = Care { nodes: 16, tolerance: 1e-20, most_work: 10_000_000 };
             let right = solve::<DoubleDouble>(&question, Form::Differences, care, 1e6);
             assert_eq!(right.end, End::Reached, "{model:?}");

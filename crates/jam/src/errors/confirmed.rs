@@ -19,30 +19,37 @@ pub(super) fn refused(
 ) -> Option<(Broken, Errors)> {
     let time = errors.confirmed_until?;
     let (made, errors) = if time > 0.0 {
-        let shorter = Run { t_end: time, ..run.clone() };
-        let (made, propagated) = run_propagated(&shorter, observer);
-        let made = made.unwrap_or_else(|broken| *broken.outcome);
-        let errors = errors_of(&shorter, &made, Some(&propagated), &mut ());
-        (made, Errors { confirmed_until: None, ..errors })
+        shorter(run, outcome, time, errors.cost, observer)
     } else {
         let made = untried(run, observer);
-        let errors = of_start(&made);
+        let errors = of_start(&made, errors.cost);
         (made, errors)
     };
-    // the last sample is not the end of a step in the run itself
-    let outcome = Box::new(Outcome { samples: outcome.samples.clone().until(time), ..made });
     let failure = Failure::NotConfirmed { time };
+    let outcome = Box::new(made);
     Some((Broken { advice: advice(&failure, run), failure, narrowest: None, outcome }, errors))
 }
 
+/// The run made again up to this time, with its errors, which are those of its rows alone: in the last step, which is another one,
+/// the rows of the run differ.
+fn shorter(run: &Run, outcome: &Outcome, time: f64, spent: f64, observer: &mut dyn RunObserver) -> (Outcome, Errors) {
+    let shorter = Run { t_end: time, ..run.clone() };
+    let (made, propagated) = run_propagated(&shorter, observer);
+    let made = made.unwrap_or_else(|broken| *broken.outcome);
+    let errors = errors_of(&shorter, &made, Some(&propagated), &mut ());
+    let again = made.statistics.evaluations as f64 / outcome.statistics.evaluations as f64;
+    let cost = spent + again * (1.0 + errors.cost);
+    (made, Errors { confirmed_until: None, cost, ..errors })
+}
+
 /// The start is exact up to rounding.
-fn of_start(outcome: &Outcome) -> Errors {
+fn of_start(outcome: &Outcome, cost: f64) -> Errors {
     Errors {
         std: Some(f64::MIN_POSITIVE),
         positions: Some(ROUNDINGS * largest(&outcome.positions)),
         speeds: Some(f64::MIN_POSITIVE),
         events: vec![Some(0.0); outcome.events.len()],
-        cost: 0.0,
+        cost,
         confirmed_until: None,
     }
 }

@@ -99,6 +99,7 @@ pub fn errors_of(
     onlooker: &mut dyn RunObserver,
 ) -> Errors {
     let told = propagated.and_then(|propagated| propagated.errors(run, outcome));
+    let told = told.filter(|_| !second::is_underflown(run, outcome));
     told.unwrap_or_else(|| {
         let seen = propagated.map(Propagated::recent);
         Second::new(run, outcome, seen, onlooker).errors(run, outcome)

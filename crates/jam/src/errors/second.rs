@@ -1,7 +1,7 @@
 //! A second run, and the error estimate from the difference between both runs.
 
 use super::propagated::{UNSURE, std_error};
-use super::recent::{Compared, Instant, Recent};
+use super::recent::{Compared, Instant, Recent, Sort};
 use super::{CAUTION, Errors, ROUNDINGS, confirmed, largest, largest_std, loses_shift, of_headway};
 use crate::events::{Event, EventKind};
 use crate::run::{Outcome, Run, RunObserver, has_deviations, run_from};
@@ -16,6 +16,9 @@ const TIGHTER: f64 = 0.1;
 /// same error (seed 600874 of the hunt).
 const TIGHTER_IF_HIGH: f64 = 0.005;
 const HIGH: usize = 8;
+
+/// The ratio of the tolerance of a third run to that of the second. A loose one might pass by a blow-up as the run did.
+const DECISIVE: f64 = 0.01;
 
 /// The tolerance that the second run of fixed steps starts from: it is made more exact than any of them, since fading motion
 /// may leave errors far below those of its beginning.
@@ -33,6 +36,9 @@ const MANY: u64 = 50;
 /// Below this the force on a perturbation has all but underflowed: a series from where it is 0 shows nothing of what it is
 /// later.
 const FAINT: f64 = 1e-200;
+
+/// Below this doubles lose digits to underflow.
+const UNDERFLOWN: f64 = 1e-290;
 
 /// Factor on the difference, since errors of two methods may have the same sign: it is right where that of the second run
 /// is a third as large, and too cautious by this factor where it is none.
@@ -92,12 +98,20 @@ impl Second {
         let is_shift_lost = loses_shift(run) && self.form != StateVariables::Deviations;
         let has_std = ends_alike && confirmed::reaches(outcome, other) && !is_shift_lost;
         let is_known = ends_alike && is_same_time && !is_through_wall && !is_not_finite(run, outcome);
-        let state = |numbers: fn(&Outcome) -> &[f64], before: fn(&Instant) -> &[f64]| {
-            let last = self.instants().filter(|(one, _)| one.is_last);
+        let late = if is_at_event { factor * (times[0] - times[1]).abs() } else { 0.0 };
+        let state = |numbers: fn(&Outcome) -> &[f64], before: fn(&Instant) -> &[f64], rate: f64| {
+            let last = self.instants().filter(|(one, _)| one.sort == Sort::Last);
             let at_last = last.map(|(one, other)| difference(before(one), before(other)));
-            let all = at_last.fold(difference(numbers(outcome), numbers(other)), larger);
+            let at_end = match self.at_event(times[0]).filter(|_| is_at_event) {
+                Some((one, other)) => difference(before(one), before(other)),
+                // the second run has ended at its event before
+                None => rate * late,
+            };
+            let all = at_last.fold(larger(at_end, difference(numbers(outcome), numbers(other))), larger);
             is_known.then(|| all + gathered * largest(numbers(outcome)))
         };
+        let at_event = self.instants[0].iter().find(|one| one.sort == Sort::Event && one.time == times[0]);
+        let acceleration = at_event.map_or(0.0, |one| one.acceleration);
         // the drive and the force may cancel
         let desired = ROUNDINGS * run.model.desired_speed().abs();
         Errors {
@@ -112,9 +126,10 @@ impl Second {
                 let all = instants.fold(difference(&outcome.samples.std, &other.samples.std), larger);
                 all + gathered * largest(&outcome.samples.std) + self.rounding(run, outcome) + f64::MIN_POSITIVE
             }),
-            positions: state(|outcome| &outcome.positions, |instant| &instant.positions)
+            positions: state(|outcome| &outcome.positions, |instant| &instant.positions, largest(&outcome.speeds))
                 .map(|error| error + ROUNDINGS * largest(&outcome.positions)),
-            speeds: state(|outcome| &outcome.speeds, |instant| &instant.speeds).map(|error| error + desired),
+            speeds: state(|outcome| &outcome.speeds, |instant| &instant.speeds, acceleration)
+                .map(|error| error + desired),
             events: (0..outcome.events.len())
                 .map(|index| self.time_error(run, outcome, index).filter(|_| !is_through_wall))
                 .collect(),
@@ -128,6 +143,11 @@ impl Second {
         first.iter().zip(second)
     }
 
+    /// Both runs at the time of an event of the first, if the second comes so far.
+    fn at_event(&self, time: f64) -> Option<(&Instant, &Instant)> {
+        self.instants().find(|(one, _)| one.sort == Sort::Event && one.time == time)
+    }
+
     /// The error of the time of an event: the difference between both runs; what is not sure of it, since the errors of
     /// both may agree by chance in the one pedestrian at the one time, but not in all; and what the roundings of the
     /// quantity that falls through 0 make of the time. `None` if the other run has no such event, or if the state at the
@@ -135,8 +155,9 @@ impl Second {
     fn time_error(&self, run: &Run, outcome: &Outcome, index: usize) -> Option<f64> {
         let event = &outcome.events[index];
         let difference = self.factor * time_difference(event, &self.outcome.events)?;
-        let pair = self.instants().find(|(one, _)| !one.is_last && one.time == event.time);
-        let (Some((one, other)), Some(rate)) = (pair, self.rates[index]) else { return Some(difference) };
+        let (Some((one, other)), Some(rate)) = (self.at_event(event.time), self.rates[index]) else {
+            return Some(difference);
+        };
         let off = |numbers: &[f64], others: &[f64]| {
             let all = numbers.iter().zip(others).map(|(number, other)| (number - other).abs());
             self.factor * all.fold(0.0, larger)
@@ -200,8 +221,27 @@ fn by_tolerance(
     match run.control {
         // near the roundings of a steep law the tolerance of the run may be met where a smaller one is not
         Control::Adaptive { .. } if is_broken => by((last.0, tolerance)),
+        Control::Adaptive { .. } if is_doubtful(outcome, &second.outcome) => {
+            let third = by((third_method(run.method), DECISIVE * last.1));
+            let goes_on = third.outcome.stop().is_none() && confirmed::reaches(outcome, &third.outcome);
+            if goes_on { third } else { Second { evaluations: third.evaluations, ..second } }
+        }
         _ => second,
     }
+}
+
+/// Whether the second run ends where the run goes on to its end: in a blow-up, or where the formula has no value. A single step of
+/// either may land by chance where the force exceeds all bounds; a third run decides which.
+fn is_doubtful(outcome: &Outcome, second: &Outcome) -> bool {
+    let ends = |outcome: &Outcome| {
+        outcome.stop().is_some_and(|stop| matches!(stop.kind, EventKind::BlowUp | EventKind::Undefined))
+    };
+    outcome.stop().is_none() && ends(second)
+}
+
+/// A method that neither the run has nor, by [`methods`], the second one.
+fn third_method(method: Method) -> Method {
+    if matches!(method, Method::Dop853 | Method::Verner87) { Method::Verner98 } else { Method::Verner87 }
 }
 
 /// The method and the tolerance of a second run; the second of them where the first does not come to the end.
@@ -232,6 +272,14 @@ fn methods(run: &Run, outcome: &Outcome, tolerance: f64) -> (Option<(Method, f64
     (series, (usual, tighter))
 }
 
+/// Whether the deviations of a perturbed ring are too small for doubles: a series from where the force underflows is 0, and so
+/// is all that it leaves out.
+pub(super) fn is_underflown(run: &Run, outcome: &Outcome) -> bool {
+    let is_perturbed = run.start.shift != 0.0 || run.displacements.iter().any(|by| *by != 0.0);
+    let is_moving = outcome.samples.len() > 1 && is_perturbed;
+    is_moving && run.form == StateVariables::Deviations && largest_std(outcome) < UNDERFLOWN
+}
+
 /// Whether an accurate run tells the errors of fixed steps: it has come to its end, and to the same one if those stopped.
 fn is_sure(outcome: &Outcome, accurate: &Outcome, end: f64) -> bool {
     let [stop, other] = [outcome, accurate].map(|outcome| outcome.stop().map(|stop| stop.kind));
@@ -252,7 +300,7 @@ fn by_half_steps(
     let step = 0.5 * if step < run.t_end { step } else { run.t_end };
     let second = Run { control: Control::Fixed { step }, ..again(run, outcome) };
     // within its steps a method of low order is less exact than at their ends
-    let at_events: Vec<Instant> = instants.iter().filter(|instant| !instant.is_last).cloned().collect();
+    let at_events: Vec<Instant> = instants.iter().filter(|instant| instant.sort != Sort::Last).cloned().collect();
     // without compensated sums; once the motion is steady all roundings have the same sign
     let gathered = 0.5 * f64::EPSILON * outcome.statistics.steps as f64;
     Second { gathered, ..made(&second, CAUTION / (1.0 - remaining), &at_events, onlooker) }

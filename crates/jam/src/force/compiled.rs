@@ -3,13 +3,13 @@
 use super::blocks::{Block, Pace, along};
 use super::heun::{self, Cut};
 use super::series::{Memory, Motion};
-use super::{Flow, Force, Interpreted, Prepared, Rows, Steps};
+use super::{Dependence, Flow, Force, Interpreted, Prepared, Rows, Steps};
 use crate::laws::{Chosen, Law};
 use crate::ramp::Bend;
 use formula::{Variable, Writer};
 use math::affine::Affine;
 use math::change::{Player, Recorder, Tape};
-use math::dual::Dual;
+use math::dual::{Dual, Gradient};
 use math::lanes::Lanes;
 use math::simd::{Kernel, Width, dispatch, dispatch_up_to, dispatch_wide};
 use ode::Batch;
@@ -143,12 +143,16 @@ impl<L: Law> Force for Compiled<L> {
         self.speed_slopes.map_or(f64::NAN, |[own, ahead]| own + ahead)
     }
 
-    fn has_slopes(&self) -> bool {
-        self.speed_slopes == Some([-1.0, 0.0])
+    fn dependence(&self) -> Dependence {
+        if self.speed_slopes == Some([-1.0, 0.0]) { Dependence::Spacing } else { Dependence::Speeds }
     }
 
-    fn slopes(&self, more: f64, spacings: &[f64], slopes: &mut [f64]) {
-        dispatch(Slopes { law: self.law, more, spacings, slopes });
+    fn slopes(&self, flow: Flow, now: Rows<'_>, slopes: &mut [f64]) {
+        let law = self.law;
+        match self.dependence() {
+            Dependence::Spacing => dispatch(Slopes { law, more: flow.net_gap, spacings: now.spacings, slopes }),
+            _ => dispatch(Gradients { law, flow, now, slopes }),
+        }
     }
 
     fn bend(&self) -> Option<Bend> {
@@ -343,6 +347,37 @@ impl<L: Law> Kernel for Slopes<'_, L> {
                 let law = self.law;
                 self.of(law);
             }
+        }
+    }
+}
+
+/// The derivatives of the accelerations by the net gaps, the own speeds and those ahead, row by row.
+struct Gradients<'a, L> {
+    law: L,
+    /// What spacings and speeds deviate from.
+    flow: Flow,
+    now: Rows<'a>,
+    slopes: &'a mut [f64],
+}
+
+impl<L: Law> Kernel for Gradients<'_, L> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Gradients { law, flow, now: Rows { spacings, speeds }, slopes } = self;
+        let n = spacings.len();
+        let gradient = |spacing: f64, own: f64, ahead: f64| {
+            let variable = |which: usize, value: f64| Dual { value, slope: Gradient::<3>::of(which) };
+            let (net_gap, own) = (variable(0, flow.net_gap + spacing), variable(1, flow.speed + own));
+            law.acceleration(net_gap, own, variable(2, flow.speed + ahead)).slope.0
+        };
+        let (by_spacing, by_speeds) = slopes.split_at_mut(n);
+        let (by_own, by_ahead) = by_speeds.split_at_mut(n);
+        let rows = by_spacing.iter_mut().zip(by_own).zip(by_ahead);
+        let pairs = spacings.iter().zip(speeds).zip(speeds.iter().skip(1).chain(&speeds[..1]));
+        for (((by_spacing, by_own), by_ahead), ((spacing, own), ahead)) in rows.zip(pairs) {
+            [*by_spacing, *by_own, *by_ahead] = gradient(*spacing, *own, *ahead);
         }
     }
 }

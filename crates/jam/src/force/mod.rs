@@ -48,16 +48,15 @@ pub trait Force: std::fmt::Debug + Send {
     /// Has a meaning only where [`Force::uses_speeds`] is false.
     fn relaxation(&self, flow: Flow) -> f64;
 
-    /// Whether the acceleration depends on the own spacing alone, but for the relaxation of the own speed at rate 1.
-    fn has_slopes(&self) -> bool {
-        false
+    /// What the acceleration depends on.
+    fn dependence(&self) -> Dependence {
+        Dependence::Unknown
     }
 
-    /// Writes how the accelerations answer to the spacings, for spacings that are so much larger than these. Has a meaning only
-    /// where [`Force::has_slopes`] is true.
-    fn slopes(&self, _more: f64, _spacings: &[f64], slopes: &mut [f64]) {
-        slopes.fill(f64::NAN);
-    }
+    /// Writes how the accelerations answer to what they depend on, for deviations of spacings and speeds from this flow: one row
+    /// for the own spacings, for [`Dependence::Speeds`] two more for the own speeds and those ahead. Nothing for
+    /// [`Dependence::Unknown`].
+    fn slopes(&self, _flow: Flow, _now: Rows<'_>, _slopes: &mut [f64]) {}
 
     /// Where the force bends sharply, if it does.
     fn bend(&self) -> Option<Bend> {
@@ -85,6 +84,17 @@ pub trait Force: std::fmt::Debug + Send {
     /// Makes steps of Heun's scheme of the state `[x_0 .. x_{N-1}, v_0 .. v_{N-1}]`, in one piece or cut. A batch in which
     /// something happens leaves the state untouched.
     fn heun(&self, steps: Steps, cut: Option<Cut>, state: &mut [f64]) -> Batch;
+}
+
+/// What the acceleration of a pedestrian depends on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dependence {
+    /// The own spacing alone, but for the relaxation of the own speed at rate 1.
+    Spacing,
+    /// The own spacing, the own speed and that ahead.
+    Speeds,
+    /// Other pedestrians as well, or it is not known.
+    Unknown,
 }
 
 /// A number for each spacing and each speed.

@@ -64,16 +64,6 @@ impl Samples {
         Sample { time: self.times[index], std: self.std[index], positions, speeds, spacings: &[] }
     }
 
-    /// The samples up to this time.
-    pub(crate) fn until(mut self, time: f64) -> Samples {
-        let count = self.times.iter().take_while(|&&t| t <= time).count();
-        self.times.truncate(count);
-        self.std.truncate(count);
-        self.positions.truncate(count * self.pedestrians);
-        self.speeds.truncate(count * self.pedestrians);
-        self
-    }
-
     pub(crate) fn push(&mut self, Sample { time, std, positions, speeds, .. }: Sample<'_>) {
         self.times.push(time);
         self.std.push(std);

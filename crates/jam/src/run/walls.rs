@@ -12,6 +12,9 @@ use ode::Control;
 /// deviations lead no further.
 const NEAR_WALLS: f64 = 1e-3;
 
+/// Where the law is steep, roundings of the state keep steps from ever meeting a tolerance below this.
+const NEAR_ROUNDING: f64 = 1e-11;
+
 /// If no shorter step is possible at a wall and the effective gap is below this, a pedestrian has come closer to the
 /// wall than a double can resolve, and the force exceeds every double.
 const NO_GAP: f64 = 1e-200;
@@ -99,11 +102,20 @@ pub(crate) fn advice(failure: &ode::Failure, run: &Run) -> Option<&'static str> 
         }
         ode::Failure::NotConfirmed { .. } => match run.control {
             Control::Fixed { .. } => Some("a smaller step may help"),
+            Control::Adaptive { .. } if run.form == StateVariables::Positions => {
+                Some("a smaller tolerance may help, or state = \"deviations\", which keeps more digits of small gaps")
+            }
             Control::Adaptive { .. } => Some("a smaller tolerance may help"),
         },
         ode::Failure::StepTooSmall { .. } if run.form == StateVariables::Positions => {
             Some("state = \"deviations\" keeps more digits of small gaps")
         }
+        ode::Failure::StepTooSmall { .. } => match run.control {
+            Control::Adaptive { tolerance } if tolerance < NEAR_ROUNDING => {
+                Some("raise the tolerance: it is near the rounding of the state")
+            }
+            _ => None,
+        },
         _ => None,
     }
 }

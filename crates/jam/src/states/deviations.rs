@@ -4,9 +4,9 @@
 //! distance `X` and speed `V` of the uniform flow, `dX/dt = V`, `dV/dt = f(V, V, Delta y)`. A perturbation of any size
 //! keeps all its digits, and an error is one of the perturbation, not of the state.
 
-use super::tangent::{Centred, carry, fastest};
-use super::{FlowAlong, LEAST_SIZE, RingSystem, closing_rates, displace};
-use crate::force::{Flow, Force, Motion};
+use super::tangent::Centred;
+use super::{FlowAlong, LEAST_SIZE, RingSystem, closing_rates, displace, tangent};
+use crate::force::{Dependence, Flow, Force, Motion, Rows};
 use crate::ring::{Ring, Start};
 use math::lane;
 use math::simd::dispatch;
@@ -40,6 +40,37 @@ impl Deviations {
         change.abs() <= f64::EPSILON * math::larger(flow.net_gap, flow.speed.abs())
     }
 
+    /// How the acceleration of the uniform flow answers to its speed, where the force depends on speeds.
+    fn flow_rate(&self, flow: Flow) -> f64 {
+        let mut slopes = [0.0; 3];
+        self.force.slopes(flow, Rows { spacings: &[0.0], speeds: &[0.0] }, &mut slopes);
+        slopes[1] + slopes[2]
+    }
+
+    /// Writes how the accelerations of the deviations answer to the speed of the uniform flow, from the `slopes` by speeds here
+    /// and the `rate` of the flow. They do not to one that is steady, or where the force is linear in speeds.
+    fn write_answers(&self, flow: Flow, now: Rows<'_>, [slopes, rate]: [&[f64]; 2], answers: &mut [f64]) {
+        let mut acceleration = [0.0];
+        self.force.accelerations(&[flow.net_gap], &[flow.speed], &mut acceleration);
+        if !self.force.uses_speeds() || self.is_steady(flow, acceleration[0]) {
+            return answers.fill(0.0);
+        }
+        answers.fill(-rate[0]);
+        for slopes in slopes.chunks_exact(self.pedestrians) {
+            answers.iter_mut().zip(slopes).for_each(|(answer, slope)| *answer += slope);
+        }
+        if ode::largest(answers) >= DIGITS * ode::largest(slopes) {
+            return;
+        }
+        // of small deviations that difference has no digits: that of their accelerations does
+        let change = NEAR * math::larger(flow.speed.abs(), acceleration[0].abs());
+        let (faster, mut here) = (Flow { speed: flow.speed + change, ..flow }, vec![0.0; self.pedestrians]);
+        self.force.deviations(flow, now.spacings, now.speeds, &mut here);
+        self.force.deviations(faster, now.spacings, now.speeds, answers);
+        let share = 1.0 / (faster.speed - flow.speed);
+        answers.iter_mut().zip(here).for_each(|(answer, here)| *answer = share * (*answer - here));
+    }
+
     fn headway(&self) -> f64 {
         self.net_gap + self.force.contact()
     }
@@ -49,6 +80,17 @@ impl Deviations {
         let n = self.pedestrians;
         (2 * n, 2 * n + 1, 2 * n + 2)
     }
+}
+
+/// A change of the speed of the uniform flow that is small, as a part of it or of what it gains in a unit of time.
+const NEAR: f64 = 1e-6;
+
+/// A difference of slopes has digits if it is this part of them.
+const DIGITS: f64 = 1e-9;
+
+/// Adds what a change of the speed of the uniform flow makes of deviations of speeds.
+fn push(answers: &[f64], change: f64, speeds: &mut [f64]) {
+    speeds.iter_mut().zip(answers).for_each(|(speed, answer)| *speed += change * answer);
 }
 
 impl System for Deviations {
@@ -104,8 +146,11 @@ impl System for Deviations {
         self.dimension().next_multiple_of(8)
     }
 
+    /// If the force depends on speeds, those of the ring, how the deviations from the uniform flow answer to its speed, and how
+    /// that flow itself does.
     fn tangent_size(&self) -> usize {
-        if self.force.has_slopes() { self.pedestrians } else { 0 }
+        let (n, size) = (self.pedestrians, tangent::size(&*self.force, self.pedestrians));
+        if self.force.dependence() == Dependence::Speeds { size + n + 1 } else { size }
     }
 
     /// Deviations of the spacings add up to nothing: the ring has one length.
@@ -114,19 +159,34 @@ impl System for Deviations {
     }
 
     fn tangent(&self, state: &[f64], tangent: &mut [f64]) -> f64 {
-        self.force.slopes(self.net_gap, &state[..self.pedestrians], tangent);
-        fastest(tangent)
+        let (n, flow) = (self.pedestrians, self.flow(state));
+        let now = Rows { spacings: &state[..n], speeds: &state[n..2 * n] };
+        let (of_ring, of_flow) = tangent.split_at_mut(tangent::size(&*self.force, n));
+        let fastest = tangent::write(&*self.force, flow, now, of_ring);
+        let (answers, rate) = of_flow.split_at_mut(if of_flow.is_empty() { 0 } else { n });
+        if let [rate] = rate {
+            *rate = self.flow_rate(flow);
+            self.write_answers(flow, now, [&of_ring[n..3 * n], &[*rate]], answers);
+        }
+        if answers.iter().chain(&*rate).all(|answer| answer.is_finite()) { fastest } else { f64::NAN }
     }
 
     fn carry(&self, tangent: Tangent<'_>, difference: &mut [f64]) {
-        let (first, distance, speed) = self.extras();
-        let time = tangent.length;
+        let (n, (first, distance, speed)) = (self.pedestrians, self.extras());
+        let (time, of_ring) = (tangent.length, tangent::size(&*self.force, n));
+        let (start, start_of_flow) = tangent.start.split_at(of_ring);
+        let (end, end_of_flow) = tangent.end.split_at(of_ring.min(tangent.end.len()));
+        let of_flow = [start_of_flow, if end.is_empty() { start_of_flow } else { end_of_flow }];
+        // the uniform flow relaxes, at rate 1 where the force does not depend on speeds in another way
+        let rate = of_flow.map(|row| row.last().copied().unwrap_or(-1.0)).iter().sum::<f64>() * 0.5;
         let (ring, extras) = difference.split_at_mut(first);
-        extras[0] += carry(tangent, ring);
-        // the uniform flow relaxes at rate 1
-        let left = lane::exp(-time);
-        extras[distance - first] += (1.0 - left) * extras[speed - first];
+        push(of_flow[0], 0.5 * time * extras[speed - first], &mut ring[n..]);
+        extras[0] += tangent::carry(Tangent { start, end, ..tangent }, n, ring);
+        let left = lane::exp(rate * time);
+        let way = if rate == 0.0 { time } else { (left - 1.0) / rate };
+        extras[distance - first] += way * extras[speed - first];
         extras[speed - first] *= left;
+        push(of_flow[1], 0.5 * time * extras[speed - first], &mut ring[n..]);
     }
 
     fn positions(&self) -> Vec<Range<usize>> {

@@ -8,6 +8,7 @@
 
 mod deviations;
 mod positions;
+mod series;
 mod spacings;
 mod tangent;
 

@@ -1,9 +1,8 @@
 //! Spacings and speeds, `[s_0 - s_c .. s_{N-1} - s_c, v_0 .. v_{N-1}, x_0]`, with the spacing `s_c` at contact (2, or 0
 //! for the logarithmic law). A gap that closes keeps all its digits.
 
-use super::tangent::{carry, fastest};
-use super::{LEAST_SIZE, RingSystem, closing_rates, displace};
-use crate::force::{Flow, Force, Motion};
+use super::{LEAST_SIZE, RingSystem, closing_rates, displace, tangent};
+use crate::force::{Flow, Force, Motion, Rows};
 use crate::ring::{Ring, Start};
 use ode::{Group, Measure, System, Tangent};
 use std::ops::Range;
@@ -58,17 +57,17 @@ impl System for Spacings {
     }
 
     fn tangent_size(&self) -> usize {
-        if self.force.has_slopes() { self.pedestrians } else { 0 }
+        tangent::size(&*self.force, self.pedestrians)
     }
 
     fn tangent(&self, state: &[f64], tangent: &mut [f64]) -> f64 {
-        self.force.slopes(0.0, &state[..self.pedestrians], tangent);
-        fastest(tangent)
+        let n = self.pedestrians;
+        tangent::write(&*self.force, AT_REST, Rows { spacings: &state[..n], speeds: &state[n..2 * n] }, tangent)
     }
 
     fn carry(&self, tangent: Tangent<'_>, difference: &mut [f64]) {
         let (ring, first) = difference.split_at_mut(2 * self.pedestrians);
-        first[0] += carry(tangent, ring);
+        first[0] += tangent::carry(tangent, self.pedestrians, ring);
     }
 
     fn positions(&self) -> Vec<Range<usize>> {

@@ -35,7 +35,10 @@ fn a_shift_that_spacings_lose_is_not_taken_for_a_uniform_flow() {
         let count = outcome.samples.len();
         assert_eq!(outcome.samples.times.last(), Some(&time), "{method:?}");
         assert_eq!(outcome.samples.times[..], alone.samples.times[..count], "{method:?}");
-        assert_eq!(outcome.samples.speeds[..], alone.samples.speeds[..count * 15], "{method:?}");
+        // in the last step they are those of a run that ends there, which the errors are of
+        let speeds = &outcome.samples.speeds;
+        let same = speeds.iter().zip(&alone.samples.speeds).all(|(own, other)| (own - other).abs() <= 1e-4 * own.abs());
+        assert!(same && speeds.len() == count * 15 && speeds[(count - 1) * 15..] == outcome.speeds, "{method:?}");
         assert!((outcome.statistics.time - time).abs() < 1e-9, "{method:?} {}", outcome.statistics.time);
         assert!(broken.to_string().contains("deviations"), "{broken}");
     }

@@ -16,6 +16,7 @@ fn scenes() -> [(&'static str, Question); 4] {
         pedestrians,
         length: 200.0,
         shift,
+        displacements: Vec::new(),
         times: vec![1.0, 10.0, 50.0, 100.0],
     };
     let algebraic = |mu| Formula::Algebraic { mu, delta: 0.0, q: 2.0, a_v: 0.0, epsilon: 0.1, v0: 3.0 };
@@ -68,7 +69,14 @@ fn clearances_have_the_digits_that_the_perturbation_leaves_them() {
 fn a_lone_pedestrian_relaxes_exponentially() {
     // without a force: v = v_0 (1 - e^-t), x = v_0 (t - 1 + e^-t)
     let formula = Formula::Exponential { a: 0.0, b: 1.0, c: 0.0, a_v: 0.0, epsilon: 0.1, v0: 2.0 };
-    let question = Question { formula, pedestrians: 2, length: 20.0, shift: 0.5, times: vec![0.3, 1.0, 7.0] };
+    let question = Question {
+        formula,
+        pedestrians: 2,
+        length: 20.0,
+        shift: 0.5,
+        displacements: Vec::new(),
+        times: vec![0.3, 1.0, 7.0],
+    };
     for form in [Form::Differences, Form::Clearances] {
         for sample in solve::<DoubleDouble>(&question, form, Care { nodes: 20, tolerance: 1e-20, ..CARE }, 1e6).samples
         {
@@ -101,7 +109,14 @@ fn kinks_are_never_passed_unseen() {
         (1e-6, 0.03851961252292, 0.03005290296743),
     ] {
         let formula = Formula::Logarithmic { a_v: 0.0, epsilon, v0: 1.0 };
-        let question = Question { formula, pedestrians: 20, length: 30.0, shift: 0.6, times: vec![5.0, 20.0] };
+        let question = Question {
+            formula,
+            pedestrians: 20,
+            length: 30.0,
+            shift: 0.6,
+            displacements: Vec::new(),
+            times: vec![5.0, 20.0],
+        };
         let solution = solve::<f64>(&question, Form::Differences, CARE, 1e6);
         for (sample, expected) in solution.samples.iter().zip([at_5, at_20]) {
             assert!((sample.std - expected).abs() < 2e-12, "eps = {epsilon}: {} for {expected}", sample.std);
@@ -112,7 +127,8 @@ fn kinks_are_never_passed_unseen() {
 #[test]
 fn whoever_is_pushed_back_at_the_start_has_a_negative_speed_from_the_start() {
     let formula = Formula::Exponential { a: 30.0, b: 0.5, c: 0.0, a_v: 0.0, epsilon: 0.1, v0: 1.0 };
-    let question = Question { formula, pedestrians: 20, length: 60.0, shift: 0.8, times: vec![0.1] };
+    let question =
+        Question { formula, pedestrians: 20, length: 60.0, shift: 0.8, displacements: Vec::new(), times: vec![0.1] };
     let solution = solve::<f64>(&question, Form::Differences, CARE, 1e6);
     let first = solution.events.iter().find(|first| first.kind == Kind::NegativeSpeed).expect("an event");
     assert!(first.crossings[0].time < 1e-17, "{first:?}");

@@ -5,10 +5,10 @@ pub mod program;
 mod rows;
 mod series;
 
-use super::{Cut, Flow, Force, Motion, Steps};
+use super::{Cut, Dependence, Flow, Force, Motion, Steps};
 use formula::{Bound, Id, Unary};
 use math::change::rules::Kept;
-use math::dual::Dual;
+use math::dual::{Dual, Gradient};
 use math::lanes::Lanes;
 use math::simd::dispatch;
 use ode::Batch;
@@ -209,6 +209,34 @@ impl Force for Interpreted {
             Source::Speed(_) | Source::Register(_) => Dual::variable(flow.speed),
         };
         program.carry_out(along).slope
+    }
+
+    fn dependence(&self) -> Dependence {
+        let is_near = |source: &Source| match *source {
+            Source::Spacing { j, .. } => j == 0,
+            Source::Speed(j) => j == 0 || j == 1,
+            Source::Register(_) => true,
+        };
+        if self.prepared.variables.iter().all(is_near) { Dependence::Speeds } else { Dependence::Unknown }
+    }
+
+    fn slopes(&self, flow: Flow, now: super::Rows<'_>, slopes: &mut [f64]) {
+        let (n, Prepared { program, contact, .. }) = (now.spacings.len(), &*self.prepared);
+        for own in 0..slopes.len() / 3 {
+            let variable = |which: usize, value: f64| Dual { value, slope: Gradient::<3>::of(which) };
+            let Gradient(gradient) = program
+                .carry_out(|source| match source {
+                    Source::Spacing { net, .. } => {
+                        variable(0, flow.net_gap + now.spacings[own] + if net { 0.0 } else { *contact })
+                    }
+                    Source::Speed(1) => variable(2, flow.speed + now.speeds[(own + 1) % n]),
+                    Source::Speed(_) | Source::Register(_) => variable(1, flow.speed + now.speeds[own]),
+                })
+                .slope;
+            for (row, slope) in gradient.into_iter().enumerate() {
+                slopes[row * n + own] = slope;
+            }
+        }
     }
 
     fn series(&self, motion: Motion<'_>) {
