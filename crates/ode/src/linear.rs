@@ -2,7 +2,7 @@
 //! ([`crate::System::tangent`]).
 
 use crate::dense::Step;
-use crate::system::{System, Tangent};
+use crate::system::{System, Tangent, TangentEnds};
 use crate::taylor::forced;
 use math::simd::{Kernel, dispatch};
 use std::cell::RefCell;
@@ -11,14 +11,16 @@ use std::ops::Range;
 /// The linearised equations over the step looked at last.
 #[derive(Clone, Debug)]
 pub(crate) struct Linear {
-    /// Their coefficients at the start of the step and at its end.
+    /// Their coefficients at the start of the step and at its end; or in the step before and in this one.
     start: Vec<f64>,
     end: Vec<f64>,
     /// How fast differences move at most: at the end of the step, and in the whole of it.
     fastest_at_end: f64,
     fastest: f64,
-    /// Whether `end` is known from the step before, and for how many more steps it may stand for theirs.
+    /// Whether `end` is known from the step before, whether it is a mean over the step rather than what holds at its end, and for
+    /// how many more steps it may stand for theirs.
     is_known: bool,
+    is_mean: bool,
     is_steady: bool,
     steady_for: u32,
     /// Whether they change so much over the step that a shift in time is carried apart.
@@ -60,6 +62,7 @@ impl Linear {
             fastest_at_end: 0.0,
             fastest: 0.0,
             is_known: false,
+            is_mean: false,
             is_steady: false,
             steady_for: 0,
             is_thrown: false,
@@ -81,7 +84,7 @@ impl Linear {
         is_slow
     }
 
-    /// Finds the coefficients at both ends of the step.
+    /// Finds the coefficients over the step: those at both ends or, better, their mean.
     fn look(&mut self, step: &Step<'_>) {
         if !self.is_known {
             self.fastest_at_end = step.system.tangent(step.before(), &mut self.end);
@@ -96,8 +99,13 @@ impl Linear {
             return;
         }
         std::mem::swap(&mut self.start, &mut self.end);
-        self.fastest_at_end = step.system.tangent(step.after(), &mut self.end);
-        self.fastest = if self.fastest_at_end <= fastest { fastest } else { self.fastest_at_end };
+        let ends =
+            TangentEnds { states: [step.before(), step.after()], rates: [step.rates_before(), step.rates_after()] };
+        let mean = step.system.mean_tangent(ends, &self.start, &mut self.end);
+        self.is_mean = mean.is_some();
+        self.fastest_at_end = mean.unwrap_or_else(|| step.system.tangent(step.after(), &mut self.end));
+        let holds = self.is_mean || fastest <= self.fastest_at_end;
+        self.fastest = if holds { self.fastest_at_end } else { fastest };
         let [change, size] = dispatch(Largest { one: &self.end, other: &self.start });
         self.steady_for = if change <= STEADY * size { STEADY_FOR } else { 0 };
         self.is_thrown = change > THROWN * size;
@@ -112,7 +120,7 @@ impl Linear {
             dispatch(Unshifted { error, rates: step.rates_before(), late: self.late, result });
         }
         let Scratch { there, room, .. } = &mut *self.scratch.borrow_mut();
-        let (start, end) = match (self.is_steady, theta == 1.0) {
+        let (start, end) = match (self.is_steady || self.is_mean, theta == 1.0) {
             (true, _) => (&self.end[..], &[][..]),
             (false, true) => (&self.start[..], &self.end[..]),
             (false, false) => {
@@ -156,7 +164,11 @@ const MOST_LATE: f64 = 10.0;
 
 /// The shift in time that makes most of a difference.
 fn lateness(components: &[Range<usize>], rates: &[f64], error: &[f64]) -> f64 {
-    let sizes = |range: Range<usize>| dispatch(Sizes { one: &rates[range.clone()], other: &error[range] });
+    let sizes = |range: Range<usize>| {
+        let sizes = Sizes { one: &rates[range.clone()], other: &error[range.clone()] };
+        // of a few, a call would take longer than the work
+        if range.len() < LANES { sizes.run() } else { dispatch(sizes) }
+    };
     let scale = components.iter().fold(0.0, |scale, range| {
         let own = sizes(range.clone())[0];
         if own <= scale { scale } else { own }
@@ -164,7 +176,8 @@ fn lateness(components: &[Range<usize>], rates: &[f64], error: &[f64]) -> f64 {
     let share = 1.0 / scale;
     let (mut along, mut squares) = (0.0, 0.0);
     for range in components {
-        let sums = dispatch(Products { rates: &rates[range.clone()], error: &error[range.clone()], share });
+        let products = Products { rates: &rates[range.clone()], error: &error[range.clone()], share };
+        let sums = if range.len() < LANES { products.run() } else { dispatch(products) };
         (along, squares) = (along + sums[0], squares + sums[1]);
     }
     let late = along / squares * share;
@@ -227,7 +240,17 @@ fn in_lanes(one: &[f64], other: &[f64], of: impl Fn(f64, f64) -> [f64; 2]) -> [f
     for (one, other) in rest.iter().zip(other_rest) {
         take(0, *one, *other);
     }
-    most.map(|most| most.into_iter().fold(0.0, |largest, one| if one > largest { one } else { largest }))
+    // half against half: one after the other each comparison would wait for the last
+    let mut half = LANES / 2;
+    while half > 0 {
+        for most in &mut most {
+            for lane in 0..half {
+                most[lane] = if most[lane + half] > most[lane] { most[lane + half] } else { most[lane] };
+            }
+        }
+        half /= 2;
+    }
+    [most[0][0], most[1][0]]
 }
 
 /// The sums of rates times errors and of squares of rates, these in units in which the largest is 1.

@@ -65,6 +65,12 @@ pub trait System {
         0.0
     }
 
+    /// Writes coefficients that hold on average over a step, and returns the same of them; `earlier` are those of the step before,
+    /// or of its start. `None` where they do not follow from the ends of the step.
+    fn mean_tangent(&self, _ends: TangentEnds<'_>, _earlier: &[f64], _tangent: &mut [f64]) -> Option<f64> {
+        None
+    }
+
     /// Carries a small difference over a time in which the coefficients change linearly, to two digits of its largest
     /// component.
     fn carry(&self, _tangent: Tangent<'_>, _difference: &mut [f64]) {}
@@ -93,6 +99,15 @@ pub trait System {
         self.kinematics(state, rates);
         self.dynamics(state, rates);
     }
+}
+
+/// States and rates at the start of a step and at its end.
+#[derive(Clone, Copy, Debug)]
+pub struct TangentEnds<'a> {
+    /// The states.
+    pub states: [&'a [f64]; 2],
+    /// Their rates.
+    pub rates: [&'a [f64]; 2],
 }
 
 /// Linearised equations over a time.

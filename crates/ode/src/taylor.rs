@@ -16,7 +16,7 @@ use crate::system::System;
 use math::lane;
 use math::simd::{Kernel, dispatch};
 use std::ops::Range;
-use step::{ROUNDINGS, SAFETY, SLACK, TELLING, growth, order, power_of_two};
+use step::{ROUNDINGS, SAFETY, SLACK, TELLING, growth, order, power, power_of_two};
 use sums::{Begin, Both, Defect};
 
 pub(crate) use step::HIGHEST;
@@ -153,16 +153,16 @@ impl Stepper for Taylor {
         if !self.has_defect {
             return false;
         }
+        let (Some(first), Some(last)) = (self.forced.first(), self.forced.last()) else { return false };
+        let range = first.start..last.end;
         let next = (self.order + 1) as f64;
-        let h = ends.h / self.unit;
-        let first = (0..self.order).fold(-ends.h / next, |power, _| power * h);
-        let second = ends.h / ((next + 1.0) * next);
-        let last = self.coefficients.row(self.order);
-        for range in self.forced.iter().cloned() {
-            let (defect, last) = (&self.defect[range.clone()], &last[range.clone()]);
-            let (error, missing) = (&mut error[range.clone()], &mut self.missing[range]);
-            dispatch(OwnError { defect, last, factors: [1.0 / next, first, second], error, missing });
-        }
+        let of_last = -ends.h / next * power(ends.h / self.unit, self.order);
+        let of_defect = ends.h / ((next + 1.0) * next);
+        let last = &self.coefficients.row(self.order)[range.clone()];
+        let (defect, missing) = (&self.defect[range.clone()], &mut self.missing[range.clone()]);
+        // position-like components among them are written anew
+        let factors = [1.0 / next, of_last, of_defect];
+        dispatch(OwnError { defect, last, factors, error: &mut error[range], missing });
         system.kinematics(&self.missing, error);
         true
     }

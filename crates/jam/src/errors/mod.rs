@@ -149,7 +149,9 @@ pub fn loses_shift(run: &Run) -> bool {
 
 /// The largest standard deviation in the table.
 pub(crate) fn largest_std(outcome: &Outcome) -> f64 {
-    outcome.samples.std.iter().copied().fold(0.0, math::larger)
+    let all = &outcome.samples.std;
+    let largest = ode::largest(all);
+    if largest.is_nan() { all.iter().copied().fold(0.0, math::larger) } else { largest }
 }
 
 /// The largest in size.

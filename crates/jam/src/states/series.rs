@@ -13,7 +13,8 @@ use std::cell::Cell;
 /// A series reaches at most so far, in units of the time in which differences move: terms of a longer one would cancel.
 const LONGEST: f64 = 10.0;
 
-/// What the terms left out are together, about, as a part of the sum: an error is asked to a factor of 3.
+/// A term that is smaller than this part of the sum ends a series over a unit of that time and more: an error is asked to a
+/// factor of 3.
 const REST: f32 = 1e-2;
 
 /// The same where slopes change: who is thrown back by a wall goes on with a small difference of what came.
@@ -184,6 +185,9 @@ fn sum<const LOOKS: bool, const GROWS: bool>(rows: &Rows<'_>, half: f32, turns: 
         clear(rows.earlier[0]);
         clear(rows.earlier[1]);
     }
+    // the shorter steps are, the more of them there are
+    let part = if turns < 1.0 { turns } else { 1.0 };
+    let rest = if GROWS { REST_IF_GROWS } else { REST * part };
     let (mut moved, mut way, mut order) = (0.0, 0.0, 0.0);
     while order < MOST_TERMS {
         let shares = [1.0 / (order + 1.0), 1.0 / (order + 2.0)];
@@ -195,7 +199,7 @@ fn sum<const LOOKS: bool, const GROWS: bool>(rows: &Rows<'_>, half: f32, turns: 
         order += 2.0;
         if order >= FIRST_LOOK * turns {
             let [sum, term] = sizes(rows);
-            if term <= if GROWS { REST_IF_GROWS } else { REST } * sum {
+            if term <= rest * sum {
                 break;
             }
         }

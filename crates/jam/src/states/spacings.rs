@@ -4,7 +4,7 @@
 use super::{LEAST_SIZE, RingSystem, closing_rates, displace, tangent};
 use crate::force::{Flow, Force, Motion, Rows};
 use crate::ring::{Ring, Start};
-use ode::{Group, Measure, System, Tangent};
+use ode::{Group, Measure, System, Tangent, TangentEnds};
 use std::ops::Range;
 
 /// The ring as gaps and speeds.
@@ -22,6 +22,9 @@ impl Spacings {
         Spacings { force, pedestrians: ring.pedestrians, clearance }
     }
 }
+
+/// About how large the drive and the force are where they balance each other.
+const DRIVE: f64 = 1.0;
 
 /// Nothing to be added to net gaps and speeds.
 const AT_REST: Flow = Flow { net_gap: 0.0, speed: 0.0 };
@@ -63,6 +66,10 @@ impl System for Spacings {
     fn tangent(&self, state: &[f64], tangent: &mut [f64]) -> f64 {
         let n = self.pedestrians;
         tangent::write(&*self.force, AT_REST, Rows { spacings: &state[..n], speeds: &state[n..2 * n] }, tangent)
+    }
+
+    fn mean_tangent(&self, ends: TangentEnds<'_>, earlier: &[f64], tangent: &mut [f64]) -> Option<f64> {
+        tangent::write_mean(&*self.force, self.pedestrians, ends, DRIVE, earlier, tangent)
     }
 
     fn carry(&self, tangent: Tangent<'_>, difference: &mut [f64]) {

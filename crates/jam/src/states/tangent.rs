@@ -5,7 +5,7 @@
 use super::series::Carry;
 use crate::force::{Dependence, Flow, Force, Rows};
 use math::simd::{Kernel, dispatch};
-use ode::Tangent;
+use ode::{Tangent, TangentEnds};
 
 /// The middle of the eigenvalues where the force depends on the spacing alone: for equal slopes, those of a wave add up to -1.
 /// Without the fading that all have in common series need fewer orders.
@@ -43,6 +43,59 @@ pub(super) fn write(force: &dyn Force, flow: Flow, now: Rows<'_>, tangent: &mut 
     let fading = dispatch(Middle { own });
     middle[0] = fading;
     dispatch(Farthest { by_spacing, own, ahead, fading })
+}
+
+/// As [`write`], of means over a step: where the force depends on the spacing alone, what it changes by over what the spacing
+/// changes by. Of a slope that changes within the step, this is the mean along the way, without a function of the law.
+/// `least` is a size of which forces are rounded parts.
+pub(super) fn write_mean(
+    force: &dyn Force,
+    n: usize,
+    ends: TangentEnds<'_>,
+    least: f64,
+    earlier: &[f64],
+    tangent: &mut [f64],
+) -> Option<f64> {
+    (force.dependence() == Dependence::Spacing).then(|| {
+        let steepest = ode::largest(earlier);
+        dispatch(Means { n, ends, least, steepest, earlier, tangent: &mut *tangent });
+        fastest(tangent)
+    })
+}
+
+/// A change of a force has two digits and more where it is this part of the force: else the slope is that of an earlier step, in
+/// which the spacing was about the same.
+const VISIBLE: f64 = 1e-10;
+
+struct Means<'a> {
+    n: usize,
+    ends: TangentEnds<'a>,
+    least: f64,
+    steepest: f64,
+    earlier: &'a [f64],
+    tangent: &'a mut [f64],
+}
+
+impl Kernel for Means<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Means { n, ends: TangentEnds { states, rates }, least, steepest, earlier, tangent } = self;
+        let spacings = states[0][..n].iter().zip(&states[1][..n]);
+        let speeds = states[0][n..2 * n].iter().zip(&states[1][n..2 * n]);
+        let rates = rates[0][n..2 * n].iter().zip(&rates[1][n..2 * n]);
+        let known = spacings.zip(speeds).zip(rates).zip(earlier);
+        for (slope, ((((from, to), (speed, later_speed)), (rate, later_rate)), earlier)) in
+            tangent.iter_mut().zip(known)
+        {
+            let (way, change) = (to - from, (later_rate + later_speed) - (rate + speed));
+            let size = (rate.abs() + speed.abs()) + (later_rate.abs() + later_speed.abs()) + least;
+            let is_visible = way.abs() * steepest > VISIBLE * size;
+            let mean = change / way;
+            *slope = if is_visible { mean } else { *earlier };
+        }
+    }
 }
 
 /// The middle of the eigenvalues of all pedestrians by themselves, which are 0 and the slopes by their own speeds.
