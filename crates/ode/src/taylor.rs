@@ -16,7 +16,7 @@ use crate::system::System;
 use math::lane;
 use math::simd::{Kernel, dispatch};
 use std::ops::Range;
-use step::{ROUNDINGS, SAFETY, SLACK, TELLING, growth, order, power_of_two};
+use step::{ROUNDINGS, SAFETY, SLACK, TELLING, growth, order, power, power_of_two};
 use sums::{Begin, Both, Defect};
 
 pub(crate) use step::HIGHEST;
@@ -214,19 +214,6 @@ impl Stepper for Taylor {
         dispatch(Both { rows: self.coefficients.all(), n: self.coefficients.stride(), from, h, results });
         Some(0)
     }
-}
-
-/// A whole power.
-fn power(mut base: f64, mut exponent: usize) -> f64 {
-    let mut power = 1.0;
-    while exponent > 0 {
-        if exponent % 2 == 1 {
-            power *= base;
-        }
-        base *= base;
-        exponent /= 2;
-    }
-    power
 }
 
 /// Writes what components with a force are off by, and what position-like ones lack because of it.

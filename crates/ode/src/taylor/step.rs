@@ -24,6 +24,19 @@ const PER_E_FOLD: f64 = 0.45;
 /// The order for a tolerance of 1.
 const OFFSET: f64 = 6.0;
 
+/// A whole power.
+pub(super) fn power(mut base: f64, mut exponent: usize) -> f64 {
+    let mut power = 1.0;
+    while exponent > 0 {
+        if exponent % 2 == 1 {
+            power *= base;
+        }
+        base *= base;
+        exponent /= 2;
+    }
+    power
+}
+
 /// The largest power of 2 that is not above a normal number.
 pub(super) fn power_of_two(number: f64) -> f64 {
     const EXPONENT: u64 = 0x7ff0_0000_0000_0000;
