@@ -87,9 +87,9 @@ pub(super) fn until(run: &Run, outcome: &Outcome, second: &Second) -> Option<f64
     Some(last_before(outcome, first))
 }
 
-/// The time of the stop of a run that left the domain of its formula, or whose adaptive steps came to a blow-up, by its own error
-/// alone: the other one, at a smaller tolerance, goes on. Of positions, roundings may grow into a blow-up that deviations know nothing of. Fixed steps that
-/// pass a wall are another matter: their events have no errors.
+/// The time of the stop of a run that left the domain of its formula, whose adaptive steps came to a blow-up, or whose fixed steps
+/// came to an overlap, by its own error alone: the other one, more exact, goes on. Of positions, roundings may grow into a blow-up
+/// that deviations know nothing of. Fixed steps that pass a wall are another matter: their events have no errors.
 fn refuted_at(run: &Run, outcome: &Outcome, other: &Outcome) -> Option<f64> {
     let stop = outcome.stop()?;
     let is_adaptive = matches!(run.control, Control::Adaptive { .. });
@@ -97,6 +97,8 @@ fn refuted_at(run: &Run, outcome: &Outcome, other: &Outcome) -> Option<f64> {
     let is_own = |event: &Event| match event.kind {
         EventKind::Undefined => true,
         EventKind::BlowUp => is_adaptive,
+        // steps that are too long swing until two pedestrians overlap
+        EventKind::Overlap => !is_adaptive && !run.model.is_singular() && event.time == stop.time,
         _ => false,
     };
     let goes_on = other.stop().is_none() && other.statistics.time > (1.0 + NEAR) * stop.time;
