@@ -99,16 +99,34 @@ impl Linear {
             return;
         }
         std::mem::swap(&mut self.start, &mut self.end);
-        let ends =
-            TangentEnds { states: [step.before(), step.after()], rates: [step.rates_before(), step.rates_after()] };
+        let (was_mean, ends) = (
+            self.is_mean,
+            TangentEnds { states: [step.before(), step.after()], rates: [step.rates_before(), step.rates_after()] },
+        );
         let mean = step.system.mean_tangent(ends, &self.start, &mut self.end);
-        self.is_mean = mean.is_some();
-        self.fastest_at_end = mean.unwrap_or_else(|| step.system.tangent(step.after(), &mut self.end));
-        let holds = self.is_mean || fastest <= self.fastest_at_end;
-        self.fastest = if holds { self.fastest_at_end } else { fastest };
+        self.is_mean = mean.is_some_and(|fastest| {
+            self.fastest_at_end = fastest;
+            self.compare() <= THROWN
+        });
+        if self.is_mean {
+            self.fastest = self.fastest_at_end;
+        } else {
+            // along a sharp bend a mean says too little
+            if was_mean {
+                self.fastest = step.system.tangent(step.before(), &mut self.start);
+            }
+            self.fastest_at_end = step.system.tangent(step.after(), &mut self.end);
+            self.fastest = if self.fastest_at_end <= self.fastest { self.fastest } else { self.fastest_at_end };
+        }
+        let change = self.compare();
+        self.steady_for = if change <= STEADY { STEADY_FOR } else { 0 };
+        self.is_thrown = change > THROWN;
+    }
+
+    /// By which part the coefficients change.
+    fn compare(&self) -> f64 {
         let [change, size] = dispatch(Largest { one: &self.end, other: &self.start });
-        self.steady_for = if change <= STEADY * size { STEADY_FOR } else { 0 };
-        self.is_thrown = change > THROWN * size;
+        if change == 0.0 { 0.0 } else { change / size }
     }
 
     /// Writes the difference at the fraction `theta` of the step, less what the solution is late, of what was there at its
