@@ -11,6 +11,7 @@ use crate::system::{Measure, System};
 use crate::taylor::{Change, forced};
 use crate::vector::largest;
 use math::simd::{Kernel, dispatch};
+use std::ops::Range;
 
 /// The error of a solution, step by step.
 #[derive(Clone, Debug)]
@@ -48,6 +49,8 @@ pub struct Shadow {
     after: Vec<f64>,
     /// What the next rounding is drawn by.
     lot: u64,
+    /// The components with a force.
+    forced: Vec<Range<usize>>,
 }
 
 /// Orders of the series of the difference at first, how many more where these do not reach over a step, and the fewest.
@@ -76,6 +79,9 @@ const BEYOND: f64 = 1.5;
 /// The shadow is as far from the solution as this part of it, so that neither curvature nor rounding counts.
 const DISTANCE: f64 = 1e-9;
 
+/// The part by which the rounding of a constant changes forces.
+const CONSTANT: f64 = 0.5 * f64::EPSILON;
+
 /// What rounding adds in each step, relative to the change. Taken for an error that grows always.
 const ROUNDING: f64 = 0.5 * f64::EPSILON;
 
@@ -103,6 +109,7 @@ impl Shadow {
             is_linear_known: false,
             after: Vec::new(),
             lot: 0,
+            forced: Vec::new(),
         }
     }
 
@@ -114,7 +121,8 @@ impl Shadow {
         }
         self.advance(step);
         self.power = step.stepper.error_power() + 1;
-        self.round(step, rounding);
+        self.round(rounding);
+        self.strengthen(step);
         if !self.arrive(step, ROUNDING) {
             let (before, after) = (step.ends.before, step.ends.after);
             dispatch(Rounded { before, after, error: &self.error, own: &mut self.own });
@@ -124,15 +132,25 @@ impl Shadow {
     }
 
     /// Roundings of rates are as if drawn by lot: a step pushes each component one way or the other.
-    fn round(&mut self, step: &Step<'_>, rounding: f64) {
+    fn round(&mut self, rounding: f64) {
         if rounding == 0.0 {
             return;
         }
         let push = self.length * rounding;
-        for range in forced(step.system) {
-            for own in self.own[range].chunks_mut(u64::BITS as usize) {
+        for range in &self.forced {
+            for own in self.own[range.clone()].chunks_mut(u64::BITS as usize) {
                 dispatch(Pushed { lot: drawn(&mut self.lot), push, own });
             }
+        }
+    }
+
+    /// Constants of the equations are rounded once: forces that are too strong by a part push all components alike, in all steps,
+    /// and their effects add up.
+    fn strengthen(&mut self, step: &Step<'_>) {
+        let (part, relaxation) = (CONSTANT * self.length, step.system.relaxation_rate());
+        for range in &self.forced {
+            let (states, rates) = (&step.after()[range.clone()], &step.rates_after()[range.clone()]);
+            dispatch(Strengthened { part, relaxation, states, rates, own: &mut self.own[range.clone()] });
         }
     }
 
@@ -160,6 +178,7 @@ impl Shadow {
         let h = step.length();
         if !self.is_linear_known {
             (self.linear, self.is_linear_known) = (Linear::new(step.system), true);
+            self.forced = forced(step.system);
         }
         if self.linear.is_some() {
             self.expand_linear(step);
@@ -344,6 +363,26 @@ impl Kernel for Pushed<'_> {
         for (bit, own) in (0..u64::BITS).zip(self.own) {
             let sign = (self.lot >> bit) << (u64::BITS - 1);
             *own += f64::from_bits(self.push.to_bits() ^ sign);
+        }
+    }
+}
+
+/// Adds this part of the forces.
+struct Strengthened<'a> {
+    part: f64,
+    relaxation: f64,
+    states: &'a [f64],
+    rates: &'a [f64],
+    own: &'a mut [f64],
+}
+
+impl Kernel for Strengthened<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        for (own, (rate, state)) in self.own.iter_mut().zip(self.rates.iter().zip(self.states)) {
+            *own += self.part * (rate + self.relaxation * state);
         }
     }
 }

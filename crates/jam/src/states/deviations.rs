@@ -5,7 +5,7 @@
 //! keeps all its digits, and an error is one of the perturbation, not of the state.
 
 use super::tangent::Centred;
-use super::{FlowAlong, LEAST_SIZE, RingSystem, closing_rates, displace, tangent};
+use super::{FlowAlong, LEAST_SIZE, RingSystem, closing_rates, displace, relaxation_rate, tangent};
 use crate::force::{Dependence, Flow, Force, Motion, Rows};
 use crate::ring::{Ring, Start};
 use math::lane;
@@ -192,6 +192,10 @@ impl System for Deviations {
         extras[distance - first] += way * extras[speed - first];
         extras[speed - first] *= left;
         push(of_flow[1], 0.5 * time * extras[speed - first], &mut ring[n..]);
+    }
+
+    fn relaxation_rate(&self) -> f64 {
+        relaxation_rate(&*self.force, self.net_gap)
     }
 
     fn positions(&self) -> Vec<Range<usize>> {

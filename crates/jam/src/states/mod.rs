@@ -17,6 +17,7 @@ pub use deviations::Deviations;
 pub use positions::Positions;
 pub use spacings::Spacings;
 
+use crate::force::{Flow, Force};
 use crate::laws::Model;
 use crate::observe::speed_std;
 use crate::ring::{Ring, Start};
@@ -98,6 +99,12 @@ impl StateVariables {
 pub fn gaps_state(model: &Model, gaps: &[f64], speeds: &[f64], first: f64) -> Vec<f64> {
     let contact = model.contact();
     gaps.iter().map(|gap| gap - contact).chain(speeds.iter().copied()).chain([first]).collect()
+}
+
+/// How fast speeds relax if no force acts: at rate 1 unless the law, linear in speeds, says otherwise.
+fn relaxation_rate(force: &dyn Force, net_gap: f64) -> f64 {
+    let linear = (!force.uses_speeds()).then(|| -force.relaxation(Flow { net_gap, speed: 0.0 }));
+    linear.filter(|rate| rate.is_finite()).unwrap_or(1.0)
 }
 
 /// A state of spacings, or of deviations, with each of the `N` pedestrians displaced as given: spacings come first,

@@ -1,7 +1,7 @@
 //! Spacings and speeds, `[s_0 - s_c .. s_{N-1} - s_c, v_0 .. v_{N-1}, x_0]`, with the spacing `s_c` at contact (2, or 0
 //! for the logarithmic law). A gap that closes keeps all its digits.
 
-use super::{LEAST_SIZE, RingSystem, closing_rates, displace, tangent};
+use super::{LEAST_SIZE, RingSystem, closing_rates, displace, relaxation_rate, tangent};
 use crate::force::{Flow, Force, Motion, Rows};
 use crate::ring::{Ring, Start};
 use ode::{Group, Measure, System, Tangent, TangentEnds};
@@ -75,6 +75,10 @@ impl System for Spacings {
     fn carry(&self, tangent: Tangent<'_>, difference: &mut [f64]) {
         let (ring, first) = difference.split_at_mut(2 * self.pedestrians);
         first[0] += tangent::carry(tangent, self.pedestrians, ring);
+    }
+
+    fn relaxation_rate(&self) -> f64 {
+        relaxation_rate(&*self.force, self.clearance)
     }
 
     fn positions(&self) -> Vec<Range<usize>> {
