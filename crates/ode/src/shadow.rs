@@ -79,9 +79,6 @@ const BEYOND: f64 = 1.5;
 /// The shadow is as far from the solution as this part of it, so that neither curvature nor rounding counts.
 const DISTANCE: f64 = 1e-9;
 
-/// The part by which the rounding of a constant changes forces.
-const CONSTANT: f64 = 0.5 * f64::EPSILON;
-
 /// What rounding adds in each step, relative to the change. Taken for an error that grows always.
 const ROUNDING: f64 = 0.5 * f64::EPSILON;
 
@@ -113,16 +110,17 @@ impl Shadow {
         }
     }
 
-    /// Follows a step in which the rates have the given rounding errors (one for each component with a force); false
-    /// for a method whose steps give no error estimate.
-    pub fn follow(&mut self, step: &mut Step<'_>, rounding: f64) -> bool {
+    /// Follows a step in which the rates have the given rounding errors (one for each component with a force), and all forces are
+    /// off by the same part of themselves, as they are by rounded constants; false for a method whose steps give no error
+    /// estimate.
+    pub fn follow(&mut self, step: &mut Step<'_>, rounding: f64, part: f64) -> bool {
         if !step.stepper.own_error(step.system, &step.ends, &mut self.own) {
             return false;
         }
         self.advance(step);
         self.power = step.stepper.error_power() + 1;
         self.round(rounding);
-        self.strengthen(step);
+        self.strengthen(step, part);
         if !self.arrive(step, ROUNDING) {
             let (before, after) = (step.ends.before, step.ends.after);
             dispatch(Rounded { before, after, error: &self.error, own: &mut self.own });
@@ -144,10 +142,9 @@ impl Shadow {
         }
     }
 
-    /// Constants of the equations are rounded once: forces that are too strong by a part push all components alike, in all steps,
-    /// and their effects add up.
-    fn strengthen(&mut self, step: &Step<'_>) {
-        let (part, relaxation) = (CONSTANT * self.length, step.system.relaxation_rate());
+    /// Forces that are off by a part push with the same sign in all steps: what they do adds up.
+    fn strengthen(&mut self, step: &Step<'_>, part: f64) {
+        let (part, relaxation) = (part * self.length, step.system.relaxation_rate());
         for range in &self.forced {
             let (states, rates) = (&step.after()[range.clone()], &step.rates_after()[range.clone()]);
             dispatch(Strengthened { part, relaxation, states, rates, own: &mut self.own[range.clone()] });

@@ -81,7 +81,7 @@ fn follow(system: &Pendulum, tolerance: f64, error: [f64; 2], look: &mut dyn FnM
     let problem = Problem { system, start: &[1.0, 0.0], begin: 0.0, end: 20.0, method: Method::Taylor, control };
     let mut shadow = Shadow::new(error.to_vec());
     let mut observer = |step: &mut Step<'_>| {
-        assert!(shadow.follow(step, 0.0), "Taylor's method tells its errors");
+        assert!(shadow.follow(step, 0.0, 0.0), "Taylor's method tells its errors");
         look(step, &shadow);
         ControlFlow::Continue(())
     };
@@ -149,7 +149,7 @@ fn other_methods_and_fixed_steps_tell_nothing() {
         let problem = Problem { system: &system, start: &[1.0, 0.0], begin: 0.0, end: 1.0, method, control };
         let mut shadow = Shadow::new(vec![0.0; 2]);
         let mut observer = |step: &mut Step<'_>| {
-            assert!(!shadow.follow(step, 0.0), "{method:?}");
+            assert!(!shadow.follow(step, 0.0, 0.0), "{method:?}");
             ControlFlow::Continue(())
         };
         integrate(&problem, &mut observer).expect("nothing stands in the way");
