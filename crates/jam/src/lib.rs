@@ -249,7 +249,8 @@
 //! # Accuracy
 //!
 //! A tolerance bounds the error of a step, not that of a run. [`errors::stated`] makes a run and estimates the errors of its
-//! results; it refuses samples that its check does not confirm.
+//! results; it refuses samples that its check does not confirm. The estimates hold what steps leave out, roundings, and a force that
+//! is off by a part at all times, as rounded constants make it: those of the law, and the headway `L/N`. Parameters count as exact.
 //!
 //! ```
 //! # use jam::laws::{Law, Model, Parameter, Range};

@@ -11,6 +11,7 @@ use crate::system::{Measure, System};
 use crate::taylor::{Change, forced};
 use crate::vector::largest;
 use math::simd::{Kernel, dispatch};
+use std::ops::Range;
 
 /// The error of a solution, step by step.
 #[derive(Clone, Debug)]
@@ -48,6 +49,8 @@ pub struct Shadow {
     after: Vec<f64>,
     /// What the next rounding is drawn by.
     lot: u64,
+    /// The components with a force.
+    forced: Vec<Range<usize>>,
 }
 
 /// Orders of the series of the difference at first, how many more where these do not reach over a step, and the fewest.
@@ -103,18 +106,21 @@ impl Shadow {
             is_linear_known: false,
             after: Vec::new(),
             lot: 0,
+            forced: Vec::new(),
         }
     }
 
-    /// Follows a step in which the rates have the given rounding errors (one for each component with a force); false
-    /// for a method whose steps give no error estimate.
-    pub fn follow(&mut self, step: &mut Step<'_>, rounding: f64) -> bool {
+    /// Follows a step in which the rates have the given rounding errors (one for each component with a force), and all forces are
+    /// off by the same part of themselves, as they are by rounded constants; false for a method whose steps give no error
+    /// estimate.
+    pub fn follow(&mut self, step: &mut Step<'_>, rounding: f64, part: f64) -> bool {
         if !step.stepper.own_error(step.system, &step.ends, &mut self.own) {
             return false;
         }
         self.advance(step);
         self.power = step.stepper.error_power() + 1;
-        self.round(step, rounding);
+        self.round(rounding);
+        self.strengthen(step, part);
         if !self.arrive(step, ROUNDING) {
             let (before, after) = (step.ends.before, step.ends.after);
             dispatch(Rounded { before, after, error: &self.error, own: &mut self.own });
@@ -124,15 +130,24 @@ impl Shadow {
     }
 
     /// Roundings of rates are as if drawn by lot: a step pushes each component one way or the other.
-    fn round(&mut self, step: &Step<'_>, rounding: f64) {
+    fn round(&mut self, rounding: f64) {
         if rounding == 0.0 {
             return;
         }
         let push = self.length * rounding;
-        for range in forced(step.system) {
-            for own in self.own[range].chunks_mut(u64::BITS as usize) {
+        for range in &self.forced {
+            for own in self.own[range.clone()].chunks_mut(u64::BITS as usize) {
                 dispatch(Pushed { lot: drawn(&mut self.lot), push, own });
             }
+        }
+    }
+
+    /// Forces that are off by a part push with the same sign in all steps: what they do adds up.
+    fn strengthen(&mut self, step: &Step<'_>, part: f64) {
+        let (part, relaxation) = (part * self.length, step.system.relaxation_rate());
+        for range in &self.forced {
+            let (states, rates) = (&step.after()[range.clone()], &step.rates_after()[range.clone()]);
+            dispatch(Strengthened { part, relaxation, states, rates, own: &mut self.own[range.clone()] });
         }
     }
 
@@ -160,6 +175,7 @@ impl Shadow {
         let h = step.length();
         if !self.is_linear_known {
             (self.linear, self.is_linear_known) = (Linear::new(step.system), true);
+            self.forced = forced(step.system);
         }
         if self.linear.is_some() {
             self.expand_linear(step);
@@ -344,6 +360,26 @@ impl Kernel for Pushed<'_> {
         for (bit, own) in (0..u64::BITS).zip(self.own) {
             let sign = (self.lot >> bit) << (u64::BITS - 1);
             *own += f64::from_bits(self.push.to_bits() ^ sign);
+        }
+    }
+}
+
+/// Adds this part of the forces.
+struct Strengthened<'a> {
+    part: f64,
+    relaxation: f64,
+    states: &'a [f64],
+    rates: &'a [f64],
+    own: &'a mut [f64],
+}
+
+impl Kernel for Strengthened<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        for (own, (rate, state)) in self.own.iter_mut().zip(self.rates.iter().zip(self.states)) {
+            *own += self.part * (rate + self.relaxation * state);
         }
     }
 }

@@ -75,6 +75,12 @@ pub trait System {
     /// component.
     fn carry(&self, _tangent: Tangent<'_>, _difference: &mut [f64]) {}
 
+    /// How fast speed-like components relax if no force acts: the force on one is its rate plus this times it. A rounded constant of
+    /// the equations makes all forces too strong or too weak by about the same part, at all times.
+    fn relaxation_rate(&self) -> f64 {
+        0.0
+    }
+
     /// In how many places the rates can bend sharply, as a smooth ramp does.
     fn bends(&self) -> usize {
         0

@@ -125,6 +125,13 @@ pub(crate) fn of_headway(run: &Run) -> f64 {
     if condition.is_finite() { 0.5 * f64::EPSILON * condition } else { 0.0 }
 }
 
+/// The part by which rounded constants change the force at all times: those a law is prepared with, as the square of a parameter
+/// or the inverse of one, by a rounding or two; and the headway by what its rounding changes the response to a spacing by.
+/// All methods have these errors in common.
+pub(crate) fn of_constants(run: &Run) -> f64 {
+    f64::EPSILON + of_headway(run)
+}
+
 /// The standard deviation of speeds where all of them are equal to the last bit, since what the force makes of the
 /// shift is lost beside the drive: the error of a speed is at most the response of the force at the least spacing to
 /// the shift, over a relaxation time. `None` where speeds differ, or the law gives no bound.

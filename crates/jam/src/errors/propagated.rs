@@ -8,7 +8,7 @@
 
 use super::confirmed::last_before;
 use super::recent::Recent;
-use super::{Errors, ROUNDINGS, largest, largest_std, loses_shift, of_headway, unseen};
+use super::{Errors, ROUNDINGS, largest, largest_std, loses_shift, of_constants, of_headway, unseen};
 use crate::events::{Event, EventKind};
 use crate::run::{Outcome, Run, RunObserver, Sight};
 use crate::states::StateVariables;
@@ -27,6 +27,8 @@ pub struct Propagated {
     desired: f64,
     /// The part of its size by which what falls through 0 in an event is rounded.
     rounding: f64,
+    /// The part by which rounded constants change the force.
+    constants: f64,
     /// Whether the force has walls.
     is_singular: bool,
     /// Whether spacings lose the shift.
@@ -166,6 +168,7 @@ impl Propagated {
             shift: run.start.shift,
             headway: run.ring.headway(),
             rounding: f64::EPSILON + of_headway(run),
+            constants: of_constants(run),
             is_singular: run.model.is_singular(),
             desired: run.model.desired_speed().abs(),
             loses_shift: loses_shift(run),
@@ -209,7 +212,11 @@ impl Propagated {
         let is_in_gaps = dimension == 2 * n + 1;
         let rounding = if is_in_gaps && self.lost.is_none() { f64::EPSILON * self.desired } else { 0.0 };
         let is_sure = self.lost.as_ref().is_none_or(Shadow::is_sure);
-        is_sure && self.shadow.as_mut().is_some_and(|shadow| shadow.follow(step, rounding) && shadow.is_sure())
+        is_sure
+            && self
+                .shadow
+                .as_mut()
+                .is_some_and(|shadow| shadow.follow(step, rounding, self.constants) && shadow.is_sure())
     }
 
     /// Whether the error of the standard deviation may be larger in this step than it was.

@@ -1,10 +1,11 @@
-//! A second run, and the error estimate from the difference between both runs.
+//! A second run, and the error estimate from the difference between both runs. Its force is stronger by what roundings of constants
+//! may change it, which both runs would else have in common.
 
 use super::propagated::{UNSURE, std_error};
 use super::recent::{Compared, Instant, Recent, Sort};
-use super::{CAUTION, Errors, ROUNDINGS, confirmed, largest, largest_std, loses_shift, of_headway};
+use super::{CAUTION, Errors, ROUNDINGS, confirmed, largest, largest_std, loses_shift, of_constants, of_headway};
 use crate::events::{Event, EventKind};
-use crate::run::{Outcome, Run, RunObserver, has_deviations, run_from};
+use crate::run::{Outcome, Run, RunObserver, has_deviations, run_off};
 use crate::states::StateVariables;
 use ode::{Control, Method};
 
@@ -308,7 +309,7 @@ fn by_half_steps(
 
 fn made(second: &Run, factor: f64, instants: &[Instant], onlooker: &mut dyn RunObserver) -> Second {
     let mut compared = Compared { run: second, first: instants, second: Vec::new(), onlooker };
-    let outcome = run_from(second, None, &mut compared).unwrap_or_else(|broken| *broken.outcome);
+    let outcome = run_off(second, of_constants(second), None, &mut compared).unwrap_or_else(|broken| *broken.outcome);
     let instants = [instants.to_vec(), compared.second];
     let (form, evaluations) = (second.form, outcome.statistics.evaluations);
     Second { form, factor, gathered: 0.0, instants, rates: Vec::new(), evaluations, outcome }

@@ -20,7 +20,7 @@ pub use outcome::{Broken, Narrowest, Outcome, Statistics};
 pub use recorder::{run, run_from};
 pub use samples::{Sample, Samples};
 
-pub(crate) use recorder::untried;
+pub(crate) use recorder::{run_off, untried};
 pub(crate) use walls::advice;
 
 use crate::events::EventKind;

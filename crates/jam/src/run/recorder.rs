@@ -29,11 +29,21 @@ pub fn run(run: &Run) -> Result<Outcome, Broken> {
 /// # Panics
 /// As [`run`].
 pub fn run_from(run: &Run, from: Option<Checkpoint>, observer: &mut dyn RunObserver) -> Result<Outcome, Broken> {
+    run_off(run, 0.0, from, observer)
+}
+
+/// The same with a force that is too strong by this part of itself ([`StateVariables::build_off`]).
+pub(crate) fn run_off(
+    run: &Run,
+    off: f64,
+    from: Option<Checkpoint>,
+    observer: &mut dyn RunObserver,
+) -> Result<Outcome, Broken> {
     assert!(run.sample > 0.0, "the time between samples is {:?}; it must be above 0", run.sample);
     let (moved, pedestrians) = (run.displacements.len(), run.ring.pedestrians);
     assert!(moved == 0 || moved == pedestrians, "{moved} displacements for {pedestrians} pedestrians");
-    let form = run.form.build(&run.model, run.ring);
-    let near_walls = StateVariables::Spacings.build(&run.model, run.ring);
+    let form = run.form.build_off(&run.model, run.ring, off);
+    let near_walls = StateVariables::Spacings.build_off(&run.model, run.ring, off);
     let mut recorder = Recorder::new(run, &*form, observer);
     let mut made = match from {
         Some(checkpoint) => recorder.resume(&*form, &*near_walls, checkpoint),

@@ -5,7 +5,7 @@
 //! keeps all its digits, and an error is one of the perturbation, not of the state.
 
 use super::tangent::Centred;
-use super::{FlowAlong, LEAST_SIZE, RingSystem, closing_rates, displace, tangent};
+use super::{FlowAlong, LEAST_SIZE, RingSystem, closing_rates, displace, relaxation_rate, strengthen, tangent};
 use crate::force::{Dependence, Flow, Force, Motion, Rows};
 use crate::ring::{Ring, Start};
 use math::lane;
@@ -20,13 +20,20 @@ pub struct Deviations {
     pedestrians: usize,
     /// Net gap of the uniform flow.
     net_gap: f64,
+    /// The part by which the force is too strong.
+    off: f64,
 }
 
 impl Deviations {
     /// The ring under this force.
     pub fn new(force: Box<dyn Force>, ring: Ring) -> Deviations {
         let net_gap = ring.headway() - force.contact();
-        Deviations { force, pedestrians: ring.pedestrians, net_gap }
+        Deviations { force, pedestrians: ring.pedestrians, net_gap, off: 0.0 }
+    }
+
+    /// The same with a force that its rates have too strong by this part of itself.
+    pub(super) fn off_by(self, off: f64) -> Deviations {
+        Deviations { off, ..self }
     }
 
     /// The uniform flow of a state.
@@ -111,6 +118,11 @@ impl System for Deviations {
         let (_, _, speed) = self.extras();
         let (spacings, speeds) = (&state[..n], &state[n..2 * n]);
         rates[speed] = self.force.deviations(self.flow(state), spacings, speeds, &mut rates[n..2 * n]);
+        if self.off != 0.0 {
+            let relaxation = self.relaxation_rate();
+            strengthen(self.off, relaxation, speeds, &mut rates[n..2 * n]);
+            strengthen(self.off, relaxation, &state[speed..], &mut rates[speed..]);
+        }
     }
 
     fn has_series(&self) -> bool {
@@ -192,6 +204,10 @@ impl System for Deviations {
         extras[distance - first] += way * extras[speed - first];
         extras[speed - first] *= left;
         push(of_flow[1], 0.5 * time * extras[speed - first], &mut ring[n..]);
+    }
+
+    fn relaxation_rate(&self) -> f64 {
+        relaxation_rate(&*self.force, self.net_gap)
     }
 
     fn positions(&self) -> Vec<Range<usize>> {

@@ -17,6 +17,7 @@ pub use deviations::Deviations;
 pub use positions::Positions;
 pub use spacings::Spacings;
 
+use crate::force::{Flow, Force};
 use crate::laws::Model;
 use crate::observe::speed_std;
 use crate::ring::{Ring, Start};
@@ -85,10 +86,15 @@ pub enum StateVariables {
 impl StateVariables {
     /// The ring in this form, with the law reduced to the terms it names.
     pub fn build(self, model: &Model, ring: Ring) -> Box<dyn RingSystem> {
+        self.build_off(model, ring, 0.0)
+    }
+
+    /// The same with a force that rates, but not series, have too strong by this part of itself; in positions it is right.
+    pub(crate) fn build_off(self, model: &Model, ring: Ring, off: f64) -> Box<dyn RingSystem> {
         let force = model.force();
         match self {
-            StateVariables::Deviations => Box::new(Deviations::new(force, ring)),
-            StateVariables::Spacings => Box::new(Spacings::new(force, ring)),
+            StateVariables::Deviations => Box::new(Deviations::new(force, ring).off_by(off)),
+            StateVariables::Spacings => Box::new(Spacings::new(force, ring).off_by(off)),
             StateVariables::Positions => Box::new(Positions::new(force, ring)),
         }
     }
@@ -98,6 +104,17 @@ impl StateVariables {
 pub fn gaps_state(model: &Model, gaps: &[f64], speeds: &[f64], first: f64) -> Vec<f64> {
     let contact = model.contact();
     gaps.iter().map(|gap| gap - contact).chain(speeds.iter().copied()).chain([first]).collect()
+}
+
+/// How fast speeds relax if no force acts: at rate 1 unless the law, linear in speeds, says otherwise.
+fn relaxation_rate(force: &dyn Force, net_gap: f64) -> f64 {
+    let linear = (!force.uses_speeds()).then(|| -force.relaxation(Flow { net_gap, speed: 0.0 }));
+    linear.filter(|rate| rate.is_finite()).unwrap_or(1.0)
+}
+
+/// Adds this part of the force, which is the rate of a speed and what relaxation has taken off it.
+fn strengthen(part: f64, relaxation: f64, speeds: &[f64], rates: &mut [f64]) {
+    rates.iter_mut().zip(speeds).for_each(|(rate, speed)| *rate += part * (*rate + relaxation * speed));
 }
 
 /// A state of spacings, or of deviations, with each of the `N` pedestrians displaced as given: spacings come first,

@@ -1,7 +1,7 @@
 //! Spacings and speeds, `[s_0 - s_c .. s_{N-1} - s_c, v_0 .. v_{N-1}, x_0]`, with the spacing `s_c` at contact (2, or 0
 //! for the logarithmic law). A gap that closes keeps all its digits.
 
-use super::{LEAST_SIZE, RingSystem, closing_rates, displace, tangent};
+use super::{LEAST_SIZE, RingSystem, closing_rates, displace, relaxation_rate, strengthen, tangent};
 use crate::force::{Flow, Force, Motion, Rows};
 use crate::ring::{Ring, Start};
 use ode::{Group, Measure, System, Tangent, TangentEnds};
@@ -13,13 +13,20 @@ pub struct Spacings {
     force: Box<dyn Force>,
     pedestrians: usize,
     clearance: f64,
+    /// The part by which the force is too strong.
+    off: f64,
 }
 
 impl Spacings {
     /// The ring under this force.
     pub fn new(force: Box<dyn Force>, ring: Ring) -> Spacings {
         let clearance = ring.headway() - force.contact();
-        Spacings { force, pedestrians: ring.pedestrians, clearance }
+        Spacings { force, pedestrians: ring.pedestrians, clearance, off: 0.0 }
+    }
+
+    /// The same with a force that its rates have too strong by this part of itself.
+    pub(super) fn off_by(self, off: f64) -> Spacings {
+        Spacings { off, ..self }
     }
 }
 
@@ -44,6 +51,9 @@ impl System for Spacings {
         let n = self.pedestrians;
         let (clearances, speeds) = (&state[..n], &state[n..2 * n]);
         self.force.accelerations(clearances, speeds, &mut rates[n..2 * n]);
+        if self.off != 0.0 {
+            strengthen(self.off, self.relaxation_rate(), speeds, &mut rates[n..2 * n]);
+        }
     }
 
     fn has_series(&self) -> bool {
@@ -75,6 +85,10 @@ impl System for Spacings {
     fn carry(&self, tangent: Tangent<'_>, difference: &mut [f64]) {
         let (ring, first) = difference.split_at_mut(2 * self.pedestrians);
         first[0] += tangent::carry(tangent, self.pedestrians, ring);
+    }
+
+    fn relaxation_rate(&self) -> f64 {
+        relaxation_rate(&*self.force, self.clearance)
     }
 
     fn positions(&self) -> Vec<Range<usize>> {

@@ -3,6 +3,7 @@
 
 mod bits;
 mod confirmed;
+mod constants;
 mod convergence;
 mod criteria;
 mod deviation;

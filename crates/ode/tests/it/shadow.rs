@@ -43,6 +43,10 @@ impl System for Pendulum {
         }
     }
 
+    fn relaxation_rate(&self) -> f64 {
+        2.0 * self.friction
+    }
+
     fn tangent_size(&self) -> usize {
         usize::from(self.is_linear)
     }
@@ -65,9 +69,14 @@ impl System for Pendulum {
 
 impl Pendulum {
     /// The exact solution from a start; what a small error at the start becomes, too.
-    fn exact(&self, [x, v]: [f64; 2], t: f64) -> [f64; 2] {
+    fn exact(&self, start: [f64; 2], t: f64) -> [f64; 2] {
+        self.exact_by_force(1.0, start, t)
+    }
+
+    /// The same with a force that is larger by this factor.
+    fn exact_by_force(&self, factor: f64, [x, v]: [f64; 2], t: f64) -> [f64; 2] {
         let a = self.friction;
-        let w = (1.0 - a * a).sqrt();
+        let w = (factor - a * a).sqrt();
         let (sin, cos) = (math::sin(w * t), math::cos(w * t));
         let damping = math::exp(-a * t);
         let more = (v + a * x) / w;
@@ -77,11 +86,21 @@ impl Pendulum {
 
 /// Goes along with a solution from `[1, 0]` to 20 and shows every step with the shadow.
 fn follow(system: &Pendulum, tolerance: f64, error: [f64; 2], look: &mut dyn FnMut(&mut Step<'_>, &Shadow)) {
+    follow_off(system, tolerance, (error, 0.0), look);
+}
+
+/// The same if the force is off by a part of itself.
+fn follow_off(
+    system: &Pendulum,
+    tolerance: f64,
+    (error, part): ([f64; 2], f64),
+    look: &mut dyn FnMut(&mut Step<'_>, &Shadow),
+) {
     let control = Control::Adaptive { tolerance };
     let problem = Problem { system, start: &[1.0, 0.0], begin: 0.0, end: 20.0, method: Method::Taylor, control };
     let mut shadow = Shadow::new(error.to_vec());
     let mut observer = |step: &mut Step<'_>| {
-        assert!(shadow.follow(step, 0.0), "Taylor's method tells its errors");
+        assert!(shadow.follow(step, 0.0, part), "Taylor's method tells its errors");
         look(step, &shadow);
         ControlFlow::Continue(())
     };
@@ -90,6 +109,29 @@ fn follow(system: &Pendulum, tolerance: f64, error: [f64; 2], look: &mut dyn FnM
 
 /// Frictions, and whether the linearised equations are told.
 const SYSTEMS: [(f64, bool); 6] = [(0.0, false), (0.3, false), (-0.1, false), (0.0, true), (0.3, true), (-0.1, true)];
+
+#[test]
+fn a_force_off_by_a_part_gives_the_error_that_it_makes() {
+    let part = 1e-6;
+    for (friction, is_linear) in SYSTEMS {
+        let system = Pendulum { friction, is_linear };
+        let mut worst = 0.0;
+        follow_off(&system, 1e-10, ([0.0; 2], part), &mut |step, shadow| {
+            let mut error = [0.0; 2];
+            shadow.at_end(&mut error);
+            let [right, off] = [1.0, 1.0 + part].map(|factor| system.exact_by_force(factor, [1.0, 0.0], step.end));
+            let made = [off[0] - right[0], off[1] - right[1]];
+            let apart = math::larger((made[0] - error[0]).abs(), (made[1] - error[1]).abs());
+            let size = math::larger(made[0].abs(), made[1].abs());
+            // at first each step is a large part of the way
+            if step.start > 5.0 {
+                worst = math::larger(worst, apart / size);
+            }
+        });
+        println!("{friction} {is_linear}: worst {worst}");
+        assert!(worst > 0.0 && worst < 0.5, "{friction} {is_linear}: off by {worst} of the error");
+    }
+}
 
 #[test]
 fn errors_of_steps_are_those_against_the_exact_solution() {
@@ -149,7 +191,7 @@ fn other_methods_and_fixed_steps_tell_nothing() {
         let problem = Problem { system: &system, start: &[1.0, 0.0], begin: 0.0, end: 1.0, method, control };
         let mut shadow = Shadow::new(vec![0.0; 2]);
         let mut observer = |step: &mut Step<'_>| {
-            assert!(!shadow.follow(step, 0.0), "{method:?}");
+            assert!(!shadow.follow(step, 0.0, 0.0), "{method:?}");
             ControlFlow::Continue(())
         };
         integrate(&problem, &mut observer).expect("nothing stands in the way");
