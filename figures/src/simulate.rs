@@ -327,6 +327,9 @@ fn in_words(
             event.gap,
             event.step
         );
+        if event.is_at_wall() {
+            let _ = write!(text, "; followed to here: the next throw is at a gap below every double");
+        }
     }
     if let Some(errors) = errors {
         let number = |error: Option<f64>| error.map_or("unknown".to_owned(), |error| format!("{error:.0e}"));
