@@ -2,7 +2,7 @@
 //! differs from them by as much as their size. They are removed, and the run ends with a named reason after the last
 //! confirmed sample.
 
-use super::second::{SAME_TIME, Second};
+use super::second::{LARGE, SAME_TIME, Second};
 use super::{Errors, ROUNDINGS, errors_of, largest, run_propagated};
 use crate::run::{Broken, Outcome, Run, RunObserver, advice, untried};
 use math::larger;
@@ -71,7 +71,7 @@ pub(super) fn until(run: &Run, outcome: &Outcome, second: &Second) -> Option<f64
     let other = &second.outcome;
     let other_end = other.stop().map_or(other.statistics.time, |stop| stop.time);
     let is_before_end = other_end < (1.0 - SAME_TIME) * outcome.statistics.time;
-    let refuted = refuted_at(outcome, other);
+    let refuted = refuted_at(run, outcome, other);
     let end = match (refuted, outcome.stop()) {
         (Some(time), _) => Some(time),
         // another event may be the same one, all but for its time
@@ -86,16 +86,14 @@ pub(super) fn until(run: &Run, outcome: &Outcome, second: &Second) -> Option<f64
     Some(last_before(outcome, first))
 }
 
-/// The time of the stop of a run that its own error alone led to: the other run, more exact, goes on past that time and has no stop.
-fn refuted_at(outcome: &Outcome, other: &Outcome) -> Option<f64> {
+/// The time of the stop of a run that its own error alone led to: the other run, more exact, goes on well past that time, or to the
+/// end, and has no stop. One that breaks off soon behind it may have been about to stop.
+pub(super) fn refuted_at(run: &Run, outcome: &Outcome, other: &Outcome) -> Option<f64> {
     let stop = outcome.stop()?;
-    let goes_on = other.stop().is_none() && other.statistics.time > (1.0 + NEAR) * stop.time;
+    let well_past = math::smaller(run.t_end, (1.0 + LARGE) * stop.time);
+    let time = other.statistics.time;
+    let goes_on = other.stop().is_none() && time > (1.0 + NEAR) * stop.time && time >= well_past;
     goes_on.then_some(stop.time)
-}
-
-/// Whether the other run shows that the run has a stop by its own error alone.
-pub(super) fn refutes(outcome: &Outcome, other: &Outcome) -> bool {
-    refuted_at(outcome, other).is_some()
 }
 
 /// The time of the last sample before this one.

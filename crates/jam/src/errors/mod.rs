@@ -14,10 +14,11 @@ mod second;
 
 pub use propagated::Propagated;
 
-use crate::events::Event;
+use crate::events::{Event, EventKind};
 use crate::laws::Model;
 use crate::run::{Broken, Outcome, Run, RunObserver, run_from};
 use crate::states::StateVariables;
+use ode::Control;
 use second::Second;
 
 /// Estimated errors, in the units of the numbers; `None` where the second run gives no estimate because it ended
@@ -113,13 +114,19 @@ pub fn errors(run: &Run, outcome: &Outcome) -> Errors {
     known(run, outcome, Second::new(run, outcome, None, &mut ()).errors(run, outcome))
 }
 
-/// The errors without those that nobody knows: that of a state without a value; and at a wall, where a pedestrian is thrown back
+/// The errors with what the steps do not show: fixed ones tell where a formula loses its value to a step. Without those that
+/// nobody knows: that of a state without a value; and at a wall, where a pedestrian is thrown back
 /// at a gap below every double, those of the speeds, which turn within a rounding of the time, and of the time of the
 /// singularity, but for what [remains](left_at_wall).
 fn known(run: &Run, outcome: &Outcome, errors: Errors) -> Errors {
     let number = |error: Option<f64>| error.filter(|error| !error.is_nan());
     let is_at_wall = outcome.events.iter().any(Event::is_at_wall);
+    let step = match run.control {
+        Control::Fixed { step } => step,
+        Control::Adaptive { .. } => 0.0,
+    };
     let of_event = |(event, error): (&Event, Option<f64>)| match number(error) {
+        Some(error) if event.kind == EventKind::Undefined => Some(error + step),
         Some(error) if event.is_at_wall() => left_at_wall(run, outcome).map(|left| error + left),
         error => error,
     };

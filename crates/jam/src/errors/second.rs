@@ -79,7 +79,7 @@ impl Second {
             Control::Fixed { step } => step,
         };
         let accurate = by_tolerance(run, outcome, ACCURATE, instants, onlooker);
-        let is_refuted = confirmed::refutes(outcome, &accurate.outcome);
+        let is_refuted = confirmed::refuted_at(run, outcome, &accurate.outcome).is_some();
         if is_refuted || is_sure(outcome, &accurate.outcome, end(run, outcome)) {
             return accurate;
         }
@@ -374,7 +374,7 @@ fn is_not_finite(run: &Run, outcome: &Outcome) -> bool {
 }
 
 /// A part of the headway, of the desired speed, or of the time of an event, that is no small error.
-const LARGE: f64 = 0.1;
+pub(super) const LARGE: f64 = 0.1;
 
 /// The larger of two; NaN if there is one.
 fn larger(a: f64, b: f64) -> f64 {
