@@ -10,7 +10,7 @@ use files::table::Table;
 use files::write::{atomic_all, is_same_file};
 use jam::errors::Errors;
 use jam::events::Event;
-use jam::outcome::{Decision, Verdict};
+use jam::outcome::{AGREEMENT, Decision, Verdict};
 use jam::run::Outcome;
 use ode::{Control, Method};
 use plot::style::COLUMN_WIDTH;
@@ -327,6 +327,9 @@ fn in_words(
             event.gap,
             event.step
         );
+        if event.is_at_wall() {
+            let _ = write!(text, "; followed to here: the next throw is at a gap below every double");
+        }
     }
     if let Some(errors) = errors {
         let number = |error: Option<f64>| error.map_or("unknown".to_owned(), |error| format!("{error:.0e}"));
@@ -339,7 +342,8 @@ fn in_words(
     if let Some((speed, time)) = outcome.drift.speed() {
         let count = outcome.drift.jams().len();
         let jams = if count == 1 { "jam" } else { "jams" };
-        let _ = write!(text, "\n{count} {jams}, travelling at {speed:.4} (mean over the last {})", rounded(time));
+        let speed = sure(speed, outcome.drift.speed_error(scene.ring.headway()));
+        let _ = write!(text, "\n{count} {jams}, travelling at {speed} (mean over the last {})", rounded(time));
     }
     text
 }
@@ -350,7 +354,13 @@ fn fate(verdict: &Verdict) -> String {
     match decision {
         Decision::Missing(missing) => format!("outcome: undecided; needs {missing}"),
         decided => {
-            let speed = verdict.wave_speed.map_or(String::new(), |speed| format!(", travelling at {speed:.4}"));
+            let in_words = |speed: f64| match decided {
+                // windows agree to a part of their numbers
+                Decision::Windows => sure(speed, Some(AGREEMENT * speed.abs())),
+                _ => format!("{speed:.4}"),
+            };
+            let speed =
+                verdict.wave_speed.map_or(String::new(), |speed| format!(", travelling at {}", in_words(speed)));
             format!("outcome: {}{speed} ({} at t = {time:.1})", class.in_words(), decided.name())
         }
     }

@@ -33,6 +33,13 @@ pub enum EventKind {
 /// the remaining time to the singularity is below the rounding of the time.
 pub const BLOW_UP: f64 = 1e12;
 
+impl Event {
+    /// Whether the run could not follow a pedestrian any further to a wall, at a gap below every double: no step shows that.
+    pub fn is_at_wall(&self) -> bool {
+        self.kind == EventKind::BlowUp && self.step == 0.0 && self.time > 0.0
+    }
+}
+
 impl EventKind {
     /// All events.
     pub const ALL: [EventKind; 5] =

@@ -94,4 +94,10 @@ impl Drift {
     pub fn speed(&self) -> Option<(f64, f64)> {
         (self.time > 0.0).then(|| (self.distance / self.time, self.time))
     }
+
+    /// The error of that speed on a ring of this headway, in units of `a_0`: the ends of a jam lie between pedestrians, so that where
+    /// its way begins and ends is known to about a headway. `None` where there is no speed.
+    pub fn speed_error(&self, headway: f64) -> Option<f64> {
+        (self.time > 0.0).then(|| headway / self.time)
+    }
 }

@@ -83,7 +83,7 @@ pub fn of_run(scene: &Scene, ended: &FinishedRun, flow: Option<&Stability>, erro
         "events": events,
         "error": errors.map(|errors| json!({ "std": errors.std, "x": errors.positions, "v": errors.speeds })),
         "outcome": outcome.verdict.as_ref().map(of_verdict),
-        "jams": scene.keeps_trajectories.then(|| jams(outcome)),
+        "jams": scene.keeps_trajectories.then(|| jams(scene, outcome)),
     })
 }
 
@@ -118,12 +118,13 @@ fn stop(outcome: &Outcome, broken: Option<&Broken>) -> &'static str {
     }
 }
 
-fn jams(outcome: &Outcome) -> Value {
+fn jams(scene: &Scene, outcome: &Outcome) -> Value {
     let extents: Vec<f64> = outcome.drift.jams().iter().map(|jam| jam.extent).collect();
     json!({
         "number": extents.len(),
         "extents": extents,
         "speed": outcome.drift.speed().map(|(speed, _)| speed),
+        "speed_error": outcome.drift.speed_error(scene.ring.headway()),
         "measured_over": outcome.drift.speed().map(|(_, time)| time),
     })
 }

@@ -2,9 +2,8 @@
 //! differs from them by as much as their size. They are removed, and the run ends with a named reason after the last
 //! confirmed sample.
 
-use super::second::{SAME_TIME, Second};
+use super::second::{LARGE, SAME_TIME, Second};
 use super::{Errors, ROUNDINGS, errors_of, largest, run_propagated};
-use crate::events::{Event, EventKind};
 use crate::run::{Broken, Outcome, Run, RunObserver, advice, untried};
 use math::larger;
 use ode::{Control, Failure};
@@ -87,22 +86,14 @@ pub(super) fn until(run: &Run, outcome: &Outcome, second: &Second) -> Option<f64
     Some(last_before(outcome, first))
 }
 
-/// The time of the stop of a run that left the domain of its formula, whose adaptive steps came to a blow-up, or whose fixed steps
-/// came to an overlap, by its own error alone: the other one, more exact, goes on. Of positions, roundings may grow into a blow-up
-/// that deviations know nothing of. Fixed steps that pass a wall are another matter: their events have no errors.
-fn refuted_at(run: &Run, outcome: &Outcome, other: &Outcome) -> Option<f64> {
+/// The time of the stop of a run that its own error alone led to: the other run, more exact, goes on well past that time, or to the
+/// end, and has no stop. One that breaks off soon behind it may have been about to stop.
+pub(super) fn refuted_at(run: &Run, outcome: &Outcome, other: &Outcome) -> Option<f64> {
     let stop = outcome.stop()?;
-    let is_adaptive = matches!(run.control, Control::Adaptive { .. });
-    // the other one was then to go on to the end of the run, whatever came before
-    let is_own = |event: &Event| match event.kind {
-        EventKind::Undefined => true,
-        EventKind::BlowUp => is_adaptive,
-        // steps that are too long swing until two pedestrians overlap
-        EventKind::Overlap => !is_adaptive && !run.model.is_singular() && event.time == stop.time,
-        _ => false,
-    };
-    let goes_on = other.stop().is_none() && other.statistics.time > (1.0 + NEAR) * stop.time;
-    (goes_on && outcome.events.iter().any(is_own)).then_some(stop.time)
+    let well_past = math::smaller(run.t_end, (1.0 + LARGE) * stop.time);
+    let time = other.statistics.time;
+    let goes_on = other.stop().is_none() && time > (1.0 + NEAR) * stop.time && time >= well_past;
+    goes_on.then_some(stop.time)
 }
 
 /// The time of the last sample before this one.

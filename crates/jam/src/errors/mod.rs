@@ -14,9 +14,11 @@ mod second;
 
 pub use propagated::Propagated;
 
+use crate::events::{Event, EventKind};
 use crate::laws::Model;
 use crate::run::{Broken, Outcome, Run, RunObserver, run_from};
 use crate::states::StateVariables;
+use ode::Control;
 use second::Second;
 
 /// Estimated errors, in the units of the numbers; `None` where the second run gives no estimate because it ended
@@ -100,15 +102,64 @@ pub fn errors_of(
 ) -> Errors {
     let told = propagated.and_then(|propagated| propagated.errors(run, outcome));
     let told = told.filter(|_| !second::is_underflown(run, outcome));
-    told.unwrap_or_else(|| {
+    let errors = told.unwrap_or_else(|| {
         let seen = propagated.map(Propagated::recent);
         Second::new(run, outcome, seen, onlooker).errors(run, outcome)
-    })
+    });
+    known(run, outcome, errors)
 }
 
 /// Runs the scene once more and compares.
 pub fn errors(run: &Run, outcome: &Outcome) -> Errors {
-    Second::new(run, outcome, None, &mut ()).errors(run, outcome)
+    known(run, outcome, Second::new(run, outcome, None, &mut ()).errors(run, outcome))
+}
+
+/// The errors with what the steps do not show: fixed ones tell where a formula loses its value to a step. Without those that
+/// nobody knows: that of a state without a value; and at a wall, where a pedestrian is thrown back
+/// at a gap below every double, those of the speeds, which turn within a rounding of the time, and of the time of the
+/// singularity, but for what [remains](left_at_wall).
+fn known(run: &Run, outcome: &Outcome, errors: Errors) -> Errors {
+    let number = |error: Option<f64>| error.filter(|error| !error.is_nan());
+    let is_at_wall = outcome.events.iter().any(Event::is_at_wall);
+    let step = match run.control {
+        Control::Fixed { step } => step,
+        Control::Adaptive { .. } => 0.0,
+    };
+    let of_event = |(event, error): (&Event, Option<f64>)| match number(error) {
+        Some(error) if event.kind == EventKind::Undefined => Some(error + step),
+        Some(error) if event.is_at_wall() => left_at_wall(run, outcome).map(|left| error + left),
+        error => error,
+    };
+    Errors {
+        std: number(errors.std),
+        positions: number(errors.positions),
+        speeds: number(errors.speeds).filter(|_| !is_at_wall),
+        events: outcome.events.iter().zip(errors.events).map(of_event).collect(),
+        ..errors
+    }
+}
+
+/// The time that remains from a wall to the singularity: speeds double at every throw, the next of which is at most a headway
+/// away, so that all of them together take less than a headway at the speed of the last. `None` before the first throw, since
+/// nothing is known yet of what follows.
+fn left_at_wall(run: &Run, outcome: &Outcome) -> Option<f64> {
+    let fastest = largest(&outcome.speeds);
+    (fastest >= THROWN * run.model.desired_speed().abs()).then(|| run.ring.headway() / fastest)
+}
+
+/// Who is so much faster than pedestrians want to be has been thrown back.
+pub(crate) const THROWN: f64 = 4.0;
+
+/// By how much the spacings at the start differ from those of the uniform flow.
+pub(crate) fn of_spacings(run: &Run) -> Vec<f64> {
+    let (n, shift, moved) = (run.ring.pedestrians, run.start.shift, &run.displacements);
+    if !moved.is_empty() {
+        return (0..n).map(|own| moved[(own + 1) % n] - moved[own]).collect();
+    }
+    let mut all = vec![0.0; n];
+    all[0] -= shift;
+    all[n - 1] += shift;
+    all
 }
 
 /// Fixed steps may be too long for their error to be that of their order.
@@ -136,7 +187,7 @@ pub(crate) fn of_constants(run: &Run) -> f64 {
 /// shift is lost beside the drive: the error of a speed is at most the response of the force at the least spacing to
 /// the shift, over a relaxation time. `None` where speeds differ, or the law gives no bound.
 pub(crate) fn unseen(run: &Run, outcome: &Outcome) -> Option<f64> {
-    let (headway, shift) = (run.ring.headway(), run.start.shift.abs());
+    let (headway, shift) = (run.ring.headway(), largest(&of_spacings(run)));
     let is_told = largest_std(outcome) == 0.0 && !matches!(run.model, Model::Formula(_));
     // from rest speeds only grow until the drive is balanced, and the force with them
     let speed = largest(&outcome.speeds);
@@ -145,13 +196,13 @@ pub(crate) fn unseen(run: &Run, outcome: &Outcome) -> Option<f64> {
     Some(CAUTION * phi.abs() * shift * math::smaller(outcome.statistics.time, 1.0))
 }
 
-/// Whether spacings lose the shift of the start to the last digit.
+/// Whether spacings lose the shift of the start, or all displacements, to the last digit.
 pub fn loses_shift(run: &Run) -> bool {
-    let (clearance, shift) = (run.ring.headway() - run.model.contact(), run.start.shift);
-    run.form == StateVariables::Spacings
-        && shift != 0.0
-        && clearance - shift == clearance
-        && clearance + shift == clearance
+    if run.form != StateVariables::Spacings {
+        return false;
+    }
+    let (clearance, all) = (run.ring.headway() - run.model.contact(), of_spacings(run));
+    all.iter().any(|by| *by != 0.0) && all.iter().all(|by| clearance + by == clearance && clearance - by == clearance)
 }
 
 /// The largest standard deviation in the table.
@@ -159,6 +210,13 @@ pub(crate) fn largest_std(outcome: &Outcome) -> f64 {
     let all = &outcome.samples.std;
     let largest = ode::largest(all);
     if largest.is_nan() { all.iter().copied().fold(0.0, math::larger) } else { largest }
+}
+
+/// The largest speed in the table, in size. Where a run goes on behind its stop, the speeds at its end may be far larger; they stand
+/// for those in the table only where that keeps no speeds.
+pub(crate) fn largest_speed(outcome: &Outcome) -> f64 {
+    let speeds = &outcome.samples.speeds;
+    largest(if outcome.stop().is_some() && !speeds.is_empty() { speeds } else { &outcome.speeds })
 }
 
 /// The largest in size.

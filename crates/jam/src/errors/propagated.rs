@@ -8,7 +8,10 @@
 
 use super::confirmed::last_before;
 use super::recent::Recent;
-use super::{Errors, ROUNDINGS, largest, largest_std, loses_shift, of_constants, of_headway, unseen};
+use super::{
+    Errors, ROUNDINGS, THROWN, largest, largest_speed, largest_std, loses_shift, of_constants, of_headway, of_spacings,
+    unseen,
+};
 use crate::events::{Event, EventKind};
 use crate::run::{Outcome, Run, RunObserver, Sight};
 use crate::states::StateVariables;
@@ -19,9 +22,9 @@ use ode::{Shadow, Step};
 #[derive(Clone, Debug)]
 pub struct Propagated {
     pedestrians: usize,
-    /// Everybody's clearance but for the shift, and that.
+    /// Everybody's clearance in the uniform flow, and what the start adds to it.
     clearance: f64,
-    shift: f64,
+    added: Vec<f64>,
     headway: f64,
     /// The size of the desired speed.
     desired: f64,
@@ -66,9 +69,6 @@ struct LastKnown {
     /// How late the blow-up may be, about.
     guess: f64,
 }
-
-/// Who is so much faster than pedestrians want to be has been thrown back.
-const THROWN: f64 = 4.0;
 
 /// A shift that has grown to this part of the clearance is no small difference any more.
 const VISIBLE: f64 = 0.1;
@@ -165,7 +165,7 @@ impl Propagated {
         Propagated {
             pedestrians: run.ring.pedestrians,
             clearance,
-            shift: run.start.shift,
+            added: of_spacings(run),
             headway: run.ring.headway(),
             rounding: f64::EPSILON + of_headway(run),
             constants: of_constants(run),
@@ -276,8 +276,12 @@ impl Propagated {
     fn of_start(&self, state: &[f64]) -> Vec<f64> {
         let (n, mut error) = (self.pedestrians, vec![0.0; state.len()]);
         if state.len() == 2 * n + 1 {
-            error[0] = (state[0] - self.clearance) + self.shift;
-            error[n - 1] = (state[n - 1] - self.clearance) - self.shift;
+            for ((error, spacing), added) in error.iter_mut().zip(&state[..n]).zip(&self.added) {
+                // exact if the larger of the two is subtracted first
+                let [large, small] =
+                    if added.abs() > self.clearance { [*added, self.clearance] } else { [self.clearance, *added] };
+                *error = (spacing - large) - small;
+            }
         }
         error
     }
@@ -312,10 +316,10 @@ impl Propagated {
             StateVariables::Deviations => (ROUNDINGS + of_headway(run)) * largest_std(outcome),
             // where all motion is one, no rounding lies between speeds; but a weak force goes unseen beside the drive
             _ if self.lost.is_some() && largest_std(outcome) == 0.0 => {
-                UNSEEN * run.model.desired_speed().abs() * (self.shift / self.clearance).abs()
+                UNSEEN * run.model.desired_speed().abs() * largest(&self.added) / self.clearance.abs()
             }
             // roundings of earlier steps are carried along
-            _ => unseen.unwrap_or_else(|| f64::EPSILON * largest(&outcome.speeds)),
+            _ => unseen.unwrap_or_else(|| f64::EPSILON * largest_speed(outcome)),
         };
         // at a blow-up a rounding of the time is a large part of the state
         let is_blow_up = outcome.events.iter().any(|event| event.kind == EventKind::BlowUp);

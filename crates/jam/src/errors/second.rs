@@ -3,7 +3,9 @@
 
 use super::propagated::{UNSURE, std_error};
 use super::recent::{Compared, Instant, Recent, Sort};
-use super::{CAUTION, Errors, ROUNDINGS, confirmed, largest, largest_std, loses_shift, of_constants, of_headway};
+use super::{
+    CAUTION, Errors, ROUNDINGS, confirmed, largest, largest_speed, largest_std, loses_shift, of_constants, of_headway,
+};
 use crate::events::{Event, EventKind};
 use crate::run::{Outcome, Run, RunObserver, has_deviations, run_off};
 use crate::states::StateVariables;
@@ -80,7 +82,8 @@ impl Second {
             Control::Fixed { step } => step,
         };
         let accurate = by_tolerance(run, outcome, ACCURATE, instants, onlooker);
-        if is_sure(outcome, &accurate.outcome, end(run, outcome)) {
+        let is_refuted = confirmed::refuted_at(run, outcome, &accurate.outcome).is_some();
+        if is_refuted || is_sure(outcome, &accurate.outcome, end(run, outcome)) {
             return accurate;
         }
         let shorter = by_half_steps(run, outcome, step, instants, onlooker);
@@ -187,7 +190,7 @@ impl Second {
         match run.form {
             StateVariables::Deviations => of_headway(run) * largest_std(outcome),
             _ if shows_all && largest_std(outcome) == 0.0 => 0.0,
-            _ => ROUNDINGS * largest(&outcome.speeds),
+            _ => ROUNDINGS * largest_speed(outcome),
         }
     }
 }
@@ -324,12 +327,15 @@ fn again(run: &Run, outcome: &Outcome) -> Run {
     Run { t_end: end(run, outcome), form, ..run.clone() }
 }
 
-/// A run ends with the step in which it finds its last event, which the second one has to find as well. A blow-up is not a
-/// suitable end, and whether the formula has no value there only a run that goes on can tell.
+/// A run ends with the step in which it finds its last event, which the second one has to find as well: up to a little later, where
+/// its overlap may be. A blow-up is not a suitable end, and whether the formula has no value there only a run that goes on can tell.
 fn end(run: &Run, outcome: &Outcome) -> f64 {
     let kinds = [EventKind::BlowUp, EventKind::Undefined];
-    let is_open = outcome.events.iter().any(|event| kinds.contains(&event.kind));
-    if is_open { run.t_end } else { outcome.last_step }
+    if outcome.events.iter().any(|event| kinds.contains(&event.kind)) {
+        return run.t_end;
+    }
+    let late = outcome.stop().map_or(0.0, |stop| (1.0 + LARGE) * stop.time);
+    math::smaller(run.t_end, math::larger(outcome.last_step, late))
 }
 
 /// The second run may take a few times the work of the run, with a minimum for short runs, and much more if the run has
@@ -370,8 +376,8 @@ fn is_not_finite(run: &Run, outcome: &Outcome) -> bool {
     is_fixed && outcome.stop().is_none() && outcome.statistics.time < (1.0 - SAME_TIME) * run.t_end
 }
 
-/// A part of the headway, or of the desired speed, that is no small error.
-const LARGE: f64 = 0.1;
+/// A part of the headway, of the desired speed, or of the time of an event, that is no small error.
+pub(super) const LARGE: f64 = 0.1;
 
 /// The larger of two; NaN if there is one.
 fn larger(a: f64, b: f64) -> f64 {

@@ -181,6 +181,25 @@ fn an_unstable_run_ends_by_name_where_no_double_follows() {
     }
 }
 
+#[test]
+fn what_follows_the_end_at_a_wall_is_part_of_its_error() {
+    let overrides = [("taylor", 1e-12), ("dop853", 1e-10)].map(|(method, tolerance)| Overrides {
+        method: Some(method.to_owned()),
+        tolerance: Some(tolerance),
+        ..Overrides::default()
+    });
+    for overrides in overrides {
+        let (outcome, errors) = jam::errors::stated(&case("blow-up-guo", &overrides)).expect("it ends well");
+        let stop = outcome.stop().expect("it stops");
+        assert!(stop.is_at_wall(), "{stop:?}");
+        // with 4200 bits, throws go on after this fifth one, towards 52.384
+        let error = errors.events.last().copied().flatten().expect("a number");
+        assert!(stop.time + error > 52.384 && error < 0.1, "{stop:?} {error:e}");
+        // who is thrown turns within a rounding of the time
+        assert!(errors.speeds.is_none() && errors.std.is_some_and(|error| error < 1e-6), "{errors:?}");
+    }
+}
+
 fn refusal(text: &str) -> SceneError {
     let parsed = match files::scene_file::parse("my.toml", text) {
         Ok(parsed) => parsed,
