@@ -20,7 +20,7 @@ fn changes(one: &Outcome, other: &Outcome) -> (f64, Vec<f64>) {
     assert_eq!(one.samples.len(), other.samples.len());
     assert!(one.events.iter().map(|event| event.kind).eq(other.events.iter().map(|event| event.kind)));
     let times = one.events.iter().zip(&other.events).map(|(one, other)| (one.time - other.time).abs());
-    (std.fold(0.0, f64::max), times.collect())
+    (std.fold(0.0, jam::math::larger), times.collect())
 }
 
 #[test]
