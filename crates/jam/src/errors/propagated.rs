@@ -155,7 +155,9 @@ impl Propagated {
         };
         // no standard deviation is off by more than all of its numbers
         if (1.0 + UNSURE) * ode::largest(errors) > self.std {
-            self.std = math::larger(self.std, std_error(speeds, errors));
+            // what they differ by is carried in single precision
+            let digits = f64::from(f32::EPSILON) * ode::largest(errors);
+            self.std = math::larger(self.std, std_error(speeds, errors) + digits);
         }
     }
 
