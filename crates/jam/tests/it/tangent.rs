@@ -153,6 +153,24 @@ fn solved([start, end]: [&[f64]; 2], n: usize, length: f64, difference: &[f64]) 
     state
 }
 
+/// A difference of this size that is carried over a step, near the right one.
+fn carried(
+    form: &dyn jam::states::RingSystem,
+    over: Tangent<'_>,
+    size: f64,
+    difference: &[f64],
+    right: &[f64],
+) -> Vec<f64> {
+    let (components, length, largest) = (right.len(), over.length, ode::largest(right));
+    let mut carried: Vec<f64> = difference.iter().map(|component| size * component).collect();
+    form.carry(over, &mut carried);
+    for (carried, right) in carried.iter().zip(right) {
+        let apart = (carried / size - right).abs();
+        assert!(apart < 0.02 * largest, "{components} components, {length}: {carried} not {size:e} * {right}");
+    }
+    carried
+}
+
 /// Of rings shorter than a vector register, longer, and a multiple of it; over short times and over several pieces; also where
 /// slopes do not change; of any size.
 #[test]
@@ -176,15 +194,10 @@ fn a_difference_is_carried_as_the_linearised_equations_say() {
                 start.iter().map(|slope| if is_steady { *slope } else { slope + random.uniform(-0.5, 0.5) }).collect();
             let drawn: Vec<f64> = (0..form.dimension()).map(|_| random.uniform(-1.0, 1.0)).collect();
             let right = solved([&start, &end], pedestrians, length, &drawn);
-            let mut carried: Vec<f64> = drawn.iter().map(|component| size * component).collect();
             let fastest = 1.1 * (2.0 * math::larger(ode::largest(&start), ode::largest(&end))).sqrt();
             let told = if is_steady { &[][..] } else { &end[..] };
-            form.carry(Tangent { start: &start, end: told, length, fastest, room: &mut room }, &mut carried);
-            let largest = ode::largest(&right);
-            for (carried, right) in carried.iter().zip(&right) {
-                let apart = (carried / size - right).abs();
-                assert!(apart < 0.02 * largest, "{kind:?} {pedestrians} {length}: {carried} not {size:e} * {right}");
-            }
+            let over = Tangent { start: &start, end: told, length, fastest, room: &mut room };
+            let carried = carried(&*form, over, size, &drawn, &right);
             if kind == StateVariables::Deviations {
                 // the uniform flow relaxes, and walks on
                 let [walked, speed] = [1, 2].map(|i| drawn[2 * pedestrians + i]);
@@ -222,15 +235,9 @@ fn a_difference_is_carried_where_the_force_depends_on_speeds() {
             let end = if is_steady { start.clone() } else { slopes(&mut draw) };
             let drawn: Vec<f64> = (0..form.dimension()).map(|_| random.uniform(-1.0, 1.0)).collect();
             let right = solved([&start, &end], n, length, &drawn);
-            let mut carried: Vec<f64> = drawn.iter().map(|component| size * component).collect();
             let told = if is_steady { &[][..] } else { &end[..] };
             let over = Tangent { start: &start, end: told, length, fastest: 4.5, room: &mut room };
-            form.carry(over, &mut carried);
-            let largest = ode::largest(&right);
-            for (carried, right) in carried.iter().zip(&right) {
-                let apart = (carried / size - right).abs();
-                assert!(apart < 0.02 * largest, "{n} {length}: {carried} not {size:e} * {right}");
-            }
+            carried(&*form, over, size, &drawn, &right);
         }
     }
 }
