@@ -58,13 +58,16 @@ pub fn write_own(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     write(path, bytes)
 }
 
-/// Makes a folder of the runner's own and those above it; a file or a dead link of this name is removed.
+/// Makes a folder of the runner's own and those above it; a file or a dead link of this name is removed. Several threads
+/// may ask for the same folder at once.
 ///
 /// # Errors
-/// The folder cannot be made, or what is in the way not be removed.
+/// The folder cannot be made.
 pub fn own_folder(path: &Path) -> Result<(), Failure> {
-    if !path.is_dir() && fs::symlink_metadata(path).is_ok() {
-        remove(path)?;
+    // one look decides, and only a file can go: another thread may have made the folder since then, and filled it
+    if fs::symlink_metadata(path).is_ok_and(|data| !data.is_dir()) && !path.is_dir() {
+        // where it stays, the folder cannot be made, which is told
+        let _ = fs::remove_file(path);
     }
     create_folder(path)
 }

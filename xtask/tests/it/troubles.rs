@@ -184,6 +184,26 @@ fn whatever_has_the_name_of_an_output_gives_way() {
 }
 
 #[test]
+fn a_folder_that_two_threads_want_at_once_loses_nothing() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("troubles-at-once");
+    for round in 0..300 {
+        let _ = std::fs::remove_dir_all(&folder);
+        // every second time a file is in the way
+        if round % 2 == 1 {
+            std::fs::write(&folder, "a file").expect("a file");
+        }
+        let start = std::sync::Barrier::new(3);
+        let write = &|name: &str| {
+            start.wait();
+            checkout::disk::own_folder(&folder).expect("a folder");
+            std::fs::write(folder.join(name), "kept").expect("the folder stays");
+        };
+        std::thread::scope(|scope| ["a", "b", "c"].map(|name| scope.spawn(move || write(name))).map(|_| ()));
+        assert_eq!(checkout::disk::names(&folder).expect("names"), ["a", "b", "c"]);
+    }
+}
+
+#[test]
 fn a_stored_run_whose_list_has_lost_a_line_is_made_again() {
     let shop = blessed("troubles-list");
     for entry in std::fs::read_dir(shop.root.join("target/store")).expect("a store") {
