@@ -11,5 +11,7 @@ if ! command -v cargo-deny >/dev/null; then
   [ -x "$deny" ] || cargo install --locked --version $version --root "$target/tools" cargo-deny
 fi
 for manifest in Cargo.toml crates/python/Cargo.toml; do
+  # so that the check itself needs no network
+  cargo fetch --quiet --locked --manifest-path "$manifest"
   "$deny" --offline --manifest-path "$manifest" check --config "$PWD/deny.toml" licenses bans sources
 done
