@@ -8,6 +8,7 @@
 //! the second run is one in deviations from the uniform flow, in which the start has no rounding.
 
 mod confirmed;
+mod of_std;
 mod propagated;
 mod recent;
 mod second;

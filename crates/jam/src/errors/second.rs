@@ -1,7 +1,7 @@
 //! A second run, and the error estimate from the difference between both runs. Its force is stronger by what roundings of constants
 //! may change it, which both runs would else have in common.
 
-use super::propagated::{UNSURE, std_error};
+use super::of_std::{UNSURE, std_error};
 use super::recent::{Compared, Instant, Recent, Sort};
 use super::{
     CAUTION, Errors, ROUNDINGS, confirmed, largest, largest_speed, largest_std, loses_shift, of_constants, of_headway,
