@@ -86,5 +86,5 @@ pub use integrate::{Problem, SHORTEST, Statistics, integrate, resume};
 pub use methods::Method;
 pub use observe::{MOST_STEPS, Observer, Pace, ResumePoint, Sampler, StepPosition, crossing_between, first_crossing};
 pub use shadow::Shadow;
-pub use system::{Batch, Group, Measure, System, Tangent, TangentEnds};
+pub use system::{Batch, Group, MeanTangent, Measure, System, Tangent, TangentEnds};
 pub use vector::largest;

@@ -104,12 +104,11 @@ impl Linear {
             TangentEnds { states: [step.before(), step.after()], rates: [step.rates_before(), step.rates_after()] },
         );
         let mean = step.system.mean_tangent(ends, &self.start, &mut self.end);
-        self.is_mean = mean.is_some_and(|fastest| {
-            self.fastest_at_end = fastest;
-            self.compare() <= THROWN
-        });
-        if self.is_mean {
-            self.fastest = self.fastest_at_end;
+        let mean = mean.filter(|mean| mean.change <= THROWN);
+        self.is_mean = mean.is_some();
+        let change = if let Some(mean) = mean {
+            (self.fastest, self.fastest_at_end) = (mean.fastest, mean.fastest);
+            mean.change
         } else {
             // along a sharp bend a mean says too little
             if was_mean {
@@ -117,8 +116,8 @@ impl Linear {
             }
             self.fastest_at_end = step.system.tangent(step.after(), &mut self.end);
             self.fastest = if self.fastest_at_end <= self.fastest { self.fastest } else { self.fastest_at_end };
-        }
-        let change = self.compare();
+            self.compare()
+        };
         self.steady_for = if change <= STEADY { STEADY_FOR } else { 0 };
         self.is_thrown = change > THROWN;
     }

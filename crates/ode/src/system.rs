@@ -65,9 +65,9 @@ pub trait System {
         0.0
     }
 
-    /// Writes coefficients that hold on average over a step, and returns the same of them; `earlier` are those of the step before,
-    /// or of its start. `None` where they do not follow from the ends of the step.
-    fn mean_tangent(&self, _ends: TangentEnds<'_>, _earlier: &[f64], _tangent: &mut [f64]) -> Option<f64> {
+    /// Writes coefficients that hold on average over a step; `earlier` are those of the step before, or of its start. `None`
+    /// where they do not follow from the ends of the step.
+    fn mean_tangent(&self, _ends: TangentEnds<'_>, _earlier: &[f64], _tangent: &mut [f64]) -> Option<MeanTangent> {
         None
     }
 
@@ -114,6 +114,15 @@ pub struct TangentEnds<'a> {
     pub states: [&'a [f64]; 2],
     /// Their rates.
     pub rates: [&'a [f64]; 2],
+}
+
+/// What is known of linearised equations that hold on average over a step.
+#[derive(Clone, Copy, Debug)]
+pub struct MeanTangent {
+    /// How fast differences move at most, as [`System::tangent`] says, per unit of time.
+    pub fastest: f64,
+    /// The largest change of a coefficient from the earlier ones, as a part of the largest coefficient; at least 0.
+    pub change: f64,
 }
 
 /// Linearised equations over a time.

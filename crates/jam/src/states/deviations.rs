@@ -10,7 +10,7 @@ use crate::force::{Dependence, Flow, Force, Motion, Rows};
 use crate::ring::{Ring, Start};
 use math::lane;
 use math::simd::dispatch;
-use ode::{Group, Measure, System, Tangent, TangentEnds};
+use ode::{Group, MeanTangent, Measure, System, Tangent, TangentEnds};
 use std::ops::Range;
 
 /// The ring as deviations from its uniform flow.
@@ -183,7 +183,7 @@ impl System for Deviations {
         if answers.iter().chain(&*rate).all(|answer| answer.is_finite()) { fastest } else { f64::NAN }
     }
 
-    fn mean_tangent(&self, ends: TangentEnds<'_>, earlier: &[f64], tangent: &mut [f64]) -> Option<f64> {
+    fn mean_tangent(&self, ends: TangentEnds<'_>, earlier: &[f64], tangent: &mut [f64]) -> Option<MeanTangent> {
         // rates of deviations have the digits of these
         tangent::write_mean(&*self.force, self.pedestrians, ends, 0.0, earlier, tangent)
     }

@@ -4,7 +4,7 @@
 use super::{LEAST_SIZE, RingSystem, closing_rates, displace, relaxation_rate, strengthen, tangent};
 use crate::force::{Flow, Force, Motion, Rows};
 use crate::ring::{Ring, Start};
-use ode::{Group, Measure, System, Tangent, TangentEnds};
+use ode::{Group, MeanTangent, Measure, System, Tangent, TangentEnds};
 use std::ops::Range;
 
 /// The ring as gaps and speeds.
@@ -78,7 +78,7 @@ impl System for Spacings {
         tangent::write(&*self.force, AT_REST, Rows { spacings: &state[..n], speeds: &state[n..2 * n] }, tangent)
     }
 
-    fn mean_tangent(&self, ends: TangentEnds<'_>, earlier: &[f64], tangent: &mut [f64]) -> Option<f64> {
+    fn mean_tangent(&self, ends: TangentEnds<'_>, earlier: &[f64], tangent: &mut [f64]) -> Option<MeanTangent> {
         tangent::write_mean(&*self.force, self.pedestrians, ends, DRIVE, earlier, tangent)
     }
 

@@ -5,7 +5,7 @@
 use super::series::Carry;
 use crate::force::{Dependence, Flow, Force, Rows};
 use math::simd::{Kernel, dispatch};
-use ode::{Tangent, TangentEnds};
+use ode::{MeanTangent, Tangent, TangentEnds};
 
 /// The middle of the eigenvalues where the force depends on the spacing alone: for equal slopes, those of a wave add up to -1.
 /// Without the fading that all have in common series need fewer orders.
@@ -13,8 +13,8 @@ pub(super) const FADING: f64 = -0.5;
 
 /// About how far from their middle eigenvalues `z` lie at most: that of the relaxation, or, for the steepest slope `phi`,
 /// those of its shortest waves, for which `(z + 1/2)^2 = 1/4 - 2 phi`. Slopes are not equal; a tenth is added for that.
-fn fastest(slopes: &[f64]) -> f64 {
-    let shortest = 2.0 * ode::largest(slopes) - FADING * FADING;
+fn fastest(steepest: f64) -> f64 {
+    let shortest = 2.0 * steepest - FADING * FADING;
     1.1 * math::larger(shortest, FADING * FADING).sqrt()
 }
 
@@ -34,7 +34,7 @@ pub(super) fn write(force: &dyn Force, flow: Flow, now: Rows<'_>, tangent: &mut 
     let n = now.spacings.len();
     if tangent.len() == n {
         force.slopes(flow, now, tangent);
-        return fastest(tangent);
+        return fastest(ode::largest(tangent));
     }
     let (slopes, middle) = tangent.split_at_mut(3 * n);
     force.slopes(flow, now, slopes);
@@ -55,11 +55,10 @@ pub(super) fn write_mean(
     least: f64,
     earlier: &[f64],
     tangent: &mut [f64],
-) -> Option<f64> {
+) -> Option<MeanTangent> {
     (force.dependence() == Dependence::Spacing).then(|| {
-        let steepest = ode::largest(earlier);
-        dispatch(Means { n, ends, least, steepest, earlier, tangent: &mut *tangent });
-        fastest(tangent)
+        let [steepest, change] = dispatch(Means { n, ends, least, earlier, tangent });
+        MeanTangent { fastest: fastest(steepest), change: if change == 0.0 { 0.0 } else { change / steepest } }
     })
 }
 
@@ -67,25 +66,32 @@ pub(super) fn write_mean(
 /// which the spacing was about the same.
 const VISIBLE: f64 = 1e-10;
 
+/// Writes the slopes; returns the steepest and by how much one differs most from the earlier one, NaN where one is.
 struct Means<'a> {
     n: usize,
     ends: TangentEnds<'a>,
     least: f64,
-    steepest: f64,
     earlier: &'a [f64],
     tangent: &'a mut [f64],
 }
 
 impl Kernel for Means<'_> {
-    type Output = ();
+    type Output = [f64; 2];
 
+    /// Sizes are compared as whole numbers: see [`ode::largest`].
     #[inline(always)]
-    fn run(self) {
-        let Means { n, ends: TangentEnds { states, rates }, least, steepest, earlier, tangent } = self;
+    fn run(self) -> [f64; 2] {
+        let Means { n, ends: TangentEnds { states, rates }, least, earlier, tangent } = self;
+        let larger = |most: i64, value: f64| {
+            let size = value.abs().to_bits() as i64;
+            if size > most { size } else { most }
+        };
+        let steepest = f64::from_bits(earlier.iter().fold(0, |most, slope| larger(most, *slope)) as u64);
         let spacings = states[0][..n].iter().zip(&states[1][..n]);
         let speeds = states[0][n..2 * n].iter().zip(&states[1][n..2 * n]);
         let rates = rates[0][n..2 * n].iter().zip(&rates[1][n..2 * n]);
         let known = spacings.zip(speeds).zip(rates).zip(earlier);
+        let mut most = [0; 2];
         for (slope, ((((from, to), (speed, later_speed)), (rate, later_rate)), earlier)) in
             tangent.iter_mut().zip(known)
         {
@@ -94,7 +100,9 @@ impl Kernel for Means<'_> {
             let is_visible = way.abs() * steepest > VISIBLE * size;
             let mean = change / way;
             *slope = if is_visible { mean } else { *earlier };
+            most = [larger(most[0], *slope), larger(most[1], *slope - *earlier)];
         }
+        most.map(|most| f64::from_bits(most as u64))
     }
 }
 
