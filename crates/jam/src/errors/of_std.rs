@@ -4,9 +4,9 @@ use math::simd::{Kernel, dispatch};
 
 /// By how much the standard deviation of speeds is off: the difference from that of the speeds less their errors, and what
 /// is not sure of these errors. They may all but cancel in the sum, what is not sure of them does not. Scaled: speeds of
-/// 1e-200 have squares.
-pub(super) fn std_error(speeds: &[f64], errors: &[f64]) -> f64 {
-    let (count, scale) = (speeds.len() as f64, math::larger(ode::largest(speeds), ode::largest(errors)));
+/// 1e-200 have squares. `most` is the largest of the errors.
+pub(super) fn std_error(speeds: &[f64], errors: &[f64], most: f64) -> f64 {
+    let (count, scale) = (speeds.len() as f64, math::larger(ode::largest(speeds), most));
     if scale < SMALLEST || !scale.is_finite() {
         // numbers without digits, or none: none is off by more than all of it
         return scale;
@@ -31,16 +31,16 @@ impl Kernel for Sums<'_> {
 
     #[inline(always)]
     fn run(self) -> [f64; 2] {
-        [self.speeds, self.errors].map(|values| {
-            let mut sums = [0.0; LANES];
-            let (eights, rest) = values.as_chunks::<LANES>();
-            for eight in eights {
-                for lane in 0..LANES {
-                    sums[lane] += eight[lane];
-                }
+        let mut sums = [[0.0; LANES]; 2];
+        let (speeds, rest) = self.speeds.as_chunks::<LANES>();
+        let (errors, error_rest) = self.errors.as_chunks::<LANES>();
+        for (speeds, errors) in speeds.iter().zip(errors) {
+            for lane in 0..LANES {
+                sums[0][lane] += speeds[lane];
+                sums[1][lane] += errors[lane];
             }
-            rest.iter().chain(&sums).sum()
-        })
+        }
+        [rest.iter().chain(&sums[0]).sum(), error_rest.iter().chain(&sums[1]).sum()]
     }
 }
 
@@ -93,7 +93,11 @@ pub(super) const UNSURE: f64 = 0.2;
 
 #[cfg(test)]
 mod tests {
-    use super::{UNSURE, std_error};
+    use super::UNSURE;
+
+    fn std_error(speeds: &[f64], errors: &[f64]) -> f64 {
+        super::std_error(speeds, errors, ode::largest(errors))
+    }
 
     /// The standard deviation of these.
     fn std(values: &[f64]) -> f64 {

@@ -141,8 +141,8 @@ impl Propagated {
         // where the perturbation is lost all errors but its own are alike
         let Some(shadow) = self.lost.as_ref().or(self.shadow.as_ref()) else { return };
         let known = shadow.after().filter(|_| is_whole && self.lost.is_none());
-        let (speeds, errors) = match known {
-            Some(errors) => (&step.after()[n..2 * n], &errors[n..2 * n]),
+        let (speeds, errors, most) = match known {
+            Some(errors) => (&step.after()[n..2 * n], &errors[n..2 * n], self.looked_at),
             None => {
                 let place = if is_whole { 1.0 } else { step.fraction(last) };
                 (state, error) = (vec![0.0; shadow.dimension()], vec![0.0; shadow.dimension()]);
@@ -150,14 +150,14 @@ impl Propagated {
                 if self.lost.is_none() {
                     step.at_fraction(place, &mut state);
                 }
-                (&state[n..2 * n], &error[n..2 * n])
+                (&state[n..2 * n], &error[n..2 * n], ode::largest(&error[n..2 * n]))
             }
         };
         // no standard deviation is off by more than all of its numbers
-        if (1.0 + UNSURE) * ode::largest(errors) > self.std {
+        if (1.0 + UNSURE) * most > self.std {
             // what they differ by is carried in single precision
-            let digits = f64::from(f32::EPSILON) * ode::largest(errors);
-            self.std = math::larger(self.std, std_error(speeds, errors) + digits);
+            let digits = f64::from(f32::EPSILON) * most;
+            self.std = math::larger(self.std, std_error(speeds, errors, most) + digits);
         }
     }
 

@@ -125,7 +125,7 @@ impl Second {
                 let instants = self.instants().filter(|(one, _)| one.time <= last).map(|(one, other)| {
                     let (speeds, others) = (&one.relative_speeds, &other.relative_speeds);
                     let off: Vec<f64> = speeds.iter().zip(others).map(|(speed, other)| speed - other).collect();
-                    factor * std_error(speeds, &off)
+                    factor * std_error(speeds, &off, ode::largest(&off))
                 });
                 let all = instants.fold(difference(&outcome.samples.std, &other.samples.std), larger);
                 all + gathered * largest(&outcome.samples.std) + self.rounding(run, outcome) + f64::MIN_POSITIVE
