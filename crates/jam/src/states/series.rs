@@ -124,14 +124,14 @@ impl Carry<'_> {
         let (turns, left) = ((fastest * unit) as f32, lane::exp(fading * unit));
         let half = (-fading * unit) as f32;
         let rows = Rows::new(room, n);
-        fill(rows.slopes[0], &start[..n], unit * unit);
+        fill([rows.slopes[0]], &start[..n], unit * unit);
         if GROWS {
             fill_growth(rows.growths[0], [&start[..n], &end[..n]], unit * unit / pieces);
         }
         if LOOKS {
             let (own, ahead) = (n..2 * n, 2 * n..3 * n);
-            fill(rows.slopes[1], &start[own.clone()], unit);
-            fill(rows.slopes[2], &start[ahead.clone()], unit);
+            fill([rows.slopes[1]], &start[own.clone()], unit);
+            fill([rows.slopes[2]], &start[ahead.clone()], unit);
             for own in &rows.slopes[1][..n + WRAPPED] {
                 own.set(own.get() + half);
             }
@@ -156,10 +156,8 @@ impl Carry<'_> {
             }
             // in units of the largest; the least doubles have no inverse
             let size = math::larger(size, LEAST);
-            fill(rows.term[0], spacings, 1.0 / size);
-            fill(rows.sums[0], spacings, 1.0 / size);
-            fill(rows.term[1], speeds, unit / size);
-            fill(rows.sums[1], speeds, unit / size);
+            fill([rows.term[0], rows.sums[0]], spacings, 1.0 / size);
+            fill([rows.term[1], rows.sums[1]], speeds, unit / size);
             let moved = sum::<LOOKS, GROWS>(&rows, half, turns);
             let size = left * size;
             spill(rows.sums[0], spacings, size);
@@ -343,13 +341,15 @@ fn clear(row: Row<'_>) {
     }
 }
 
-/// Stores numbers, multiplied by a factor, in single precision.
+/// Stores numbers, multiplied by a factor, in single precision, in each of these rows.
 #[inline(always)]
-fn fill(row: Row<'_>, numbers: &[f64], factor: f64) {
+fn fill<const K: usize>(rows: [Row<'_>; K], numbers: &[f64], factor: f64) {
     let n = numbers.len();
     if n < LANES {
-        for i in 0..n {
-            row[i].set((numbers[i] * factor) as f32);
+        for row in rows {
+            for i in 0..n {
+                row[i].set((numbers[i] * factor) as f32);
+            }
         }
     } else {
         for from in (0..n).step_by(LANES) {
@@ -359,10 +359,14 @@ fn fill(row: Row<'_>, numbers: &[f64], factor: f64) {
             for i in 0..LANES {
                 values[i] = (numbers[i] * factor) as f32;
             }
-            write(&row[from..][..LANES], &values);
+            for row in rows {
+                write(&row[from..][..LANES], &values);
+            }
         }
     }
-    close_row(row, n);
+    for row in rows {
+        close_row(row, n);
+    }
 }
 
 /// Terms of zeros are zeros.
