@@ -79,6 +79,9 @@ const BEYOND: f64 = 1.5;
 /// The shadow is as far from the solution as this part of it, so that neither curvature nor rounding counts.
 const DISTANCE: f64 = 1e-9;
 
+/// Fewer numbers than that are not worth a kernel.
+const FEW: usize = 8;
+
 /// What rounding adds in each step, relative to the change. Taken for an error that grows always.
 const ROUNDING: f64 = 0.5 * f64::EPSILON;
 
@@ -147,7 +150,9 @@ impl Shadow {
         let (part, relaxation) = (part * self.length, step.system.relaxation_rate());
         for range in &self.forced {
             let (states, rates) = (&step.after()[range.clone()], &step.rates_after()[range.clone()]);
-            dispatch(Strengthened { part, relaxation, states, rates, own: &mut self.own[range.clone()] });
+            let strengthened = Strengthened { part, relaxation, states, rates, own: &mut self.own[range.clone()] };
+            // of a few, a call would take longer than the work
+            if range.len() < FEW { strengthened.run() } else { dispatch(strengthened) }
         }
     }
 
