@@ -316,6 +316,11 @@ impl Shadow {
         self.linear.as_ref().filter(|_| self.has_rows).map(|_| &self.after[..])
     }
 
+    /// The error at the start of the last step, when each step is propagated separately.
+    pub fn before(&self) -> Option<&[f64]> {
+        self.linear.as_ref().filter(|_| self.has_rows).map(|_| &self.error[..])
+    }
+
     /// How many components it has.
     pub fn dimension(&self) -> usize {
         self.error.len()

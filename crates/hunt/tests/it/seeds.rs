@@ -77,6 +77,14 @@ fn errors_of_runs_that_were_found_are_stated() {
     assert!(events.into_iter().any(|ratio| ratio.error > 1e-13 && ratio.allowed.is_finite()), "an error is stated");
 }
 
+/// Samples further apart than steps, while errors fade: true errors of std were 1.6 and 2.7 times what the ends of steps tell.
+#[test]
+fn fading_errors_are_those_where_samples_are_taken() {
+    let all = stated_of(&[2_000_183, 2_000_238]);
+    let of_std: Vec<_> = all.iter().filter(|ratio| ratio.what == "std").collect();
+    assert!(of_std.len() > 1 && of_std.iter().all(|ratio| ratio.value() < 1.0), "{of_std:#?}");
+}
+
 /// Fixed steps: motion that has faded by some decades, by Euler's method, down to the rounding of speeds; a few steps of a
 /// high order; steps over bends too sharp for them; a force that underflows at the start alone.
 #[test]

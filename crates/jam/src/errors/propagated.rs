@@ -47,6 +47,12 @@ pub struct Propagated {
     /// How large the errors of speeds were when that was looked at last, and how many steps ago.
     looked_at: f64,
     since: u32,
+    /// How large they are at both ends of the step, and when that was. Where they fade, samples within the step have larger ones
+    /// than its end.
+    sizes: [f64; 2],
+    sized_at: f64,
+    /// Whether they are larger at the start of the step than at its end and when that was looked at last.
+    fades: bool,
     /// The moment that determines the time of a blow-up best.
     last_known: Option<LastKnown>,
     /// The time at which the run ends.
@@ -100,7 +106,10 @@ impl RunObserver for Propagated {
         if samples.is_none() && sight.new.is_empty() {
             return;
         }
-        if let Some([_, last]) = samples {
+        if let Some([first, last]) = samples {
+            if self.fades && self.lost.is_none() {
+                self.look_at(step, first);
+            }
             self.look(step, last, sight.new.is_empty());
         }
         if sight.new.is_empty() {
@@ -133,6 +142,23 @@ impl RunObserver for Propagated {
 }
 
 impl Propagated {
+    /// Looks at the error of the standard deviation at a time within a step.
+    fn look_at(&mut self, step: &mut Step<'_>, time: f64) {
+        let (n, place) = (self.pedestrians, step.fraction(time));
+        let Some((shadow, before)) = self.shadow.as_ref().and_then(|shadow| Some((shadow, shadow.before()?))) else {
+            return;
+        };
+        let (mut state, mut error) = (step.before().to_vec(), before.to_vec());
+        if place > 0.0 {
+            step.at_fraction(place, &mut state);
+            shadow.at(step, place, &mut error);
+        }
+        let errors = &error[n..2 * n];
+        let most = ode::largest(errors);
+        self.looked_at = math::larger(self.looked_at, most);
+        self.std = math::larger(self.std, std_error(&state[n..2 * n], errors, most));
+    }
+
     /// Looks at the error of the standard deviation in a step with samples: at its end, where the state and the error are
     /// known, or at the last sample of one that an event ends.
     fn look(&mut self, step: &mut Step<'_>, last: f64, is_whole: bool) {
@@ -142,7 +168,7 @@ impl Propagated {
         let Some(shadow) = self.lost.as_ref().or(self.shadow.as_ref()) else { return };
         let known = shadow.after().filter(|_| is_whole && self.lost.is_none());
         let (speeds, errors, most) = match known {
-            Some(errors) => (&step.after()[n..2 * n], &errors[n..2 * n], self.looked_at),
+            Some(errors) => (&step.after()[n..2 * n], &errors[n..2 * n], self.sizes[1]),
             None => {
                 let place = if is_whole { 1.0 } else { step.fraction(last) };
                 (state, error) = (vec![0.0; shadow.dimension()], vec![0.0; shadow.dimension()]);
@@ -180,6 +206,9 @@ impl Propagated {
             std: 0.0,
             looked_at: 0.0,
             since: 0,
+            sizes: [0.0; 2],
+            sized_at: 0.0,
+            fades: false,
             last_known: None,
             t_end: run.t_end,
             events: Vec::new(),
@@ -223,14 +252,21 @@ impl Propagated {
 
     /// Whether the error of the standard deviation may be larger in this step than it was.
     fn is_worth_looking(&mut self, step: &Step<'_>, sight: &Sight<'_, '_>) -> bool {
+        let n = self.pedestrians;
         let shadow = self.lost.as_ref().or(self.shadow.as_ref());
-        let Some(errors) = shadow.and_then(Shadow::after) else { return true };
-        let now = ode::largest(&errors[self.pedestrians..2 * self.pedestrians]);
+        let (before, after) = (shadow.and_then(Shadow::before), shadow.and_then(Shadow::after));
+        let Some((before, after)) = before.zip(after) else { return true };
+        let is_known = self.sized_at == step.start;
+        let start = if is_known { self.sizes[1] } else { ode::largest(&before[n..2 * n]) };
+        let end = ode::largest(&after[n..2 * n]);
+        (self.sizes, self.sized_at) = ([start, end], step.end);
+        let most = math::larger(start, end);
         self.since += 1;
         let is_worth =
-            now > GROWN * self.looked_at || self.since >= EVERY || step.end >= self.t_end || !sight.new.is_empty();
+            most > GROWN * self.looked_at || self.since >= EVERY || step.end >= self.t_end || !sight.new.is_empty();
         if is_worth {
-            (self.since, self.looked_at) = (0, now);
+            self.fades = start > GROWN * math::larger(end, self.looked_at);
+            (self.since, self.looked_at) = (0, end);
         }
         is_worth
     }
