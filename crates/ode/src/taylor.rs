@@ -148,7 +148,8 @@ impl Stepper for Taylor {
 
     /// What follows the last order. For components with a force it follows from the defect, which was computed when the
     /// step was accepted. For position-like ones two orders are known: the first follows from the last order of speeds,
-    /// the second from what the speeds lack. The first alone may vanish by chance, or by symmetry.
+    /// the second from what the speeds lack. The first alone may vanish by chance, or by symmetry. What a defect leaves of
+    /// itself at the end of the step fades as speeds do: else positions would keep what speeds lack by then.
     fn own_error(&mut self, system: &dyn System, ends: &Ends<'_>, error: &mut [f64]) -> bool {
         if !self.has_defect {
             return false;
@@ -157,11 +158,12 @@ impl Stepper for Taylor {
         let range = first.start..last.end;
         let next = (self.order + 1) as f64;
         let of_last = -ends.h / next * power(ends.h / self.unit, self.order);
-        let of_defect = ends.h / ((next + 1.0) * next);
+        let faded = 1.0 / (1.0 + system.relaxation_rate() * ends.h / (next + 1.0));
+        let of_defect = faded * ends.h / ((next + 1.0) * next);
         let last = &self.coefficients.row(self.order)[range.clone()];
         let (defect, missing) = (&self.defect[range.clone()], &mut self.missing[range.clone()]);
         // position-like components among them are written anew
-        let factors = [1.0 / next, of_last, of_defect];
+        let factors = [faded / next, of_last, of_defect];
         dispatch(OwnError { defect, last, factors, error: &mut error[range], missing });
         system.kinematics(&self.missing, error);
         true

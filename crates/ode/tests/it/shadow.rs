@@ -197,3 +197,65 @@ fn other_methods_and_fixed_steps_tell_nothing() {
         integrate(&problem, &mut observer).expect("nothing stands in the way");
     }
 }
+
+/// A speed that relaxes to 1, with nothing else: `dx/dt = v`, `dv/dt = 1 - v`.
+struct Relaxing;
+
+impl System for Relaxing {
+    fn dimension(&self) -> usize {
+        2
+    }
+
+    fn kinematics(&self, state: &[f64], rates: &mut [f64]) {
+        rates[0] = state[1];
+    }
+
+    fn dynamics(&self, state: &[f64], rates: &mut [f64]) {
+        rates[1] = 1.0 - state[1];
+    }
+
+    fn positions(&self) -> Vec<Range<usize>> {
+        std::iter::once(0..1).collect()
+    }
+
+    fn groups(&self) -> Vec<Group> {
+        vec![Group { range: 0..2, measure: Measure::Largest, floor: 1.0 }]
+    }
+
+    fn has_series(&self) -> bool {
+        true
+    }
+
+    fn series(&self, order: usize, unit: f64, c: &mut [f64]) {
+        for k in 1..order {
+            let share = unit / (k + 1) as f64;
+            (c[2 * k + 2], c[2 * k + 3]) = (share * c[2 * k + 1], -share * c[2 * k + 1]);
+        }
+    }
+
+    fn relaxation_rate(&self) -> f64 {
+        1.0
+    }
+}
+
+/// `x + v - t` is constant for every series, so that the errors of `x` and `v` are opposite. Those of early steps fade in `v`, and
+/// must not stay in `x`.
+#[test]
+fn what_fades_in_speeds_fades_in_positions() {
+    let control = Control::Adaptive { tolerance: 1e-8 };
+    let problem =
+        Problem { system: &Relaxing, start: &[0.0, 0.0], begin: 0.0, end: 15.0, method: Method::Taylor, control };
+    let (mut shadow, mut steps) = (Shadow::new(vec![0.0; 2]), 0);
+    let mut observer = |step: &mut Step<'_>| {
+        assert!(shadow.follow(step, 0.0, 0.0));
+        let mut error = [0.0; 2];
+        shadow.at_end(&mut error);
+        let exact = step.end - 1.0 + math::exp(-step.end);
+        let off = step.after()[0] - exact;
+        assert!((error[0] - off).abs() < 0.25 * off.abs(), "t = {}: {error:?}, right {off:e}", step.end);
+        steps += 1;
+        ControlFlow::Continue(())
+    };
+    integrate(&problem, &mut observer).expect("nothing stands in the way");
+    assert!(steps > 3, "{steps}");
+}
