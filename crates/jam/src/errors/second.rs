@@ -1,5 +1,5 @@
-//! A second run, and the error estimate from the difference between both runs. Its force is stronger by what roundings of constants
-//! may change it, which both runs would else have in common.
+//! A second run, and the error estimate from the difference between both runs. Its force is stronger than roundings of constants
+//! may make it, which both runs would else have in common.
 
 use super::of_std::{UNSURE, std_error};
 use super::recent::{Compared, Instant, Recent, Sort};
@@ -46,6 +46,10 @@ const UNDERFLOWN: f64 = 1e-290;
 /// Factor on the difference, since errors of two methods may have the same sign: it is right where that of the second run
 /// is a third as large, and too cautious by this factor where it is none.
 const AGREEMENT: f64 = 1.5;
+
+/// The ratio of what makes the force of the second run too strong to what constants may: of twice that at least as much remains in
+/// the difference, whatever the sign of theirs.
+const STRONGER: f64 = 2.0;
 
 /// The order that is seen in the error of fixed steps where an accurate run costs more than they do: they pass over kinks,
 /// or over bends as sharp.
@@ -118,6 +122,8 @@ impl Second {
         let acceleration = at_event.map_or(0.0, |one| one.acceleration);
         // the drive and the force may cancel
         let desired = ROUNDINGS * run.model.desired_speed().abs();
+        // an error of that size may be hidden by the stronger force, which makes as much of a motion that all have in common
+        let constants = of_constants(run);
         Errors {
             cost: self.evaluations as f64 / outcome.statistics.evaluations as f64,
             std: has_std.then(|| {
@@ -131,9 +137,9 @@ impl Second {
                 all + gathered * largest(&outcome.samples.std) + self.rounding(run, outcome) + f64::MIN_POSITIVE
             }),
             positions: state(|outcome| &outcome.positions, |instant| &instant.positions, largest(&outcome.speeds))
-                .map(|error| error + ROUNDINGS * largest(&outcome.positions)),
+                .map(|error| error + ROUNDINGS * largest(&outcome.positions) + constants * walked(run, outcome)),
             speeds: state(|outcome| &outcome.speeds, |instant| &instant.speeds, acceleration)
-                .map(|error| error + desired),
+                .map(|error| error + desired + constants * largest(&outcome.speeds)),
             events: (0..outcome.events.len())
                 .map(|index| self.time_error(run, outcome, index).filter(|_| !is_through_wall))
                 .collect(),
@@ -257,8 +263,7 @@ fn methods(run: &Run, outcome: &Outcome, tolerance: f64) -> (Option<(Method, f64
         return (is_short.then_some((Method::Dop853, tighter)), (Method::Taylor, tighter));
     }
     let usual = if run.method == Method::Dop853 { Method::Verner87 } else { Method::Dop853 };
-    // positions have no series
-    let has_series = run.method != Method::Taylor && again(run, outcome).form != StateVariables::Positions;
+    let has_series = run.method != Method::Taylor;
     let is_faint = outcome.samples.len() > 1 && largest_std(outcome) < FAINT;
     // the error of a few steps by Taylor's method is near the tolerance, where that of others is far below it
     let of_series = match run.control {
@@ -312,18 +317,23 @@ fn by_half_steps(
 
 fn made(second: &Run, factor: f64, instants: &[Instant], onlooker: &mut dyn RunObserver) -> Second {
     let mut compared = Compared { run: second, first: instants, second: Vec::new(), onlooker };
-    let outcome = run_off(second, of_constants(second), None, &mut compared).unwrap_or_else(|broken| *broken.outcome);
+    let off = STRONGER * of_constants(second);
+    let outcome = run_off(second, off, None, &mut compared).unwrap_or_else(|broken| *broken.outcome);
     let instants = [instants.to_vec(), compared.second];
     let (form, evaluations) = (second.form, outcome.statistics.evaluations);
     Second { form, factor, gathered: 0.0, instants, rates: Vec::new(), evaluations, outcome }
 }
 
-/// The same run up to the time that it reached, in deviations if possible.
+/// The same run up to the time that it reached: in deviations if possible, and not in positions, whose roundings at the start both
+/// would have in common.
 fn again(run: &Run, outcome: &Outcome) -> Run {
     let is_fixed_series = run.method.needs_series() && matches!(run.control, Control::Fixed { .. });
     let can_deviate = has_deviations(&run.model, run.ring, run.steady_speed) && !is_fixed_series;
-    // the same form would not show what becomes of the rounding of the start
-    let form = if can_deviate { StateVariables::Deviations } else { run.form };
+    let form = match run.form {
+        _ if can_deviate => StateVariables::Deviations,
+        StateVariables::Positions => StateVariables::Spacings,
+        form => form,
+    };
     Run { t_end: end(run, outcome), form, ..run.clone() }
 }
 
@@ -362,6 +372,12 @@ fn time_difference(event: &Event, others: &[Event]) -> Option<f64> {
     let same_kind = || others.iter().filter(|other| other.kind == event.kind);
     let same = same_kind().find(|other| other.pedestrian == event.pedestrian).or_else(|| same_kind().next());
     same.map(|other| difference(&[event.time], &[other.time]))
+}
+
+/// The longest way to the end from the places that would be those of the start without shifts.
+fn walked(run: &Run, outcome: &Outcome) -> f64 {
+    let places = outcome.positions.iter().enumerate();
+    places.map(|(n, position)| (position - n as f64 * run.ring.headway()).abs()).fold(0.0, larger)
 }
 
 /// How fast the room taken by a pedestrian grows with the speeds.
