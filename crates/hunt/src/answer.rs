@@ -3,7 +3,7 @@
 use math::double_double::DoubleDouble;
 use reference::flow::Form;
 use reference::number::Real;
-use reference::solution::{End, Kind, Question, Sample, Solution, solve};
+use reference::solution::{Crossing, End, Kind, Question, Sample, Solution, solve};
 use reference::solver::Care;
 
 /// Speeds above this multiple of the desired speed are a blow-up: they double with every throw by a wall.
@@ -65,6 +65,15 @@ impl Answer {
                 (crossing.pedestrian, crossing.time, uncertainty, crossing.rate)
             })
             .collect()
+    }
+
+    /// The first crossing of a kind by this pedestrian, and its twin.
+    pub fn crossing(&self, kind: Kind, pedestrian: usize) -> Option<(&Crossing, &Crossing)> {
+        fn find(solution: &Solution, kind: Kind, pedestrian: usize) -> Option<&Crossing> {
+            let first = solution.events.iter().find(|first| first.kind == kind)?;
+            first.crossings.iter().find(|crossing| crossing.pedestrian == pedestrian)
+        }
+        Some((find(&self.solution, kind, pedestrian)?, find(&self.second, kind, pedestrian)?))
     }
 }
 

@@ -60,7 +60,8 @@ pub fn table(all: &[Hunted]) -> String {
             }
         }
     }
-    let mut text = format!("{} scenes, {runs} runs\n", all.len());
+    let resumed = all.iter().flat_map(|hunted| &hunted.verdicts).filter(|verdict| verdict.is_resumed).count();
+    let mut text = format!("{} scenes, {runs} runs, {resumed} of them resumed as well\n", all.len());
     for (ending, count) in endings {
         let _ = writeln!(text, "{count:7}  {ending}");
     }
@@ -88,7 +89,7 @@ fn honesty(all: &[Hunted]) -> String {
     let mut text = String::new();
     for Hunted { seed, verdicts } in all {
         for verdict in verdicts {
-            for ratio in verdict.stated.iter().filter(|ratio| ratio.value() > 10.0) {
+            for ratio in verdict.stated.iter().filter(|ratio| ratio.value() > 3.0) {
                 let Ratio { what, error, allowed, .. } = ratio;
                 let label = format!("{seed} {} [{}] {}", verdict.panel, verdict.method, verdict.ending);
                 let _ = writeln!(text, "  {label}: error of {what} {error:.2e}, stated {allowed:.2e}");

@@ -83,6 +83,10 @@ pub struct Crossing {
     pub pedestrian: usize,
     /// How fast the value falls then.
     pub rate: f64,
+    /// The spacing then.
+    pub spacing: f64,
+    /// How fast that grows then.
+    pub opening: f64,
 }
 
 /// The first event of a kind for all pedestrians to whom it happens, in order of time.
@@ -221,10 +225,11 @@ fn watch<T: Real>(solver: &Solver<T>, solution: &mut Solution) {
 fn crossing<T: Real>(solver: &Solver<T>, kind: Kind, n: usize, places: &[f64], values: &[f64]) -> Option<Crossing> {
     let components = solver.flow.components(n);
     let mut state = solver.state.clone();
-    let mut at = |theta: f64| {
+    let mut of = |kind: Kind, theta: f64| {
         solver.write_at(theta, &components, &mut state);
         kind.value(&solver.flow, &state, n)
     };
+    let mut at = |theta: f64| of(kind, theta);
     let (mut before, past) = (1..places.len()).find_map(|i| {
         if values[i] < 0.0 {
             return Some((places[i - 1], places[i]));
@@ -247,7 +252,10 @@ fn crossing<T: Real>(solver: &Solver<T>, kind: Kind, n: usize, places: &[f64], v
     let close = 1e-4;
     let (from, to) = (larger(past - close, 0.0), smaller(past + close, 1.0));
     let rate = (at(from) - at(to)) / ((to - from) * solver.length);
-    Some(Crossing { time: f64::from(solver.start + past * solver.length), pedestrian: n, rate })
+    let [before, spacing, after] = [from, past, to].map(|theta| of(Kind::Exchange, theta));
+    let opening = (after - before) / ((to - from) * solver.length);
+    let time = f64::from(solver.start + past * solver.length);
+    Some(Crossing { time, pedestrian: n, rate, spacing, opening })
 }
 
 /// A place where the value is negative, between two where it is not, if its minimum there is.

@@ -1,4 +1,4 @@
-//! Events against those of the second integration: when, whose, and whether any is missed.
+//! Events against those of the second integration: when, whose, at which spacing, and whether any is missed.
 
 use super::numbers::Compared;
 use super::{Verdict, is_beyond};
@@ -99,12 +99,35 @@ fn crossing(
     // the second integration finds no crossing more exactly
     let allowed = allowed + stated::FINEST * scene.t_end;
     Compared { what: "event", time, found, right: time, uncertainty, allowed, range: scene.t_end }.note(verdict);
+    gap(verdict, (happening, allowed), kind, scene, answer, bound);
     let is_first = crossings.iter().any(|(n, t, ..)| *n == happening.pedestrian && t - time <= 2.0 * allowed)
         || answer.solution.time - time <= 2.0 * allowed;
     if !is_first {
         let first: Vec<_> = crossings.iter().take(4).collect();
         verdict.findings.push(format!("{name} at t = {found:?} by {}; right: {first:?}", happening.pedestrian));
     }
+}
+
+/// The spacing at an event: as exact as positions are, at a time as exact as it is.
+fn gap(
+    verdict: &mut Verdict,
+    (happening, allowed): (&Event, f64),
+    kind: Kind,
+    scene: &Scene,
+    answer: &Answer,
+    bound: &Bound,
+) {
+    let Some((right, twin)) = answer.crossing(kind, happening.pedestrian) else { return };
+    Compared {
+        what: "gap",
+        time: happening.time,
+        found: happening.gap,
+        right: right.spacing,
+        uncertainty: (right.spacing - twin.spacing).abs(),
+        allowed: bound.value(Kind::Exchange) + right.opening.abs() * allowed,
+        range: scene.ring.headway(),
+    }
+    .note(verdict);
 }
 
 /// Speeds double at every throw, so the end is as near as the ring is long over the speed reached.

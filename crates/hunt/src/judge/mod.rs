@@ -38,6 +38,8 @@ pub struct Verdict {
     pub evaluations: u64,
     /// What it cost to know the errors that it states: right-hand sides over those of the run.
     pub cost: Option<f64>,
+    /// Whether it was long enough to be broken off and resumed.
+    pub is_resumed: bool,
     /// What is wrong.
     pub findings: Vec<String>,
     /// What the second integration could not decide.
@@ -91,6 +93,7 @@ pub fn named(panel: &str) -> Verdict {
         stated: Vec::new(),
         evaluations: 0,
         cost: None,
+        is_resumed: false,
         findings: Vec::new(),
         undecided: Vec::new(),
     }
@@ -126,12 +129,25 @@ fn judge_panel(text: &str, panel: &scene_file::Panel) -> Verdict {
             verdict.evaluations = outcome.statistics.evaluations;
             let (refused, stated) = stated::of(&scene, &outcome, &propagated);
             let broken = refused.or(broken);
-            let until = broken.as_ref().map_or(&outcome, |broken| &*broken.outcome);
-            ended(&mut verdict, &scene, until, broken.as_ref(), (question, &stated));
-            verdict.findings.extend(resumed::compare(&scene, &outcome));
+            judged(&mut verdict, &scene, &outcome, broken.as_ref(), (question, &stated));
         }
     }
     verdict
+}
+
+/// A run that was made, with tables up to where it is confirmed: are they right, and is it the same if resumed?
+pub fn judged(
+    verdict: &mut Verdict,
+    scene: &Scene,
+    outcome: &Outcome,
+    broken: Option<&Broken>,
+    (question, stated): (Question, &Stated),
+) {
+    let until = broken.map_or(outcome, |broken| &*broken.outcome);
+    ended(verdict, scene, until, broken, (question, stated));
+    let resumed = resumed::compare(scene, outcome);
+    verdict.is_resumed = resumed.is_some();
+    verdict.findings.extend(resumed.and_then(Result::err));
 }
 
 trait Fixed {

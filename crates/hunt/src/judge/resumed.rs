@@ -21,8 +21,8 @@ impl RunObserver for Broken {
     }
 }
 
-/// What is wrong with the run made in two parts; nothing for a run too short to leave a checkpoint.
-pub(super) fn compare(scene: &Scene, outcome: &Outcome) -> Option<String> {
+/// What is wrong with the run made in two parts, if anything; `None` for a run too short to leave a checkpoint.
+pub(super) fn compare(scene: &Scene, outcome: &Outcome) -> Option<Result<(), String>> {
     let mut broken = Broken::default();
     // the end of the first part says nothing
     let _ = run_from(scene, None, &mut broken);
@@ -30,7 +30,7 @@ pub(super) fn compare(scene: &Scene, outcome: &Outcome) -> Option<String> {
         return None;
     }
     let Some(checkpoint) = Checkpoint::parse(&broken.bytes, scene) else {
-        return Some("the checkpoint cannot be read".to_owned());
+        return Some(Err("the checkpoint cannot be read".to_owned()));
     };
     let resumed = run_from(scene, Some(checkpoint), &mut ()).unwrap_or_else(|broken| *broken.outcome);
     let is_same = resumed.samples == outcome.samples
@@ -38,6 +38,6 @@ pub(super) fn compare(scene: &Scene, outcome: &Outcome) -> Option<String> {
         && resumed.statistics == outcome.statistics
         && resumed.positions == outcome.positions
         && resumed.speeds == outcome.speeds;
-    (!is_same)
-        .then(|| format!("resumed, the run is another one: {:?}, not {:?}", resumed.statistics, outcome.statistics))
+    let (found, right) = (&resumed.statistics, &outcome.statistics);
+    Some(if is_same { Ok(()) } else { Err(format!("resumed, the run is another one: {found:?}, not {right:?}")) })
 }

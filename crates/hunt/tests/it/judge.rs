@@ -1,10 +1,11 @@
 //! The judge detects faults: it is given a run and a scene that differs slightly from the one that was run.
 
-use hunt::draw;
 use hunt::judge::numbers::Compared;
 use hunt::judge::refusals::is_advice_true;
 use hunt::judge::{self, Verdict};
-use jam::errors::stated;
+use hunt::{draw, question, stated};
+use jam::errors::run_propagated;
+use jam::run::Outcome;
 use scene::run::Scene;
 
 const SCENE: &str = "title = \"two laws\"\n[law]\nkind = \"exponential\"\na = 3.0\nb = 1.5\nc = 4.0\na_v = 0.1\nepsilon = 0.01\nv0 = 1.2\n[ring]\npedestrians = 12\nlength = 36.0\n[start]\nshift = 0.3\n[run]\nmethod = \"dop853\"\ntolerance = 1e-12\nt_end = 20.0\nsample = 2.0\n";
@@ -90,8 +91,8 @@ fn scene(text: &str) -> Scene {
 #[test]
 fn a_row_that_is_missing_and_an_end_without_reason_are_seen() {
     let scene = scene(SCENE);
-    let (right, _) = stated(&scene).expect("it runs");
-    let judged = |change: &dyn Fn(&mut jam::run::Outcome)| {
+    let (right, _) = jam::errors::stated(&scene).expect("it runs");
+    let judged = |change: &dyn Fn(&mut Outcome)| {
         let (mut verdict, mut outcome) = (judge::named("main"), right.clone());
         change(&mut outcome);
         judge::is_whole(&mut verdict, &scene, &outcome, None);
@@ -111,6 +112,48 @@ fn a_number_that_is_not_finite_is_seen_among_others() {
         Compared { what, time, found, right, uncertainty, allowed: 1.0, range }.note(&mut verdict);
         assert_eq!(verdict.findings.len(), 1, "{verdict:#?}");
     }
+}
+
+/// The findings of a run of which something was changed afterwards.
+fn falsified(text: &str, change: impl Fn(&mut Outcome)) -> String {
+    let scene = scene(text);
+    let (made, propagated) = run_propagated(&scene, &mut ());
+    let mut outcome = made.expect("it runs");
+    let (refused, stated) = stated::of(&scene, &outcome, &propagated);
+    assert!(refused.is_none(), "{refused:?}");
+    change(&mut outcome);
+    let mut verdict = judge::named("main");
+    let question = question::read(text, "main").expect("a question");
+    judge::judged(&mut verdict, &scene, &outcome, None, (question, &stated));
+    verdict.findings.join("; ")
+}
+
+#[test]
+fn a_wrong_first_row_is_seen() {
+    assert_eq!(falsified(SCENE, |_| ()), "");
+    assert!(falsified(SCENE, |run| run.samples.std[0] = 1e-300).contains("std at the start"));
+    for pedestrian in [0, 11] {
+        let words = format!("pedestrian {pedestrian} starts");
+        assert!(falsified(SCENE, |run| run.samples.positions[pedestrian] += 1e-10).contains(&words));
+        assert!(falsified(SCENE, |run| run.samples.speeds[pedestrian] = 1e-300).contains(&words));
+    }
+}
+
+#[test]
+fn a_resumed_run_that_differs_is_seen() {
+    let words = "resumed, the run is another one";
+    // long enough for a checkpoint
+    let long = SCENE.replace("method = \"dop853\"\ntolerance = 1e-12", "method = \"rk4\"\ndt = 0.002");
+    assert_eq!(falsified(&long, |_| ()), "");
+    assert!(falsified(&long, |run| run.statistics.steps += 1).contains(words));
+    assert!(falsified(&long, |run| run.speeds[3] = run.speeds[3].next_up()).contains(words));
+    assert!(falsified(&long, |run| run.samples.std[4] = run.samples.std[4].next_up()).contains(words));
+}
+
+#[test]
+fn a_wrong_gap_at_an_event_is_seen() {
+    assert_eq!(falsified(EVENTS, |_| ()), "");
+    assert!(falsified(EVENTS, |run| run.events[0].gap += 1e-7).contains("gap at t"));
 }
 
 /// Positions lose small gaps: deviations do not, but more steps would not help.
