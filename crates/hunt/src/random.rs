@@ -1,25 +1,18 @@
 //! Random numbers that depend on the seed alone.
 
-/// The generator splitmix64 (Steele, Lea, Flood 2014).
+/// A generator of what scenes are drawn from.
 #[derive(Clone, Debug)]
-pub struct Random(u64);
+pub struct Random(math::random::Random);
 
 impl Random {
     /// The generator of this seed.
     pub fn new(seed: u64) -> Random {
-        Random(seed)
-    }
-
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+        Random(math::random::Random(seed))
     }
 
     /// Between these two.
     pub fn between(&mut self, from: f64, to: f64) -> f64 {
-        from + (to - from) * ((self.next() >> 11) as f64 / (1_u64 << 53) as f64)
+        from + (to - from) * ((self.0.bits() >> 11) as f64 / (1_u64 << 53) as f64)
     }
 
     /// A power of ten, the exponent between these two.
@@ -34,6 +27,6 @@ impl Random {
 
     /// One of these.
     pub fn pick<T: Copy>(&mut self, choices: &[T]) -> T {
-        choices[(self.next() % choices.len() as u64) as usize]
+        choices[(self.0.bits() % choices.len() as u64) as usize]
     }
 }

@@ -16,7 +16,7 @@
 //! | [`simd`] | runs a loop with the widest registers the processor has | none: the same bits |
 //! | [`double_double`] | numbers of 106 bits as pairs of doubles; functions in [`double_double::full`] | about 2^-104; 2^-100 |
 //!
-//! [`number`] lists the kinds of numbers in which a formula can be evaluated.
+//! [`number`] lists the kinds of numbers in which a formula can be evaluated, [`random`] draws some.
 //!
 //! # Units, ranges, NaN
 //!
@@ -38,6 +38,7 @@ pub mod dual;
 pub mod lane;
 pub mod lanes;
 pub mod number;
+pub mod random;
 pub mod row;
 pub mod scalar;
 pub mod series;

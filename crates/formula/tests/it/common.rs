@@ -1,11 +1,11 @@
 //! Short laws for tests, and reproducible random numbers.
 
-#[path = "../../../math/tests/it/splitmix.rs"]
-mod splitmix;
+#[path = "../../../math/src/random.rs"]
+mod random;
 
 use formula::{Bound, Definition, Error, Given, Graph, Location, Variable, law};
 
-pub use splitmix::Random;
+pub use random::Random;
 
 /// A law from its lines: names and expressions, names and numbers. Line 1 is the header; keys stand in column 1, values in
 /// column 9.

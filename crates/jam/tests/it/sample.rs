@@ -1,12 +1,12 @@
 //! Reproducible random numbers, and random laws with every combination of terms.
 
-#[path = "../../../math/tests/it/splitmix.rs"]
-mod splitmix;
+#[path = "../../../math/src/random.rs"]
+mod random;
 
 use jam::force::Flow;
 use jam::laws::{Algebraic, Exponential, Logarithmic, Model};
 
-pub use splitmix::Random;
+pub use random::Random;
 
 impl Random {
     /// A number between the two, all equally likely.

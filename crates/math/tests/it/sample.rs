@@ -1,12 +1,12 @@
 //! Reproducible random arguments, errors in units in the last place, and a loop over a lane function.
 
-#[path = "splitmix.rs"]
-mod splitmix;
+#[path = "../../src/random.rs"]
+mod random;
 
 use math::double_double::DoubleDouble;
 use math::simd::Kernel;
 
-pub use splitmix::Random;
+pub use random::Random;
 
 /// How many random arguments a function is judged by.
 pub const COUNT: usize = if cfg!(debug_assertions) { 50_000 } else { 1_000_000 };

@@ -1,6 +1,6 @@
 //! Reproducible random numbers.
 
-#[path = "../../../../crates/math/tests/it/splitmix.rs"]
+#[path = "../../../../crates/math/src/random.rs"]
 mod splitmix;
 
 pub use splitmix::Random;
