@@ -122,6 +122,13 @@ fn errors_are_stated_where_second_runs_mislead() {
     assert!(all.iter().all(|ratio| ratio.allowed.is_finite()), "{all:#?}");
 }
 
+/// Shifts that spacings lose where there is no uniform flow to deviate from: the second run loses them, too.
+#[test]
+fn errors_of_lost_shifts_are_stated() {
+    let all = stated_of(&[520_091, 520_084, 10_520_000]);
+    assert!(all.len() > 10 && all.iter().all(|ratio| ratio.allowed.is_finite()), "{all:#?}");
+}
+
 /// A step of Taylor's method proposed past a wall that its series does not see yet: from there no path to a bend follows.
 #[test]
 fn steps_are_not_cut_by_an_end_that_means_nothing() {

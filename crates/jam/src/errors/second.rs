@@ -5,6 +5,7 @@ use super::of_std::{UNSURE, std_error};
 use super::recent::{Compared, Instant, Recent, Sort};
 use super::{
     CAUTION, Errors, ROUNDINGS, confirmed, largest, largest_speed, largest_std, loses_shift, of_constants, of_headway,
+    run_propagated,
 };
 use crate::events::{Event, EventKind};
 use crate::run::{Outcome, Run, RunObserver, has_deviations, run_off};
@@ -26,6 +27,9 @@ const DECISIVE: f64 = 0.01;
 /// The tolerance that the second run of fixed steps starts from: it is made more exact than any of them, since fading motion
 /// may leave errors far below those of its beginning.
 const ACCURATE: f64 = 1e-12;
+
+/// The tolerance of a run that tells the growth of a small difference alone.
+const LOOSE: f64 = 1e-6;
 
 /// Least tolerance of a second run; a smaller one may be unattainable because of rounding.
 const TIGHTEST: f64 = 3e-15;
@@ -104,7 +108,9 @@ impl Second {
         let is_same_time = is_at_event || (times[0] - times[1]).abs() <= SAME_TIME * times[0];
         let is_through_wall = is_through_wall(run, outcome);
         let is_shift_lost = loses_shift(run) && self.form != StateVariables::Deviations;
-        let has_std = ends_alike && confirmed::reaches(outcome, other) && !is_shift_lost;
+        let lost = is_shift_lost.then(|| of_lost_shift(run, outcome)).flatten();
+        let has_std = ends_alike && confirmed::reaches(outcome, other) && (!is_shift_lost || lost.is_some());
+        let of_lost = |number: fn(&Errors) -> Option<f64>| lost.as_ref().and_then(number);
         let is_known = ends_alike && is_same_time && !is_through_wall && !is_not_finite(run, outcome);
         let late = if is_at_event { factor * (times[0] - times[1]).abs() } else { 0.0 };
         let state = |numbers: fn(&Outcome) -> &[f64], before: fn(&Instant) -> &[f64], rate: f64| {
@@ -125,7 +131,8 @@ impl Second {
         // an error of that size may be hidden by the stronger force, which makes as much of a motion that all have in common
         let constants = of_constants(run);
         Errors {
-            cost: self.evaluations as f64 / outcome.statistics.evaluations as f64,
+            cost: self.evaluations as f64 / outcome.statistics.evaluations as f64
+                + lost.as_ref().map_or(0.0, |lost| lost.cost),
             std: has_std.then(|| {
                 let last = outcome.samples.times.last().copied().unwrap_or(0.0);
                 let instants = self.instants().filter(|(one, _)| one.time <= last).map(|(one, other)| {
@@ -134,7 +141,8 @@ impl Second {
                     factor * std_error(speeds, &off, ode::largest(&off))
                 });
                 let all = instants.fold(difference(&outcome.samples.std, &other.samples.std), larger);
-                all + gathered * largest(&outcome.samples.std) + self.rounding(run, outcome) + f64::MIN_POSITIVE
+                let rounding = gathered * largest(&outcome.samples.std) + self.rounding(run, outcome);
+                all + rounding + of_lost(|lost| lost.std).unwrap_or(0.0) + f64::MIN_POSITIVE
             }),
             positions: state(|outcome| &outcome.positions, |instant| &instant.positions, largest(&outcome.speeds))
                 .map(|error| error + ROUNDINGS * largest(&outcome.positions) + constants * walked(run, outcome)),
@@ -143,7 +151,10 @@ impl Second {
             events: (0..outcome.events.len())
                 .map(|index| self.time_error(run, outcome, index).filter(|_| !is_through_wall))
                 .collect(),
-            confirmed_until: confirmed::until(run, outcome, self),
+            confirmed_until: [confirmed::until(run, outcome, self), of_lost(|lost| lost.confirmed_until)]
+                .into_iter()
+                .flatten()
+                .reduce(math::smaller),
         }
     }
 
@@ -199,6 +210,17 @@ impl Second {
             _ => ROUNDINGS * largest_speed(outcome),
         }
     }
+}
+
+/// What becomes of a shift that the second run loses as the run does: the steps of Taylor's method carry it along, however small.
+/// `None` where they do not.
+fn of_lost_shift(run: &Run, outcome: &Outcome) -> Option<Errors> {
+    let control = Control::Adaptive { tolerance: LOOSE };
+    let series = Run { method: Method::Taylor, control, most_steps: most_steps(run, outcome), ..again(run, outcome) };
+    let (made, propagated) = run_propagated(&series, &mut ());
+    let made = made.ok().filter(|made| confirmed::reaches(outcome, made))?;
+    let cost = made.statistics.evaluations as f64 / outcome.statistics.evaluations as f64;
+    propagated.errors(&series, &made).map(|errors| Errors { cost, ..errors })
 }
 
 /// Fixed steps may cross the wall of a singular force, which no solution does. The time they report is then that at
