@@ -122,6 +122,23 @@ fn errors_are_stated_where_second_runs_mislead() {
     assert!(all.iter().all(|ratio| ratio.allowed.is_finite()), "{all:#?}");
 }
 
+/// Taylor's method: speeds that relax freely, by long steps; errors of steps that rounded constants hide.
+#[test]
+fn errors_of_free_relaxation_are_within_three_times_the_stated_ones() {
+    let all = stated_of(&[2_380_016, 2_380_198, 2_520_260]);
+    let wrong = all.iter().find(|ratio| ratio.value() > 3.0);
+    assert!(all.len() > 10 && wrong.is_none(), "{wrong:?}");
+}
+
+/// Steps over a bend that is too sharp for them, and those of half the length, blow up.
+#[test]
+fn false_blow_ups_of_fixed_steps_are_not_confirmed() {
+    let all = of(10_520_242);
+    assert!(all.iter().all(|verdict| verdict.findings.is_empty()), "{all:#?}");
+    let refused = all.iter().filter(|verdict| verdict.ending.starts_with("failed: not_confirmed"));
+    assert_eq!(refused.count(), 2, "{all:#?}");
+}
+
 /// Shifts that spacings lose where there is no uniform flow to deviate from: the second run loses them, too.
 #[test]
 fn errors_of_lost_shifts_are_stated() {

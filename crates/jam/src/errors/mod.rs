@@ -224,3 +224,9 @@ pub(crate) fn largest_speed(outcome: &Outcome) -> f64 {
 pub(crate) fn largest(numbers: &[f64]) -> f64 {
     numbers.iter().fold(0.0, |size, number| if number.abs() <= size { size } else { number.abs() })
 }
+
+/// The longest way to the end from the places that would be those of the start without shifts.
+pub(crate) fn walked(run: &Run, outcome: &Outcome) -> f64 {
+    let places = outcome.positions.iter().enumerate();
+    places.map(|(n, position)| (position - n as f64 * run.ring.headway()).abs()).fold(0.0, math::larger)
+}

@@ -11,7 +11,7 @@ use super::of_std::{UNSURE, std_error};
 use super::recent::Recent;
 use super::{
     Errors, ROUNDINGS, THROWN, largest, largest_speed, largest_std, loses_shift, of_constants, of_headway, of_spacings,
-    unseen,
+    unseen, walked,
 };
 use crate::events::{Event, EventKind};
 use crate::run::{Outcome, Run, RunObserver, Sight};
@@ -359,6 +359,8 @@ impl Propagated {
             // roundings of earlier steps are carried along
             _ => unseen.unwrap_or_else(|| f64::EPSILON * largest_speed(outcome)),
         };
+        // the steps take forces for too strong by this part; if they are too weak, that may have hidden as much of an error
+        let hidden = CAUTION * self.constants;
         // at a blow-up a rounding of the time is a large part of the state
         let is_blow_up = outcome.events.iter().any(|event| event.kind == EventKind::BlowUp);
         let end =
@@ -366,8 +368,10 @@ impl Propagated {
         Some(Errors {
             std: Some(if is_unseen { of_std } else { CAUTION * self.std + of_std } + f64::MIN_POSITIVE),
             positions: end(&positions, &outcome.positions)
-                .map(|error| error + 2.0 * rounding(&outcome.positions) + RELAXATION * UNSURE * largest(&speeds)),
-            speeds: end(&speeds, &outcome.speeds).map(|error| error + ROUNDINGS * run.model.desired_speed().abs()),
+                .map(|error| error + 2.0 * rounding(&outcome.positions) + RELAXATION * UNSURE * largest(&speeds))
+                .map(|error| error + hidden * walked(run, outcome)),
+            speeds: end(&speeds, &outcome.speeds)
+                .map(|error| error + ROUNDINGS * run.model.desired_speed().abs() + hidden * largest(&outcome.speeds)),
             events: self.of_events(&outcome.events),
             cost: 0.0,
             confirmed_until: self.shows.map(|time| last_before(outcome, time)),

@@ -5,7 +5,7 @@ use super::of_std::{UNSURE, std_error};
 use super::recent::{Compared, Instant, Recent, Sort};
 use super::{
     CAUTION, Errors, ROUNDINGS, confirmed, largest, largest_speed, largest_std, loses_shift, of_constants, of_headway,
-    run_propagated,
+    run_propagated, walked,
 };
 use crate::events::{Event, EventKind};
 use crate::run::{Outcome, Run, RunObserver, has_deviations, run_off};
@@ -362,12 +362,16 @@ fn again(run: &Run, outcome: &Outcome) -> Run {
 /// A run ends with the step in which it finds its last event, which the second one has to find as well: up to a little later, where
 /// its overlap may be. A blow-up is not a suitable end, and whether the formula has no value there only a run that goes on can tell.
 fn end(run: &Run, outcome: &Outcome) -> f64 {
-    let kinds = [EventKind::BlowUp, EventKind::Undefined];
-    if outcome.events.iter().any(|event| kinds.contains(&event.kind)) {
+    if is_singular_end(outcome) {
         return run.t_end;
     }
     let late = outcome.stop().map_or(0.0, |stop| (1.0 + LARGE) * stop.time);
     math::smaller(run.t_end, math::larger(outcome.last_step, late))
+}
+
+/// Whether it ends in a blow-up, or where the formula has no value.
+fn is_singular_end(outcome: &Outcome) -> bool {
+    outcome.events.iter().any(|event| matches!(event.kind, EventKind::BlowUp | EventKind::Undefined))
 }
 
 /// The second run may take a few times the work of the run, with a minimum for short runs, and much more if the run has
@@ -378,8 +382,9 @@ fn most_steps(run: &Run, outcome: &Outcome) -> u64 {
     let like_run = outcome.statistics.evaluations / STAGES;
     match run.control {
         _ if loses_shift(run) => FEW_TIMES * like_run + 30_000,
-        Control::Fixed { .. } => like_run + 50,
-        Control::Adaptive { .. } => FEW_TIMES * like_run + 20_000,
+        // steps over a bend that is too sharp for them blow up, and so do those of half the length
+        Control::Fixed { .. } if !is_singular_end(outcome) => like_run + 50,
+        _ => FEW_TIMES * like_run + 20_000,
     }
 }
 
@@ -394,12 +399,6 @@ fn time_difference(event: &Event, others: &[Event]) -> Option<f64> {
     let same_kind = || others.iter().filter(|other| other.kind == event.kind);
     let same = same_kind().find(|other| other.pedestrian == event.pedestrian).or_else(|| same_kind().next());
     same.map(|other| difference(&[event.time], &[other.time]))
-}
-
-/// The longest way to the end from the places that would be those of the start without shifts.
-fn walked(run: &Run, outcome: &Outcome) -> f64 {
-    let places = outcome.positions.iter().enumerate();
-    places.map(|(n, position)| (position - n as f64 * run.ring.headway()).abs()).fold(0.0, larger)
 }
 
 /// How fast the room taken by a pedestrian grows with the speeds.
