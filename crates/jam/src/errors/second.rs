@@ -108,7 +108,7 @@ impl Second {
         let is_same_time = is_at_event || (times[0] - times[1]).abs() <= SAME_TIME * times[0];
         let is_through_wall = is_through_wall(run, outcome);
         let is_shift_lost = loses_shift(run) && self.form != StateVariables::Deviations;
-        let lost = is_shift_lost.then(|| of_lost_shift(run, outcome)).flatten();
+        let lost = if is_shift_lost { of_lost_shift(run, outcome) } else { None };
         let has_std = ends_alike && confirmed::reaches(outcome, other) && (!is_shift_lost || lost.is_some());
         let of_lost = |number: fn(&Errors) -> Option<f64>| lost.as_ref().and_then(number);
         let is_known = ends_alike && is_same_time && !is_through_wall && !is_not_finite(run, outcome);
@@ -213,8 +213,11 @@ impl Second {
 }
 
 /// What becomes of a shift that the second run loses as the run does: the steps of Taylor's method carry it along, however small.
-/// `None` where they do not.
+/// `None` where they do not, as over kinks.
 fn of_lost_shift(run: &Run, outcome: &Outcome) -> Option<Errors> {
+    if run.model.has_kinks() {
+        return None;
+    }
     let control = Control::Adaptive { tolerance: LOOSE };
     let series = Run { method: Method::Taylor, control, most_steps: most_steps(run, outcome), ..again(run, outcome) };
     let (made, propagated) = run_propagated(&series, &mut ());
