@@ -302,8 +302,38 @@ impl<'a> Watch<'a> {
             new.push(self.back_from_beyond(step));
         }
         new.sort_by(|a, b| a.time.total_cmp(&b.time));
+        if self.model.may_be_undefined() && !self.after.speed_rates.iter().all(|rate| rate.is_finite()) {
+            self.end_at_edge(step, &mut new);
+        }
         self.found.extend(&new);
         new
+    }
+
+    /// Of a step at whose end the law has no value: adds where that begins, if no stop comes before or at that place, and
+    /// drops what comes after it.
+    fn end_at_edge(&self, step: &mut Step<'_>, new: &mut Vec<Event>) {
+        let count = self.before.gaps.len();
+        let rates_of = |state: &[f64]| {
+            let (mut rates, mut unused, mut accelerations) =
+                (vec![0.0; state.len()], vec![0.0; count], vec![0.0; count]);
+            self.form.rates(state, &mut rates);
+            self.form.read_rates(&rates, &mut unused, &mut accelerations);
+            accelerations
+        };
+        let has_no_value = |acceleration: &f64| !acceleration.is_finite();
+        let edge = &mut |state: &[f64]| if rates_of(state).iter().any(has_no_value) { -1.0 } else { 1.0 };
+        let theta = first_crossing(step, PARTS, edge).unwrap_or(1.0);
+        let (time, mut state) = (step.start + theta * step.length(), vec![0.0; step.before().len()]);
+        new.retain(|event| event.time <= time + AT_ONCE);
+        if new.iter().any(|event| event.kind.is_stop()) {
+            return;
+        }
+        step.at_fraction(theta, &mut state);
+        let pedestrian = rates_of(&state).iter().position(has_no_value).unwrap_or(0);
+        let (mut gaps, mut speeds) = (vec![0.0; count], vec![0.0; count]);
+        self.form.read(&state, &mut gaps, &mut speeds);
+        let (kind, gap, step) = (EventKind::Undefined, gaps[pedestrian], step.length());
+        new.push(Event { kind, time, pedestrian, gap, step });
     }
 
     /// Whether the event's value can be negative within the step.

@@ -37,7 +37,8 @@ pub(crate) struct Taylor {
     /// Rows of coefficients, that of order 0 first. The components with a force, of which samples and defects are computed,
     /// begin with a line of the cache.
     coefficients: Rows,
-    /// The size of the row of the last order, in units of the tolerance.
+    /// The sizes of the rows of the last two orders, in units of the tolerance.
+    before_size: f64,
     last_size: f64,
     /// The components that are not position-like: the others' rates bend nowhere.
     forced: Vec<Range<usize>>,
@@ -62,6 +63,7 @@ impl Taylor {
             proposed: 1.0,
             kinks: Kinks::new(system, order),
             coefficients: Rows::apart(order + 1, dimension, system.row_length(), first),
+            before_size: 0.0,
             last_size: 0.0,
             forced,
             defect,
@@ -79,6 +81,21 @@ impl Taylor {
         dispatch(Begin { state, rates, unit: self.unit, first: [&mut states[..n], &mut others[..n]] });
         system.series(self.order, self.unit, rows);
     }
+
+    /// Whether a step leads to where the rates have no value, though its end may not. Beside such an edge all terms of the
+    /// series are below the tolerance at a step beyond its radius of convergence, where they grow with the order: the sum may
+    /// turn back before the edge, at every step. The path that counts is the tangent. The rates are spoilt.
+    fn is_beyond(&mut self, system: &dyn System, from: &Trial<'_>, rates: &mut [f64]) -> bool {
+        let is_growing = self.last_size * from.h > self.before_size * self.unit;
+        if !is_growing {
+            return false;
+        }
+        for ((end, state), rate) in self.missing.iter_mut().zip(from.state).zip(from.rates) {
+            *end = state + from.h * rate;
+        }
+        system.rates(&self.missing, rates);
+        !rates.iter().all(|rate| rate.is_finite())
+    }
 }
 
 impl Stepper for Taylor {
@@ -93,6 +110,9 @@ impl Stepper for Taylor {
             self.next_unit = power_of_two(from.h);
         }
         let h = from.h / self.unit;
+        if norm.is_some() && self.is_beyond(system, &from, change) {
+            return f64::INFINITY;
+        }
         dispatch(Change::<false> {
             rows: self.coefficients.all(),
             n: self.coefficients.stride(),
@@ -107,7 +127,8 @@ impl Stepper for Taylor {
         self.expand(system, state, rates);
         self.last_size = norm.of(self.coefficients.row(self.order));
         let last = growth(self.last_size, self.order)?;
-        let before = growth(norm.of(self.coefficients.row(self.order - 1)), self.order - 1)?;
+        self.before_size = norm.of(self.coefficients.row(self.order - 1));
+        let before = growth(self.before_size, self.order - 1)?;
         let step = SAFETY * self.unit * lane::exp(-if last > before { last } else { before });
         self.proposed = self.kinks.as_mut().map_or(step, |kinks| {
             let slack = norm.scale(self.forced.first().map_or(0, |range| range.start), SLACK, ROUNDINGS);

@@ -203,7 +203,7 @@ impl<'a> Recorder<'a> {
         }
         let broken = failure
             .filter(|failure| !self.is_at_wall(failure, time, &state))
-            .filter(|_| !self.is_undefined(time, &state));
+            .filter(|failure| !self.is_undefined(failure, time, &state));
         let (events, at_overlap) = (self.watch.found().to_vec(), self.run.at_overlap);
         let verdict = self.judge.map(|judge| judge.end(last_step, &events));
         if let Some(at_event) = self.at_event {
@@ -248,7 +248,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// The time from which on no further event can be found: that of a blow-up, of a stop from which no run continues, or of
+    /// The time from which on no further event can be found: that of a blow-up, of a law without a value, of a stop from which no run continues, or of
     /// the last of all events that can follow it.
     fn over_since(&self) -> Option<f64> {
         let first = |is_wanted: &dyn Fn(EventKind) -> bool| {
@@ -259,7 +259,7 @@ impl<'a> Recorder<'a> {
         let others = of(EventKind::NegativeSpeed).zip(of(EventKind::Exchange));
         let last = |stop: f64| others.map(|(turn, pass)| math::larger(stop, math::larger(turn, pass)));
         let stop = if self.run.model.is_singular() { stop } else { stop.and_then(last) };
-        [of(EventKind::BlowUp), stop].into_iter().flatten().reduce(math::smaller)
+        [of(EventKind::BlowUp), of(EventKind::Undefined), stop].into_iter().flatten().reduce(math::smaller)
     }
 
     /// Ends the run at an event in this step, or in one before.

@@ -35,24 +35,27 @@ impl Recorder<'_> {
     }
 
     /// Whether a run ends since its law has no value a little further on; then that is an event.
-    pub(super) fn is_undefined(&mut self, time: f64, state: &[f64]) -> bool {
+    pub(super) fn is_undefined(&mut self, failure: &ode::Failure, time: f64, state: &[f64]) -> bool {
         if !self.run.model.may_be_undefined() {
             return false;
         }
         let form = self.record.form;
         let mut rates = vec![0.0; form.dimension()];
         form.rates(state, &mut rates);
-        // as far as a step that fails would go at least
-        let further = 1e-9 * if time > 1.0 { time } else { 1.0 };
+        // as far as a step that fails would go at least, and one of fixed length goes
+        let (least, step) = (1e-9 * if time > 1.0 { time } else { 1.0 }, step_of(failure));
+        let further = if step > least { step } else { least };
         let next: Vec<f64> = state.iter().zip(&rates).map(|(x, rate)| x + further * rate).collect();
         let (mut spacings, mut accelerations) = (self.record.spacings.clone(), self.record.speeds.clone());
-        for tried in [state, &next] {
+        // a step of fixed length over a wall is too long
+        let is_over = step > 0.0 && !form.in_domain(&next);
+        for tried in [state, if is_over { state } else { &next }] {
             form.rates(tried, &mut rates);
             form.read_rates(&rates, &mut spacings, &mut accelerations);
             let Some(pedestrian) = accelerations.iter().position(|a| !a.is_finite()) else { continue };
             form.read(state, &mut spacings, &mut accelerations);
             let gap = spacings[pedestrian];
-            self.watch.add(Event { kind: EventKind::Undefined, time, pedestrian, gap, step: 0.0 });
+            self.watch.add(Event { kind: EventKind::Undefined, time, pedestrian, gap, step });
             return true;
         }
         false
@@ -84,6 +87,14 @@ impl Recorder<'_> {
         let least = NEAR_WALLS * run.model.effective_gap(run.ring.headway(), speed, speed);
         let is_near = !self.watch.is_quiet() && run.model.is_singular() && self.can_turn();
         is_near && self.watch.effective_gaps().iter().any(|&gap| gap < least)
+    }
+}
+
+/// The length of the step of fixed length that failed; 0 for others.
+fn step_of(failure: &ode::Failure) -> f64 {
+    match failure {
+        ode::Failure::NotFinite { step, .. } => *step,
+        _ => 0.0,
     }
 }
 

@@ -7,6 +7,7 @@ mod constants;
 mod convergence;
 mod criteria;
 mod deviation;
+mod edges;
 mod events;
 mod fingerprints;
 mod forms;
