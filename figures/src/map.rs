@@ -53,12 +53,11 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     for (name, map, numbers) in &computed {
         let [_, _, value] = map.columns();
         let values = numbers.table.column(value)?;
-        let (unstable, blank) = (numbers.unstable_share(), numbers.blank_share());
+        let unstable = numbers.unstable_share();
         let (cells, error) = (values.len() + numbers.blank.len(), numbers.error);
         summaries.push(summary::of_map(name, map, numbers));
-        let note =
-            numbers.blank_reason().map_or(String::new(), |reason| format!(", {:.1} % blank: {reason}", 100.0 * blank));
-        words.push(format!("{name}: {cells} cells, {:.1} % unstable{note}, error {error:.1e}", 100.0 * unstable));
+        let note = numbers.blank_reason().map_or(String::new(), |reason| format!("; {reason}"));
+        words.push(format!("{name}: {cells} cells, {:.1} % unstable, error {error:.1e}{note}", 100.0 * unstable));
         let Some(folder) = &arguments.out else { continue };
         files.push((folder.join(format!("{name}.csv")), numbers.to_csv(map)));
         if !arguments.tables_only {
@@ -110,10 +109,17 @@ fn picture(map: &scene::map::Map, numbers: &Computed, values: &[f64]) -> Result<
     };
     let panel = map_panel(map, &numbers.values(), Labels { horizontal: true, vertical: true })?;
     let picture = Picture::new(COLUMN_WIDTH, 70.0).scale(ColorScale::diverging(symbol, values.iter().copied()));
-    Ok(if numbers.blank.is_empty() {
+    let cells = values.len() + numbers.blank.len();
+    let inexact = numbers.blank.len() - numbers.undefined;
+    let parts = [(inexact, "criterion not exact to 0.1 %"), (numbers.undefined, "no uniform flow, or no value")];
+    let told = parts.into_iter().filter(|(count, _)| *count > 0).map(|(count, why)| {
+        let percent = 100.0 * count as f64 / cells as f64;
+        format!("{percent:.1} %: {why}")
+    });
+    let told: Vec<String> = told.collect();
+    Ok(if told.is_empty() {
         picture.panel(panel)
     } else {
-        let percent = 100.0 * numbers.blank_share();
-        picture.titled(&format!("grey, {percent:.1} %: criterion not exact to 0.1 %"), panel)
+        picture.titled(&format!("grey, {}", told.join("; ")), panel)
     })
 }

@@ -116,7 +116,8 @@ impl Map {
         })
     }
 
-    /// The surface at a place counted in cells from the lower left corner; flat beyond the outer centres.
+    /// The surface at a place counted in cells from the lower left corner; flat beyond the outer centres, and in cells beside
+    /// one without value, which so hides no other.
     fn value(&self, x: f64, y: f64) -> f64 {
         let (left, right, across) = neighbours(x, self.columns);
         let (below, above, up) = neighbours(y, self.rows);
@@ -124,7 +125,9 @@ impl Map {
         let blend = |start: f64, end: f64, share: f64| if share == 0.0 { start } else { start + share * (end - start) };
         let lower = blend(cell(left, below), cell(right, below), across);
         let upper = blend(cell(left, above), cell(right, above), across);
-        blend(lower, upper, up)
+        let surface = blend(lower, upper, up);
+        let own = |place: f64, count: usize| (place as usize).min(count - 1);
+        if surface.is_nan() { cell(own(x, self.columns), own(y, self.rows)) } else { surface }
     }
 }
 
@@ -161,10 +164,11 @@ mod tests {
     }
 
     #[test]
-    fn a_missing_value_hides_only_its_neighbourhood() {
+    fn a_missing_value_hides_no_other_cell() {
         let panel = map(vec![1.0, f64::NAN, 3.0, 4.0, 5.0, 6.0]);
-        assert_eq!(panel.value(0.5, 0.5), 1.0);
-        assert!(panel.value(1.0, 0.5).is_nan());
+        assert_eq!((panel.value(0.5, 0.5), panel.value(0.9, 0.9), panel.value(2.1, 0.1)), (1.0, 1.0, 3.0));
+        assert!(panel.value(1.0, 0.5).is_nan() && panel.value(1.9, 0.9).is_nan());
+        assert_eq!(panel.value(1.5, 1.1), 5.0);
         assert_eq!(panel.value(1.5, 1.5), 5.0);
     }
 

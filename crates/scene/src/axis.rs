@@ -56,3 +56,29 @@ impl Axis {
         if self.is_whole { value.round() } else { value }
     }
 }
+
+/// Tries `read` with the axes at the first cell and, while it fails, at others spread over the plane: a formula may have a
+/// value in a part of it only.
+///
+/// # Errors
+/// That of the first cell, if it fails everywhere.
+pub fn first_valid<T>(
+    axes: [&Axis; 2],
+    mut read: impl FnMut([f64; 2]) -> Result<T, SceneError>,
+) -> Result<T, SceneError> {
+    let places = |axis: &Axis| {
+        let (cells, count) = (axis.cells, axis.cells.min(TRIED));
+        let centres: Vec<f64> = (0..count).map(|place| axis.centre(place * cells / count)).collect();
+        centres
+    };
+    let [across, up] = axes.map(places);
+    let first = read([across[0], up[0]]);
+    if first.is_ok() {
+        return first;
+    }
+    let mut others = across.iter().flat_map(|x| up.iter().map(|y| [*x, *y])).skip(1);
+    others.find_map(|at| read(at).ok()).map_or(first, Ok)
+}
+
+/// As many cells along each axis are tried.
+const TRIED: usize = 16;

@@ -1,6 +1,6 @@
 //! Stability over two parameters: `[map]` with `[law]` and `[uniform]`.
 
-use crate::axis::Axis;
+use crate::axis::{Axis, first_valid};
 use crate::law;
 use files::reader::{FINITE, POSITIVE, Reader, SceneError, Section};
 use files::table::{Table, push_number};
@@ -62,9 +62,14 @@ pub const CRITERION_HOLDS: f64 = 1e-3;
 pub struct Computed {
     /// One row for each cell that has a value: the two parameters and the value.
     pub table: Table,
-    /// The cells without a value, by their number in the order of the table with all of them: those in which the paper's
-    /// criterion differs from the exact one by more than [`CRITERION_HOLDS`].
+    /// The cells without a value, by their number in the order of the table with all of them: those without a uniform flow, a
+    /// linear response or a finite number, and those in which the paper's criterion differs from the exact one by more than
+    /// [`CRITERION_HOLDS`].
     pub blank: Vec<usize>,
+    /// How many of them have no value at all.
+    pub undefined: usize,
+    /// The first of these, and why it has none.
+    pub first_undefined: Option<String>,
     /// The largest difference from the same value found another way; relative to values above 1.
     pub error: f64,
 }
@@ -83,19 +88,30 @@ impl Computed {
 
     /// The part of the cells that are blank.
     pub fn blank_share(&self) -> f64 {
-        self.blank.len() as f64 / (self.table.len() + self.blank.len()) as f64
+        self.share(self.blank.len())
     }
 
-    /// Why cells are blank, if some are.
-    pub fn blank_reason(&self) -> Option<&'static str> {
-        let reason = "the paper's criterion differs there from the exact one by more than 0.1 %; `margin` is exact";
-        (!self.blank.is_empty()).then_some(reason)
+    /// Why cells are blank, if some are: each reason with the part of the cells that it holds for, in percent.
+    pub fn blank_reason(&self) -> Option<String> {
+        let inexact = self.blank.len() - self.undefined;
+        let percent = |count: usize| format!("{:.1} % blank: ", 100.0 * self.share(count));
+        let criterion = "the paper's criterion differs there from the exact one by more than 0.1 %; `margin` is exact";
+        let criterion = (inexact > 0).then(|| percent(inexact) + criterion);
+        let undefined = self.first_undefined.as_ref().map(|first| {
+            let count = self.undefined;
+            format!("{}{count} cells without a value, the first {first}", percent(count))
+        });
+        let reasons: Vec<String> = criterion.into_iter().chain(undefined).collect();
+        (!reasons.is_empty()).then(|| reasons.join("; "))
+    }
+
+    fn share(&self, count: usize) -> f64 {
+        count as f64 / (self.table.len() + self.blank.len()) as f64
     }
 
     /// The part of all cells with a value above 0.
     pub fn unstable_share(&self) -> f64 {
-        let unstable = self.table.rows().filter(|row| row[2] > 0.0).count();
-        unstable as f64 / (self.table.len() + self.blank.len()) as f64
+        self.share(self.table.rows().filter(|row| row[2] > 0.0).count())
     }
 
     /// The table of this map as CSV, the value of blank cells empty.
@@ -128,7 +144,7 @@ pub fn read(file: &str, tables: &Section) -> Result<Map, SceneError> {
     let mut map = Reader::new(file, "map", top.section("map")?);
     let value = if map.has("value") { map.one_of("value", &VALUES)? } else { Value::Margin };
     let (x, y) = (axis(file, "map.x", map.section("x")?)?, axis(file, "map.y", map.section("y")?)?);
-    let mut law_tables = top.section("law")?.clone();
+    let law_tables = top.section("law")?;
     let [x_section, y_section] = [map.section("x")?, map.section("y")?];
     for (name, section, axis) in [("map.x", x_section, &x), ("map.y", y_section, &y)] {
         if name == "map.y" && axis.parameter == x.parameter {
@@ -136,15 +152,20 @@ pub fn read(file: &str, tables: &Section) -> Result<Map, SceneError> {
         }
         if law_tables.entries.contains_key(&axis.parameter) {
             let problem = format!("is an axis of the map ({name}): leave it out here");
-            return Err(Reader::new(file, "law", top.section("law")?).complaint(&axis.parameter, &problem));
+            return Err(Reader::new(file, "law", law_tables).complaint(&axis.parameter, &problem));
         }
-        if let Some((key, problem)) = unfit(&law_tables, axis) {
+        if let Some((key, problem)) = unfit(law_tables, axis) {
             return Err(Reader::new(file, name, section).complaint(key, &problem));
         }
-        place_holder(&mut law_tables, axis, section);
     }
     map.finish()?;
-    let model = law::read(file, &law_tables)?;
+    let model = first_valid([&x, &y], |at| {
+        let mut law = law_tables.clone();
+        for (axis, (section, value)) in [&x, &y].into_iter().zip([x_section, y_section].into_iter().zip(at)) {
+            place_holder(&mut law, axis, section, value);
+        }
+        law::read(file, &law)
+    })?;
     let point = if top.has("uniform") { uniform(file, top.section("uniform")?)? } else { EMPTY };
     top.finish()?;
     let map = Map { model, value, x, y, point };
@@ -192,11 +213,11 @@ fn unfit(law: &Section, axis: &Axis) -> Option<(&'static str, String)> {
 const OF_THE_FLOW: [&str; 3] = ["d_gap", "headway", "k"];
 
 /// A parameter of the law that is an axis need not be named: it has an arbitrary value until the cells set it.
-fn place_holder(law: &mut Section, axis: &Axis, section: &Section) {
+fn place_holder(law: &mut Section, axis: &Axis, section: &Section, value: f64) {
     use files::reader::{Entry, Value};
     if !OF_THE_FLOW.contains(&axis.parameter.as_str()) {
         let line = section.entries.get("parameter").map_or(law.line, |entry| entry.line);
-        law.entries.insert(axis.parameter.clone(), Entry::new(line, Value::Number(axis.centre(0))));
+        law.entries.insert(axis.parameter.clone(), Entry::new(line, Value::Number(value)));
     }
 }
 
@@ -240,7 +261,8 @@ impl Map {
     /// Computes the map, column of cells by column of cells.
     ///
     /// # Errors
-    /// A cell without a uniform flow or a finite value: its parameters.
+    /// No cell has a uniform flow and a finite value: the parameters of the first, and why. A cell has several uniform flows,
+    /// of which the scene has to name one.
     pub fn compute(&self) -> Result<Computed, String> {
         self.compute_seen(&mut |_| ())
     }
@@ -252,14 +274,22 @@ impl Map {
     pub fn compute_seen(&self, onlooker: &mut dyn FnMut(f64)) -> Result<Computed, String> {
         let mut table = Table::new(&self.columns());
         let (mut error, mut blank) = (0.0, Vec::new());
+        let (mut undefined, mut first_undefined) = (0, None);
         let cells = self.x.cells * self.y.cells;
         for cell in 0..cells {
             onlooker(cell as f64 / cells as f64);
             let (x, y) = (self.x.centre(cell / self.y.cells), self.y.centre(cell % self.y.cells));
-            let (value, other) = self
-                .cell(x, y)
-                .and_then(finite)
-                .map_err(|why| format!("at {} = {x:?}, {} = {y:?}: {why}", self.x.parameter, self.y.parameter))?;
+            let place = |why: &str| format!("at {} = {x:?}, {} = {y:?}: {why}", self.x.parameter, self.y.parameter);
+            let (value, other) = match self.cell(x, y).and_then(finite) {
+                Ok(values) => values,
+                Err(Lack::Choice(why)) => return Err(place(&why)),
+                Err(Lack::Value(why)) => {
+                    first_undefined.get_or_insert_with(|| place(&why));
+                    undefined += 1;
+                    blank.push(cell);
+                    continue;
+                }
+            };
             // relative where the value is large: there it lies far beyond the colours
             let size = |value: f64| if value.abs() > 1.0 { value.abs() } else { 1.0 };
             if self.value == Value::Criterion && (value - other).abs() > CRITERION_HOLDS * size(other) {
@@ -270,20 +300,24 @@ impl Map {
             error = if difference > error || difference.is_nan() { difference } else { error };
             table.push(&[x, y, value]);
         }
-        Ok(Computed { table, blank, error })
+        match first_undefined {
+            Some(why) if undefined == cells => Err(why),
+            first_undefined => Ok(Computed { table, blank, undefined, first_undefined, error }),
+        }
     }
 
     /// The value of a cell, and the same found another way.
-    fn cell(&self, x: f64, y: f64) -> Result<(f64, f64), String> {
-        let (mut model, mut point) = (self.model.clone(), self.point);
+    fn cell(&self, x: f64, y: f64) -> Result<(f64, f64), Lack> {
+        let (mut of_law, mut point) = (Vec::new(), self.point);
         for (parameter, value) in [(&self.x.parameter, x), (&self.y.parameter, y)] {
             match parameter.as_str() {
                 "d_gap" => point.gap = Some(value),
                 "headway" => point.headway = Some(value),
                 "k" => point.wave_number = Some(value),
-                _ => model = model.with(parameter, value)?,
+                name => of_law.push((name, value)),
             }
         }
+        let model = self.model.with_all(&of_law)?;
         if !model.is_of_paper() {
             return self.of_any_law(&model, &point);
         }
@@ -299,9 +333,12 @@ impl Map {
     }
 
     /// The value of a cell of a law that is not the paper's, whose stencil may be any.
-    fn of_any_law(&self, model: &Model, point: &Point) -> Result<(f64, f64), String> {
+    fn of_any_law(&self, model: &Model, point: &Point) -> Result<(f64, f64), Lack> {
         let headway = point.headway.ok_or("needs the headway")?;
-        let speed = uniform::nearest(model, headway, point.speed).map_err(|error| error.to_string())?;
+        let speed = uniform::nearest(model, headway, point.speed).map_err(|error| {
+            let words = error.to_string();
+            if error.speeds.is_empty() { Lack::Value(words) } else { Lack::Choice(words) }
+        })?;
         let response = model.response(headway, speed).ok_or("the uniform flow lies on a kink, or has no derivative")?;
         let precise = || Precise::new(model, headway, speed);
         match self.value {
@@ -310,16 +347,36 @@ impl Map {
                 let k = point.wave_number.ok_or("needs a wave number")?;
                 Ok((response.growth_rate(k), precise().rounded().refined_growth_rate(k)))
             }
-            Value::Criterion => Err(NO_CRITERION.to_owned()),
+            Value::Criterion => Err(NO_CRITERION.into()),
         }
     }
 }
 
+/// Why a cell gets no value, in words.
+enum Lack {
+    /// It has none.
+    Value(String),
+    /// It has several, and the scene names none.
+    Choice(String),
+}
+
+impl From<String> for Lack {
+    fn from(why: String) -> Lack {
+        Lack::Value(why)
+    }
+}
+
+impl From<&str> for Lack {
+    fn from(why: &str) -> Lack {
+        Lack::Value(why.to_owned())
+    }
+}
+
 /// The same pair, if the first is a number that a table can hold.
-fn finite(values: (f64, f64)) -> Result<(f64, f64), String> {
+fn finite(values: (f64, f64)) -> Result<(f64, f64), Lack> {
     match values.0.is_finite() {
         true => Ok(values),
-        false => Err(format!("the value is {:?}: a number is too large or too small here", values.0)),
+        false => Err(Lack::Value(format!("the value is {:?}: a number is too large or too small here", values.0))),
     }
 }
 

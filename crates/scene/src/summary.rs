@@ -154,6 +154,7 @@ pub fn of_map(name: &str, map: &Map, computed: &Computed) -> Value {
         "unstable_share": computed.unstable_share(),
         "blank_share": computed.blank_share(),
         "blank_reason": computed.blank_reason(),
+        "undefined_cells": computed.undefined,
         "error": computed.error,
     })
 }

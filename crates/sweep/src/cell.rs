@@ -107,10 +107,10 @@ impl Sweep {
     fn scene_of(&self, [x, y]: [f64; 2]) -> Result<Result<Scene, Class>, String> {
         let axes = [(self.x.parameter.as_str(), x), (self.y.parameter.as_str(), y)];
         let value = |name: &str| axes.iter().find(|(parameter, _)| *parameter == name).map(|(_, value)| *value);
-        let mut model = self.model.clone();
-        for (parameter, value) in axes.iter().filter(|(name, _)| !super::read::OF_THE_RUN.contains(name)) {
-            model = model.with(parameter, *value)?;
-        }
+        let of_law: Vec<(&str, f64)> =
+            axes.into_iter().filter(|(name, _)| !super::read::OF_THE_RUN.contains(name)).collect();
+        // a formula that has no value with these
+        let Ok(model) = self.model.with_all(&of_law) else { return Ok(Err(Class::Undefined)) };
         let mut ring = self.ring;
         if let Some(count) = value("pedestrians") {
             ring = Ring { pedestrians: count as usize, length: ring.headway() * count };

@@ -5,7 +5,7 @@ use files::reader::{Entry, FINITE, POSITIVE, Reader, SceneError, Section, Value}
 use jam::laws::Model;
 use jam::ring::{Ring, Start};
 use ode::{Control, Method};
-use scene::axis::Axis;
+use scene::axis::{Axis, first_valid};
 use scene::law;
 use scene::run::{self, AtOverlap, FORMS};
 
@@ -49,7 +49,18 @@ pub fn read(file: &str, tables: &Section) -> Result<Sweep, SceneError> {
     }
     let gap = gap(file, &mut tables, [&x, &y])?;
     let mut held = Reader::new(file, "scene", &tables);
-    let model = law::read(file, held.section("law")?)?;
+    let law_tables = held.section("law")?;
+    let model = first_valid([&x, &y], |at| {
+        let mut law = law_tables.clone();
+        for (axis, value) in [&x, &y].into_iter().zip(at) {
+            if !OF_THE_RUN.contains(&axis.parameter.as_str())
+                && let Some(entry) = law.entries.get_mut(&axis.parameter)
+            {
+                entry.value = Value::Number(value);
+            }
+        }
+        law::read(file, &law)
+    })?;
     if matches!(model, Model::Formula(_)) {
         for (name, section, axis) in [("sweep.x", x_section, &x), ("sweep.y", y_section, &y)] {
             fits(&model, axis).map_err(|problem| Reader::new(file, name, section).complaint("parameter", &problem))?;

@@ -81,10 +81,22 @@ impl Formula {
     /// # Errors
     /// As [`Formula::new`].
     pub fn with(&self, parameter: &str, value: f64) -> Option<Result<Formula, Error>> {
-        let index = self.graph.parameter(parameter)?;
+        self.graph.parameter(parameter)?;
+        Some(self.with_all(&[(parameter, value)]))
+    }
+
+    /// The law with other values of some parameters, those that it has.
+    ///
+    /// # Errors
+    /// As [`Formula::new`].
+    pub(crate) fn with_all(&self, changes: &[(&str, f64)]) -> Result<Formula, Error> {
         let mut values = self.values.clone();
-        values[index] = value;
-        Some(Formula::with_values(Arc::clone(&self.graph), values))
+        for (parameter, value) in changes {
+            if let Some(index) = self.graph.parameter(parameter) {
+                values[index] = *value;
+            }
+        }
+        Formula::with_values(Arc::clone(&self.graph), values)
     }
 
     /// The names of its parameters and their values, in the order of the file.

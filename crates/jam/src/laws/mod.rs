@@ -268,26 +268,30 @@ impl Model {
     /// # Errors
     /// No parameter of this name; or a formula without a value.
     pub fn with(&self, name: &str, value: f64) -> Result<Model, String> {
-        let mut model = self.clone();
-        let is_known = each!(&mut model, law => set(law, name, value), formula => match formula.with(name, value) {
-            Some(changed) => {
-                *formula = changed.map_err(|error| error.to_string())?;
-                true
-            }
-            None => false,
-        }, own => match own.with(name, value) {
-            Some(changed) => {
-                *own = changed?;
-                true
-            }
-            None => false,
-        });
-        let known = || self.parameters().join(", ");
-        if is_known {
-            Ok(model)
-        } else {
-            Err(format!("the {} law has no parameter {name}; it has {}", self.name(), known()))
+        self.with_all(&[(name, value)])
+    }
+
+    /// The law with other values of some parameters, all set at once: a formula needs a value with the last of them only.
+    ///
+    /// # Errors
+    /// As [`Model::with`].
+    pub fn with_all(&self, values: &[(&str, f64)]) -> Result<Model, String> {
+        let known = self.parameters();
+        if let Some((name, _)) = values.iter().find(|(name, _)| !known.iter().any(|own| own == name)) {
+            return Err(format!("the {} law has no parameter {name}; it has {}", self.name(), known.join(", ")));
         }
+        let mut model = self.clone();
+        each!(
+            &mut model,
+            law => for (name, value) in values {
+                set(law, name, *value);
+            },
+            formula => *formula = formula.with_all(values).map_err(|error| error.to_string())?,
+            own => for (name, value) in values {
+                *own = own.with(name, *value).transpose()?.unwrap_or_else(|| own.clone());
+            }
+        );
+        Ok(model)
     }
 
     /// Whether the spacing is what the law measures contact by, so that there is no effective gap `d'` of the uniform flow

@@ -171,13 +171,50 @@ fn a_cell_without_a_finite_value_is_named() {
 }
 
 #[test]
-fn a_cell_without_uniform_flow_is_named() {
+fn cells_without_uniform_flow_are_blank_and_told() {
     let axes = "x = { parameter = \"headway\", from = 1.0, to = 3.0, cells = 2 }\n\
                 y = { parameter = \"mu\", from = 0.0, to = 1.0, cells = 2 }\n";
-    let parsed = parsed(&format!("{LAW}[map]\nvalue = \"criterion\"\n{axes}"));
+    let whole = format!("{LAW}[map]\nvalue = \"margin\"\n{axes}");
+    let (map, computed) = computed(&whole);
+    assert_eq!((computed.blank.clone(), computed.undefined, computed.table.len()), (vec![0, 1], 2, 2));
+    let reason = computed.blank_reason().expect("a reason");
+    let told =
+        "50.0 % blank: 2 cells without a value, the first at headway = 1.5, mu = 0.25: no uniform flow at headway";
+    assert!(reason.starts_with(told), "{reason}");
+    let csv = String::from_utf8(computed.to_csv(&map)).expect("text");
+    assert!(csv.starts_with("headway,mu,margin\n1.5,0.25,\n1.5,0.75,\n2.5,0.25,"), "{csv}");
+    // the others are what they are without these
+    let (_, alone) =
+        self::computed(&whole.replace("from = 1.0, to = 3.0, cells = 2", "from = 2.0, to = 3.0, cells = 1"));
+    assert!(alone.table.rows().eq(computed.table.rows()));
+    // a plane without any says why
+    let parsed = parsed(&whole.replace("to = 3.0, cells = 2", "to = 2.0, cells = 1"));
     let map = scene::map::read("my.toml", &parsed.panels[0].tables).unwrap_or_else(|error| panic!("{error}"));
     let error = map.compute().expect_err("a headway of 1.5 leaves no room");
     assert!(error.starts_with("at headway = 1.5, mu = 0.25: no uniform flow at headway L/N = 1.5: "), "{error}");
+}
+
+#[test]
+fn cells_in_which_a_formula_has_no_value_are_blank() {
+    let law = |response: &str| {
+        format!(
+            "[law]\nkind = \"formula\"\nbody = 0.4\nb = 0.5\nacceleration = \"tanh(s - body) - v + {response}*(v[1] - v)\"\n\
+             [map]\nx = {{ parameter = \"headway\", from = 0.5, to = 1.5, cells = 2 }}\n\
+             y = {{ parameter = \"a\", from = -1.0, to = 1.0, cells = 4 }}\n"
+        )
+    };
+    // a is -0.75, -0.25, 0.25, 0.75
+    let (_, computed) = computed(&law("(ln(a) + b)"));
+    assert_eq!((computed.blank.clone(), computed.undefined), (vec![0, 1, 4, 5], 4));
+    let first = computed.first_undefined.clone().expect("a reason");
+    assert!(first.contains("at headway = 0.75, a = -0.75: my.toml:") && first.contains("ln(-0.75)"), "{first}");
+    // both axes are set at once: with only one of them the logarithm has no value here
+    let both = law("(0.001*ln(a - b) + 1)")
+        .replace("b = 0.5\n", "")
+        .replace("\"headway\", from = 0.5, to = 1.5", "\"b\", from = -2.0, to = 2.0");
+    let (_, computed) = self::computed(&format!("{both}[uniform]\nheadway = 1.0\n"));
+    // b is -1 and 1
+    assert_eq!(computed.blank, [4, 5, 6, 7]);
 }
 
 #[test]
