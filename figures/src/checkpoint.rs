@@ -4,7 +4,7 @@
 //! SHA-256 of the program and of the scene, `SUM` that of everything behind the line: what is damaged, cut off or of
 //! another run or program is not used, and the run starts over.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, say};
 use cpu_time::{ProcessTime, ThreadTime};
 use files::write::{atomic, sha256, sha256_file};
 use jam::errors::Propagated;
@@ -234,9 +234,4 @@ impl RunObserver for CheckpointWriter<'_> {
                 Instant::now() + if wait > self.care.checkpoint_every { wait } else { self.care.checkpoint_every };
         }
     }
-}
-
-/// Writes a line to stderr. If there is no reader, as after a kill of the runner, the run continues.
-pub fn say(line: &str) {
-    let _ = writeln!(std::io::stderr(), "{line}");
 }

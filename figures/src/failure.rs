@@ -1,4 +1,4 @@
-//! Failures of a program and their exit codes.
+//! What a program says: results, words about its work, and failures with their exit codes.
 
 use files::table::TableError;
 use std::io::Write as _;
@@ -65,6 +65,11 @@ pub fn print(line: &str) -> Result<(), Failure> {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure::work(format!("stdout: {error}"))),
         _ => Ok(()),
     }
+}
+
+/// Writes a line to stderr. If there is no reader, as after a kill of the runner, the run continues.
+pub fn say(line: &str) {
+    let _ = writeln!(std::io::stderr(), "{line}");
 }
 
 /// Prints a failure and turns the result into the exit code of the process.

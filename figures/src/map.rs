@@ -1,7 +1,6 @@
 //! The stability map of a user's scene: table and picture.
 
-use crate::checkpoint::say;
-use crate::failure::{Failure, print};
+use crate::failure::{Failure, print, say};
 use crate::panels::{Labels, map_panel};
 use crate::uniform;
 use clap::Parser;

@@ -1,7 +1,7 @@
 //! Runs a scene from the command line: tables, events and a summary.
 
-use crate::checkpoint::{CheckpointOptions, say};
-use crate::failure::{Failure, print};
+use crate::checkpoint::CheckpointOptions;
+use crate::failure::{Failure, print, say};
 use crate::panels::trajectories;
 use crate::uniform;
 use files::reader::Section;
