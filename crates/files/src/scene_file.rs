@@ -3,6 +3,7 @@
 
 use crate::reader::{Entry, SceneError, Section, Value};
 use crate::text;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Tables that determine numbers.
@@ -124,6 +125,14 @@ pub fn read_section(file: &str, document: &Section) -> Result<SceneFile, SceneEr
 }
 
 fn panels(base: &Section, named: &Section) -> Result<Vec<Panel>, (usize, String)> {
+    let mut lower: BTreeMap<String, (&str, usize)> = BTreeMap::new();
+    for (name, entry) in &named.entries {
+        // on some file systems the files of both would be one
+        if let Some((other, line)) = lower.insert(name.to_ascii_lowercase(), (name, entry.line)) {
+            let problem = format!("panel.{name}: differs from panel.{other} (line {line}) in case only");
+            return Err((entry.line, format!("{problem}; both name files: must differ in more")));
+        }
+    }
     named
         .entries
         .iter()

@@ -230,6 +230,11 @@ fn names_of_panels_are_no_paths() {
         let error = refusal(&text);
         assert!(error.line == 3 && error.problem.contains(&format!("{bad:?}")), "{bad}: {error}");
     }
+    let error = refusal(
+        "[run]\nt_end = 1.0\n[panel.Ab.run]\nt_end = 2.0\n[panel.c.run]\nt_end = 3.0\n[panel.aB.run]\nt_end = 2.0\n",
+    );
+    assert_eq!(error.line, 7, "{error}");
+    assert!(error.problem.starts_with("panel.aB: differs from panel.Ab (line 3) in case only"), "{error}");
     for good in ["x", "N_2-b", "7"] {
         files::scene_file::parse("my.toml", &format!("[panel.{good}.run]\nt_end = 2.0\n")).expect("a name");
     }
