@@ -3,11 +3,12 @@
 use super::cell::NUMBERS;
 use super::{CellOutcome, DecidedBy, Sweep};
 use files::table::push_number;
+use files::write::sha256;
 use jam::outcome::Class;
 
-/// The header of a shard: a cell's indices replace the values of the axes.
+/// The header of a shard: a cell's indices replace the values of the axes, and each line ends with its own sum.
 pub fn shard_header() -> String {
-    header(["i", "j"])
+    header(["i", "j"]) + ",sum"
 }
 
 fn header(axes: [&str; 2]) -> String {
@@ -18,11 +19,23 @@ fn header(axes: [&str; 2]) -> String {
 pub fn shard_line([i, j]: [usize; 2], cell: &CellOutcome) -> String {
     let mut line = format!("{i},{j}");
     push_cell(&mut line, cell);
-    line
+    let sum = sum(&line);
+    line + "," + &sum
 }
 
-/// A line of a shard; `None` for anything else.
+/// The first 16 digits of the SHA-256 of a line without its sum: a digit changed on the way is noticed, and where.
+fn sum(line: &str) -> String {
+    let mut sum = sha256(line.as_bytes());
+    sum.truncate(16);
+    sum
+}
+
+/// A line of a shard; `None` for anything else, or if its sum is that of another line.
 pub fn parse(line: &str) -> Option<([usize; 2], CellOutcome)> {
+    let (line, found) = line.rsplit_once(',')?;
+    if sum(line) != found {
+        return None;
+    }
     let mut words = line.split(',');
     let index = |word: Option<&str>| word?.parse::<usize>().ok();
     let indices = [index(words.next())?, index(words.next())?];
@@ -125,7 +138,9 @@ mod tests {
         assert!(
             (0..line.len() - 1).all(|end| parse(&line[..end]).is_none_or(|read| shard_line(read.0, &read.1) != line))
         );
-        for damaged in [line.replace("waves_b", "waves_c"), line.replace(",1,", ",2,"), line + ","] {
+        assert_eq!(line.matches("12.5").count(), 1, "{line}");
+        let digit = line.replace("12.5", "12.6");
+        for damaged in [digit, line.replace("waves_b", "waves_c"), line.replace(",1,", ",2,"), line + ","] {
             assert!(parse(&damaged).is_none(), "{damaged}");
         }
     }

@@ -168,8 +168,12 @@ fn parse(path: &Path, text: &str, head: &str) -> Result<Vec<Found>, Failure> {
         return Err(Failure::input(format!("{shown}:2: {second:?}: must be {header:?}; {REMEDY}")));
     }
     let cell = |(index, line): (usize, &str)| {
-        table::parse(line)
-            .ok_or_else(|| Failure::input(format!("{shown}:{}: {line:?}: not a cell of a sweep; {REMEDY}", index + 3)))
+        table::parse(line).ok_or_else(|| {
+            Failure::input(format!(
+                "{shown}:{}: {line:?}: not a cell of a sweep, or its sum is wrong; {REMEDY}",
+                index + 3
+            ))
+        })
     };
     lines.enumerate().map(cell).collect()
 }

@@ -151,3 +151,10 @@ impl SceneFolder {
         child.wait().expect("it ends");
     }
 }
+
+/// The line of a shard with another error, under its own sum.
+fn with_error(line: &str, error: f64) -> String {
+    let (cell, mut found) = sweep::table::parse(line).expect("a cell");
+    found.numbers[5] = error;
+    sweep::table::shard_line(cell, &found)
+}

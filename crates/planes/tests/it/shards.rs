@@ -41,7 +41,15 @@ fn a_damaged_shard_is_named_with_its_line() {
     let flipped = lines[7].replacen(',', ";", 1);
     let outside = format!("99,{}", lines[9].split_once(',').expect("indices").1);
     let doubled = lines[9];
+    // the last digit of a number within a tile, which is as good a number
+    let row = lines.iter().skip(2).position(|line| line.contains(",run,")).expect("a cell that was run") + 2;
+    let (numbers, sum) = lines[row].rsplit_once(',').expect("a sum");
+    let digit = numbers.chars().next_back().filter(char::is_ascii_digit).expect("an error");
+    let other = if digit == '1' { '2' } else { '1' };
+    let changed = format!("{}{other},{sum}", &numbers[..numbers.len() - 1]);
+    let place_of_digit = format!("1-of-1.csv:{}: ", row + 1);
     let cases = [
+        (with(row, &changed), place_of_digit.as_str()),
         (with(7, &flipped), "1-of-1.csv:8: "),
         (with(4, "1,2,nonsense,0,run,,,,,,"), "1-of-1.csv:5: "),
         (with(10, &lines[10].replace(",0,", ",7,")), "1-of-1.csv:11: "),
@@ -155,8 +163,7 @@ fn shards_that_disagree_are_not_merged() {
     let line = |text: &str| text.lines().find(|line| line.starts_with("3,25,")).expect("a cell").to_owned();
     place.edit("out/shards/2-of-2.csv", |text| {
         let line = line(text);
-        let (start, _) = line.rsplit_once(',').expect("a number");
-        text.replacen(&line, &format!("{start},0.125"), 1)
+        text.replacen(&line, &with_error(&line, 0.125), 1)
     });
     place.fail("out", &["--gather"], 1, &["[3, 25]", ".csv"]);
     assert!(!place.has_results("out"));
