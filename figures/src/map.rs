@@ -1,11 +1,12 @@
 //! The stability map of a user's scene: table and picture.
 
 use crate::failure::{Failure, print, say};
+use crate::outputs;
 use crate::panels::{Labels, map_panel};
 use crate::uniform;
 use clap::Parser;
 use files::scene_file::{self, Kind, SceneFile};
-use files::write::{atomic_all, can_be_folder, make_folder};
+use files::write::{atomic_all, make_folder};
 use plot::style::COLUMN_WIDTH;
 use plot::{ColorScale, Picture};
 use scene::map::{Computed, Value};
@@ -31,14 +32,20 @@ pub struct Arguments {
     json: bool,
 }
 
+/// The files of a panel.
+const ENDINGS: [&str; 3] = ["csv", "svg", "png"];
+
 /// Computes the maps and writes what was asked for.
 ///
 /// # Errors
 /// A bad scene (nothing is written), or a file that cannot be written.
 pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     let parsed = scene_file::read(&arguments.scene)?;
-    arguments.out.iter().try_for_each(|folder| can_be_folder(folder))?;
     let panels: Vec<_> = parsed.panels.iter().filter(|panel| panel.kind == Kind::Map).collect();
+    let files_of = |folder: &PathBuf, name: &str| ENDINGS.map(|ending| folder.join(format!("{name}.{ending}")));
+    let in_folder = |folder| panels.iter().flat_map(move |panel| files_of(folder, &panel.name));
+    let results: Vec<PathBuf> = arguments.out.iter().flat_map(in_folder).collect();
+    outputs::can_write(&arguments.scene, arguments.out.as_deref(), &results)?;
     if panels.is_empty() {
         return points(&parsed, arguments);
     }

@@ -2,6 +2,7 @@
 
 use crate::checkpoint::CheckpointOptions;
 use crate::failure::{Failure, print, say};
+use crate::outputs;
 use crate::panels::trajectories;
 use crate::uniform;
 use files::reader::Section;
@@ -134,15 +135,11 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
 /// Whether the files can be written, asked before a long run: none of them may be the scene, and the checkpoint, which is
 /// removed at the end, none of the others.
 fn can_write(arguments: &Arguments) -> Result<(), Failure> {
-    arguments.out.iter().try_for_each(|folder| files::write::can_be_folder(folder))?;
-    let checkpoint = arguments.care.file();
     let in_folder = arguments.out.iter().flat_map(|folder| OUTPUTS.map(|name| folder.join(name)));
     let results: Vec<PathBuf> = in_folder.chain(arguments.state.clone()).collect();
-    let places = results.iter().map(PathBuf::as_path).chain(checkpoint);
-    if let Some(place) = places.clone().find(|place| is_same_file(place, &arguments.scene)) {
-        let problem = "is the scene, which would be overwritten; choose another folder or file for the results";
-        return Err(Failure::input(format!("{}: {problem}", place.display())));
-    }
+    let checkpoint = arguments.care.file();
+    outputs::can_write(&arguments.scene, arguments.out.as_deref(), &results)?;
+    checkpoint.map_or(Ok(()), |file| outputs::is_not_scene(file, &arguments.scene))?;
     match checkpoint.filter(|file| results.iter().any(|place| is_same_file(place, file))) {
         Some(file) => Err(Failure::input(format!(
             "{}: the checkpoint is removed at the end of the run; choose a file that holds no results",

@@ -129,7 +129,11 @@ impl Section {
                 // keys nested too deep: the parser does not say where, but says the same of that line alone
                 None => text.lines().position(is_rejected_without_place).map_or(0, |index| index + 1),
             };
-            let hint = text.lines().nth(line.wrapping_sub(1)).and_then(hint_in);
+            let said = text.lines().nth(line.wrapping_sub(1)).map(str::trim);
+            let hint = match said {
+                Some(said) if error.message() == "duplicate key" => Some(format!("{said}; each key must occur once")),
+                said => said.and_then(hint_in),
+            };
             fail(line, format!("{}{}", error.message(), hint.map_or(String::new(), |hint| format!(": {hint}"))))
         })?;
         section(text, table.get_ref(), 1).map_err(|(line, problem)| fail(line, problem))

@@ -112,6 +112,19 @@ pub fn can_be_folder(path: &Path) -> io::Result<()> {
     Err(with_path(io::Error::new(io::ErrorKind::InvalidInput, problem), at))
 }
 
+/// Whether a file of this name can be written, asked before a long run rather than after it: a draft is, and removed. Nothing is
+/// asked of a file whose folder is still to be made.
+///
+/// # Errors
+/// Something that a rename would destroy has this name; or the operating system's, with the path in its text.
+pub fn can_be_file(path: &Path) -> io::Result<()> {
+    let draft = Draft::new(path)?;
+    if !folder_of(path).exists() {
+        return Ok(());
+    }
+    File::create(draft.path()).map(drop).map_err(|error| with_path(error, path))
+}
+
 /// Whether two paths name one file, also through a link, whether or not it exists yet.
 pub fn is_same_file(one: &Path, other: &Path) -> bool {
     let entry = |path: &Path| Some((fs::canonicalize(folder_of(path)).ok()?, path.file_name()?.to_owned()));

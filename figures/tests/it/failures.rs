@@ -64,6 +64,40 @@ fn a_folder_that_cannot_be_made_is_named() {
     assert_eq!(std::fs::read_to_string(&file).expect("still there"), "in the way");
 }
 
+/// A run that would last for hours: what would keep its results from being written is said before it.
+#[test]
+fn results_that_cannot_be_written_are_told_before_the_run() {
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    let place = |name: &str| scratch.path().join(name).to_str().expect("UTF-8").to_owned();
+    let text = std::fs::read_to_string(root().join("scenes/ring.toml")).expect("the example scene");
+    std::fs::create_dir_all(place("taken/std.csv")).expect("a folder");
+    std::fs::create_dir_all(place("scene")).expect("a folder");
+    std::fs::write(place("scene/std.csv"), &text).expect("a scene");
+    std::fs::write(place("long.toml"), &text).expect("a scene");
+    let cases = [
+        ("long.toml", "taken", "new.csv", "taken/std.csv: is a folder"),
+        ("long.toml", "out", "taken", "taken: is a folder"),
+        ("long.toml", "out", "nowhere/new.csv", "new.csv: its folder is missing"),
+        ("long.toml", "scene", "scene/events.csv", "two files of this name"),
+        ("scene/std.csv", "scene", "new.csv", "is the scene"),
+    ];
+    for (scene, out, state, words) in cases {
+        let long = ["--t-end", "1e9", "--sample", "1e6"];
+        let (scene, out, state) = (place(scene), place(out), place(state));
+        let output = run("simulate", &[&[scene.as_str(), "--out", &out, "--state", &state][..], &long].concat());
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{told}");
+        assert!(told.contains(words) && told.lines().count() == 1, "{words}: {told}");
+    }
+    assert!(!scratch.path().join("out").exists() && files_in(&scratch.path().join("scene")) == 1);
+    // the table of a map has the name of its panel
+    std::fs::write(place("scene/main.csv"), std::fs::read(root().join("scenes/map.toml")).expect("a map"))
+        .expect("a map");
+    let output = run("map", &[&place("scene/main.csv"), "--out", &place("scene")]);
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.code() == Some(2) && told.contains("is the scene"), "{told}");
+}
+
 #[test]
 fn a_figure_says_which_table_is_missing() {
     let scratch = tempfile::tempdir().expect("a scratch folder");

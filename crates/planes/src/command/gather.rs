@@ -11,6 +11,9 @@ use std::io::ErrorKind;
 use std::path::PathBuf;
 use sweep::{CellOutcome, DecidedBy, table};
 
+/// The files that are written to the folder of a plane.
+pub(super) const OUTPUTS: [&str; 5] = ["cells.csv", "sweep.png", "sweep.svg", "summary.json", "SHA256SUMS"];
+
 /// Gathers the shards in the folder.
 ///
 /// # Errors

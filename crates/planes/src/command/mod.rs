@@ -6,6 +6,7 @@ mod journal;
 mod work;
 
 use figures::failure::{Failure, print};
+use figures::outputs::can_write;
 use files::scene_file::{self, Kind, SceneFile};
 use files::write::{make_folder, sha256, sha256_file};
 use journal::Shard;
@@ -77,6 +78,8 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.dry_run {
         return dry_run(&task, arguments, jobs);
     }
+    let results = gather::OUTPUTS.map(|name| task.out.join(name));
+    can_write(&arguments.scene, Some(&task.out), &results)?;
     if arguments.gather {
         return gather::gather(&task, arguments);
     }

@@ -62,6 +62,7 @@ fn complaints_about_the_whole_file() {
         RUN,
         &[
             ("[law]", "size = 3\n[law]", &format!(":1: size: unknown key; known here: {known}")),
+            ("[run]", "[ring]\n[run]", ":10: duplicate key: [ring]; each key must occur once"),
             ("[law]", "[laws]", &format!(":1: laws: unknown key; known here: {known}")),
             ("[law]", "title = 3\n[law]", ":1: title: must be a text"),
             ("[law]", "source = 3\n[law]", ":1: source: must be a text"),
