@@ -12,6 +12,9 @@ use scene::run::{self, AtOverlap, FORMS};
 /// As many cells as a sweep may have: 100 bytes each.
 const MOST_CELLS: usize = 400_000_000;
 
+/// As many pedestrians as a run may have.
+const MOST_PEDESTRIANS: usize = 10_000_000;
+
 /// Reads a sweep from the tables of a panel.
 ///
 /// # Errors
@@ -73,7 +76,7 @@ pub fn read(file: &str, tables: &Section) -> Result<Sweep, SceneError> {
         return Err(Reader::new(file, "law", held.section("law")?).complaint("scale", problem));
     }
     let mut reader = Reader::new(file, "ring", held.section("ring")?);
-    let pedestrians = reader.count("pedestrians", 2, 10_000_000)?;
+    let pedestrians = reader.count("pedestrians", 2, MOST_PEDESTRIANS)?;
     let ring = Ring { pedestrians, length: reader.number("length", POSITIVE)? };
     reader.finish()?;
     let mut reader = Reader::new(file, "start", held.section("start")?);
@@ -106,6 +109,9 @@ fn axis(file: &str, name: &'static str, section: &Section) -> Result<Axis, Scene
     }
     if axis.is_whole && axis.from < 2.0 {
         return Err(reader.complaint("from", "must be a number >= 2.0"));
+    }
+    if axis.is_whole && axis.to > MOST_PEDESTRIANS as f64 {
+        return Err(reader.complaint("to", &format!("must be a number <= {MOST_PEDESTRIANS}")));
     }
     reader.finish()?;
     Ok(axis)

@@ -33,6 +33,10 @@ fn axes_that_are_no_parameters_are_named_with_what_is_valid() {
         ),
         (axis("x = { parameter = \"pedestrians\", from = 1.0, to = 9.0, cells = 30 }"), vec!["sweep.x.from", "2"]),
         (
+            axis("x = { parameter = \"pedestrians\", from = 2.0, to = 1e300, cells = 30 }"),
+            vec!["sweep.x.to", "<= 10000000"],
+        ),
+        (
             axis("value = \"margin\"\nx = { parameter = \"a_v\", from = 0.0, to = 0.6, cells = 30 }"),
             vec!["sweep.value", "outcome"],
         ),
