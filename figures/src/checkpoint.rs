@@ -1,8 +1,8 @@
 //! Progress of a long run, and a checkpoint file from which it is resumed after a kill.
 //!
-//! The file: a line `checkpoint 3 RUN SUM`, then the seconds of CPU so far and the run, as 64-bit words. `RUN` is the
-//! SHA-256 of the program and of the scene, `SUM` that of everything behind the line: what is damaged, cut off or of
-//! another run or program is not used, and the run starts over.
+//! The file: a line `checkpoint 4 PROGRAM SCENE SUM`, then the seconds of CPU so far and the run, as 64-bit words. These are
+//! SHA-256, `SUM` that of everything behind the line. What is damaged, cut off or of another program is of no use, and the
+//! run starts over. What this program would resume with another scene is refused: starting over would lose it.
 
 use crate::failure::{Failure, say};
 use cpu_time::{ProcessTime, ThreadTime};
@@ -67,11 +67,11 @@ const SILENCE: Duration = Duration::from_secs(1);
 impl CheckpointOptions {
     /// Runs the scene, from the checkpoint if there is one; if it is to be checked, its steps are asked for their errors.
     ///
-    /// # Errors The program cannot be read; its hash identifies the checkpoint.
+    /// # Errors The program cannot be read; its hash identifies the checkpoint. The checkpoint is that of another scene.
     pub fn run(&self, scene: &Scene, is_checked: bool) -> Result<FinishedRun, Failure> {
         let clock = ProcessTime::now();
         let mut keeper = CheckpointWriter::new(self, scene)?;
-        let (from, before) = keeper.load(scene).unzip();
+        let (from, before) = keeper.load(scene)?.unzip();
         let (steps, done) = from.as_ref().map_or((0, 0.0), |from| (from.steps(), from.fraction(scene)));
         keeper.start(done, before.unwrap_or(0.0));
         // a checkpoint does not keep the errors before it
@@ -128,11 +128,16 @@ impl CheckpointOptions {
     }
 }
 
+/// The first line of a checkpoint of this program and scene.
+fn head([program, scene]: [&str; 2], body: &[u8]) -> String {
+    format!("{MARK}4 {program} {scene} {}\n", sha256(body))
+}
+
 /// Looks at a run now and then.
 struct CheckpointWriter<'a> {
     care: &'a CheckpointOptions,
-    /// The SHA-256 of the program and the scene; empty when nothing is kept.
-    run: String,
+    /// The SHA-256 of the program and of the scene; empty when nothing is kept.
+    run: [String; 2],
     /// Seconds of CPU before this process.
     before: f64,
     clock: ProcessTime,
@@ -148,10 +153,9 @@ impl<'a> CheckpointWriter<'a> {
     fn new(care: &'a CheckpointOptions, scene: &Scene) -> Result<CheckpointWriter<'a>, Failure> {
         let is_kept = care.checkpoint.is_some();
         let run = if is_kept {
-            let program = sha256_file(&std::env::current_exe()?)?;
-            sha256(format!("{program}\n{scene:?}").as_bytes())
+            [sha256_file(&std::env::current_exe()?)?, sha256(format!("{scene:?}").as_bytes())]
         } else {
-            String::new()
+            [String::new(), String::new()]
         };
         let (clock, now) = (ProcessTime::now(), Instant::now());
         let (next_word, next_writing) = (now + SILENCE, now + care.checkpoint_every);
@@ -160,22 +164,28 @@ impl<'a> CheckpointWriter<'a> {
     }
 
     /// The checkpoint and the seconds before it; `None` without a valid one.
-    fn load(&self, scene: &Scene) -> Option<(Checkpoint, f64)> {
-        let file = self.care.checkpoint.as_ref().filter(|_| !self.run.is_empty())?;
-        let bytes = std::fs::read(file).ok()?;
-        let (line, body) = bytes.split_at(bytes.iter().position(|&byte| byte == b'\n')? + 1);
-        let found = (line == self.line(body).as_bytes())
+    ///
+    /// # Errors
+    /// It is one of another scene.
+    fn load(&self, scene: &Scene) -> Result<Option<(Checkpoint, f64)>, Failure> {
+        let Some(file) = &self.care.checkpoint else { return Ok(None) };
+        let Ok(bytes) = std::fs::read(file) else { return Ok(None) };
+        let (line, body) = bytes.split_at(bytes.iter().position(|&byte| byte == b'\n').map_or(0, |end| end + 1));
+        let [program, own] = &self.run;
+        let of = String::from_utf8_lossy(line).split(' ').nth(3).unwrap_or_default().to_owned();
+        if of != *own && line == head([program, &of], body).as_bytes() {
+            let problem =
+                "is the checkpoint of another scene, whose run would be lost; choose another file, or remove it";
+            return Err(Failure::input(format!("{}: {problem}", file.display())));
+        }
+        let found = (line == head([program, own], body).as_bytes())
             .then(|| body.split_first_chunk())
             .flatten()
             .and_then(|(seconds, words)| Some((Checkpoint::parse(words, scene)?, f64::from_le_bytes(*seconds))));
-        if found.is_none() {
-            say(&format!("{}: damaged, or from another run or program; the run starts over", file.display()));
+        if found.is_none() && !bytes.is_empty() {
+            say(&format!("{}: damaged, or from another program; the run starts over", file.display()));
         }
-        found
-    }
-
-    fn line(&self, body: &[u8]) -> String {
-        format!("{MARK}3 {} {}\n", self.run, sha256(body))
+        Ok(found)
     }
 
     fn start(&mut self, done: f64, before: f64) {
@@ -190,7 +200,7 @@ impl<'a> CheckpointWriter<'a> {
         let Some(file) = &self.care.checkpoint else { return };
         let seconds = self.before + self.clock.elapsed().as_secs_f64();
         let body = [&seconds.to_le_bytes()[..], &underway.to_bytes()].concat();
-        let bytes = [self.line(&body).as_bytes(), &body].concat();
+        let bytes = [head(self.run.each_ref().map(String::as_str), &body).as_bytes(), &body].concat();
         if let Err(error) = atomic(file, &bytes) {
             say(&format!("no checkpoint: {error}"));
         }
@@ -227,7 +237,7 @@ impl RunObserver for CheckpointWriter<'_> {
             self.next_word = now + SILENCE;
             self.tell(underway.fraction());
         }
-        if now >= self.next_writing && !self.run.is_empty() {
+        if now >= self.next_writing && self.care.checkpoint.is_some() {
             self.write(underway);
             let wait = now.elapsed() * WRITING;
             self.next_writing =
