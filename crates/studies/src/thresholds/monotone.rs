@@ -14,8 +14,7 @@ pub fn table(maps: &[(&str, Map)]) -> Result<Rows, Failure> {
     let mut rows = Rows::new(&["figure", "panel", "axis", "cells", "pairs", "rising", "falling", "lost", "regained"]);
     for (name, map) in maps {
         let (figure, panel) = name.split_once('_').unwrap_or((name, ""));
-        let computed = map.compute().map_err(Failure::input)?.table;
-        let values = computed.column(map.columns()[2])?;
+        let values = map.compute().map_err(Failure::input)?.values();
         let (columns, lines) = (map.x.cells, map.y.cells);
         let value = |i: usize, j: usize| values[i * lines + j];
         for (axis, along_x) in [(map.x.parameter.as_str(), true), (map.y.parameter.as_str(), false)] {
