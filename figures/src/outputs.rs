@@ -16,14 +16,24 @@ pub fn can_write(scene: &Path, folder: Option<&Path>, results: &[PathBuf]) -> Re
             return Err(Failure::input(format!("{}: two files of this name would be written", place.display())));
         }
     }
-    for place in results {
-        let above = place.parent().filter(|above| !above.as_os_str().is_empty() && !above.exists());
-        if above.is_some() && above != folder {
-            return Err(Failure::input(format!("{}: its folder is missing; make it first", place.display())));
-        }
-        can_be_file(place)?;
+    // the first of the folders that will be made
+    let is_missing = |at: &&Path| !at.as_os_str().is_empty() && !at.exists();
+    if let Some(first) = folder.and_then(|folder| folder.ancestors().take_while(is_missing).last()) {
+        can_be_file(first)?;
     }
-    Ok(())
+    results.iter().try_for_each(|place| can_write_one(place, folder))
+}
+
+/// Whether this file can be written, now or after the folder is made.
+///
+/// # Errors
+/// It is a folder or a device; the folder above it is missing, or takes no files.
+pub fn can_write_one(place: &Path, folder: Option<&Path>) -> Result<(), Failure> {
+    let above = place.parent().filter(|above| !above.as_os_str().is_empty() && !above.exists());
+    if above.is_some() && above != folder {
+        return Err(Failure::input(format!("{}: its folder is missing; make it first", place.display())));
+    }
+    Ok(can_be_file(place)?)
 }
 
 /// Whether a file that will be replaced is not the scene.

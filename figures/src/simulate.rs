@@ -145,7 +145,10 @@ fn can_write(arguments: &Arguments) -> Result<(), Failure> {
             "{}: the checkpoint is removed at the end of the run; choose a file that holds no results",
             file.display()
         ))),
-        None => arguments.care.is_spare(),
+        None => arguments
+            .care
+            .is_spare()
+            .and_then(|()| checkpoint.map_or(Ok(()), |file| outputs::can_write_one(file, None))),
     }
 }
 
@@ -295,11 +298,12 @@ fn in_words(
     seconds: f64,
 ) -> String {
     let statistics = &outcome.statistics;
+    let length = scene.ring.length;
+    let length = if length < uniform::LONG { length.to_string() } else { format!("{length:e}") };
     let mut text = format!(
-        "{} law, {} pedestrians on {}: {} to t = {:?}\n{} steps ({} rejected), {} right-hand sides, {seconds:.3} s",
+        "{} law, {} pedestrians on {length}: {} to t = {:?}\n{} steps ({} rejected), {} right-hand sides, {seconds:.3} s",
         scene.model.name(),
         scene.ring.pedestrians,
-        scene.ring.length,
         scene.method.name(),
         statistics.time,
         statistics.steps,

@@ -2,12 +2,16 @@
 
 use scene::uniform::Stability;
 
+/// Larger numbers are written with a power of ten.
+pub(crate) const LONG: f64 = 1e15;
+
 /// One line, for a ring of `count` pedestrians; `None` where there is no flow that could be stable.
 pub fn in_words(flow: Option<&Stability>, count: usize) -> String {
     let Some(&Stability { speed, margin, margin_on_ring, ref growing, growth_rate, waves }) = flow else {
         return "no uniform flow with a linear response, so stability is undefined".to_owned();
     };
-    let flow = format!("uniform flow at speed {speed:.6}");
+    let flow = if speed.abs() < LONG { format!("{speed:.6}") } else { format!("{speed:e}") };
+    let flow = format!("uniform flow at speed {flow}");
     let wave = format!("the wave with {waves} period{}", if waves == 1 { "" } else { "s" });
     let on_ring = if margin_on_ring > 0.0 {
         format!("on this ring of {count} {wave} grows fastest, at rate {growth_rate:.4e}")

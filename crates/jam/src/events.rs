@@ -19,7 +19,8 @@ pub enum EventKind {
     NegativeSpeed,
     /// `s_n < 0`: the pedestrian has passed the one ahead.
     Exchange,
-    /// The formula of the law has no value for the pedestrian: the logarithm of something negative, say.
+    /// The formula of the law has no value for the pedestrian: the logarithm of something negative, say. By steps of fixed
+    /// length the time may be that of the start of the step in which this happens.
     Undefined,
     /// `|v_n|` exceeds [`BLOW_UP`] times the desired speed (or 1): nothing stops it from growing without bound. Also, at a
     /// singular wall, an effective gap below every double: the speeds are still finite, and the time is that of this
@@ -77,7 +78,7 @@ pub struct Event {
     pub pedestrian: usize,
     /// The spacing `s_n` to the pedestrian ahead then, in units of `a_0`.
     pub gap: f64,
-    /// The length of the step that contains it, in units of `tau`; 0 at the start.
+    /// The length of the step that contains it, in units of `tau`; 0 at the start, and where a step of any length was refused.
     pub step: f64,
 }
 

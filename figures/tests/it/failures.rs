@@ -90,6 +90,10 @@ fn results_that_cannot_be_written_are_told_before_the_run() {
         assert!(told.contains(words) && told.lines().count() == 1, "{words}: {told}");
     }
     assert!(!scratch.path().join("out").exists() && files_in(&scratch.path().join("scene")) == 1);
+    let kept = ["--checkpoint", &place("nowhere/run.checkpoint"), "--t-end", "1e9", "--sample", "1e6"];
+    let output = run("simulate", &[&["scenes/ring.toml"], &kept[..]].concat());
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.code() == Some(2) && told.contains("run.checkpoint: its folder is missing"), "{told}");
     // the table of a map has the name of its panel
     std::fs::write(place("scene/main.csv"), std::fs::read(root().join("scenes/map.toml")).expect("a map"))
         .expect("a map");
@@ -355,4 +359,15 @@ fn the_map_of_a_run_is_the_stability_of_its_uniform_flow() {
         assert!(words.contains(if is_stable { ": stable" } else { ": unstable" }), "{words}");
         assert!(!out.exists(), "a map of one point writes nothing");
     }
+}
+
+#[test]
+fn numbers_of_hundreds_of_digits_are_told_by_their_power_of_ten() {
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    let law = "kind = \"formula\"\nacceleration = \"1e300*tanh(s) - v\"\nbody = 0.0";
+    let text = thirty(law, "t_end = 1.0\ntolerance = 1e-8\nmethod = \"dop853\"");
+    let text = text.replace("length = 60.0", "length = 1e305");
+    let output = on_scene("simulate", &text, &scratch.path().join("out"), &["--tables-only", "--no-check"]);
+    let told = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(told.contains("on 1e305: ") && told.lines().all(|line| line.len() < 300), "{told}");
 }
