@@ -82,7 +82,8 @@ def map(scene: Scene, *, panel: str | None = None, progress: Progress = None, **
     default) is the largest -D / ((1 - cos k) sum_j f_{s_j}) over all k, negative where all waves decay; ``growth_rate`` is
     Re z of one k; ``criterion`` is the paper's, blank where its assumptions fail.
 
-    Raises `SceneError` (a ValueError) for an invalid scene, and if a cell has no uniform flow.
+    Cells without a uniform flow or a value are blank. Raises `SceneError` (a ValueError) for an invalid scene, if a cell has
+    several uniform flows and the scene names none, and if no cell has a value.
 
     >>> speeds = map({
     ...     "law": {"kind": "formula", "acceleration": "kappa*(V - v)", "V": "tanh(s - 2) + tanh(2)", "body": 0.0},
