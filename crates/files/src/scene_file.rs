@@ -143,6 +143,10 @@ fn panels(base: &Section, named: &Section) -> Result<Vec<Panel>, (usize, String)
                 let problem = "must be a name of the letters a to z and A to Z, digits, _ and -";
                 return Err((entry.line, format!("panel.{name:?}: {problem}")));
             }
+            if is_device(name) {
+                let problem = "is the name of a device on Windows, with any ending; must be another";
+                return Err((entry.line, format!("panel.{name}: {problem}")));
+            }
             let Value::Section(over) = &entry.value else {
                 return Err((entry.line, format!("panel.{name}: must be a table")));
             };
@@ -157,6 +161,14 @@ fn panels(base: &Section, named: &Section) -> Result<Vec<Panel>, (usize, String)
             Ok(Panel { name: name.clone(), kind: kind(&tables), tables })
         })
         .collect()
+}
+
+/// Whether files of this name, whatever follows a dot, are devices on Windows: what is written there is lost.
+fn is_device(name: &str) -> bool {
+    let name = name.to_ascii_lowercase();
+    let port = ["com", "lpt"].iter().find_map(|kind| name.strip_prefix(kind));
+    ["con", "prn", "aux", "nul"].contains(&name.as_str())
+        || port.is_some_and(|port| port.len() == 1 && port.bytes().all(|byte| byte.is_ascii_digit()))
 }
 
 fn determining(document: &Section) -> Section {

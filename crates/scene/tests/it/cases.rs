@@ -235,7 +235,14 @@ fn names_of_panels_are_no_paths() {
     );
     assert_eq!(error.line, 7, "{error}");
     assert!(error.problem.starts_with("panel.aB: differs from panel.Ab (line 3) in case only"), "{error}");
-    for good in ["x", "N_2-b", "7"] {
+    for device in ["con", "NUL", "Com1"] {
+        let error = refusal(&format!("[run]\nt_end = 1.0\n[panel.{device}.run]\nt_end = 2.0\n"));
+        assert!(
+            error.line == 3 && error.problem.starts_with(&format!("panel.{device}: is the name of a device")),
+            "{error}"
+        );
+    }
+    for good in ["x", "N_2-b", "7", "com", "com12", "contact"] {
         files::scene_file::parse("my.toml", &format!("[panel.{good}.run]\nt_end = 2.0\n")).expect("a name");
     }
 }
