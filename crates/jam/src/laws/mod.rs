@@ -276,22 +276,35 @@ impl Model {
     /// # Errors
     /// As [`Model::with`].
     pub fn with_all(&self, values: &[(&str, f64)]) -> Result<Model, String> {
-        let known = self.parameters();
-        if let Some((name, _)) = values.iter().find(|(name, _)| !known.iter().any(|own| own == name)) {
-            return Err(format!("the {} law has no parameter {name}; it has {}", self.name(), known.join(", ")));
-        }
         let mut model = self.clone();
-        each!(
+        let unknown = each!(
             &mut model,
-            law => for (name, value) in values {
-                set(law, name, *value);
+            law => values.iter().find(|(name, value)| !set(law, name, *value)),
+            formula => {
+                let unknown = values.iter().find(|(name, _)| formula.parameter(name).is_none());
+                if unknown.is_none() {
+                    *formula = formula.with_all(values).map_err(|error| error.to_string())?;
+                }
+                unknown
             },
-            formula => *formula = formula.with_all(values).map_err(|error| error.to_string())?,
-            own => for (name, value) in values {
-                *own = own.with(name, *value).transpose()?.unwrap_or_else(|| own.clone());
+            own => {
+                let mut unknown = None;
+                for value in values {
+                    match own.with(value.0, value.1).transpose()? {
+                        Some(changed) => *own = changed,
+                        None => unknown = Some(value),
+                    }
+                }
+                unknown
             }
         );
-        Ok(model)
+        match unknown {
+            None => Ok(model),
+            Some((name, _)) => {
+                let known = self.parameters().join(", ");
+                Err(format!("the {} law has no parameter {name}; it has {known}", self.name()))
+            }
+        }
     }
 
     /// Whether the spacing is what the law measures contact by, so that there is no effective gap `d'` of the uniform flow
