@@ -301,7 +301,8 @@ fn in_words(
     let length = scene.ring.length;
     let length = if length < uniform::LONG { length.to_string() } else { format!("{length:e}") };
     let mut text = format!(
-        "{} law, {} pedestrians on {length}: {} to t = {:?}\n{} steps ({} rejected), {} right-hand sides, {seconds:.3} s",
+        "{} law, {} pedestrians on {length}: {} to t = {:?}\n\
+         {} steps ({} rejected), {} right-hand sides, {seconds:.3} s",
         scene.model.name(),
         scene.ring.pedestrians,
         scene.method.name(),

@@ -112,8 +112,8 @@ pub fn can_be_folder(path: &Path) -> io::Result<()> {
     Err(with_path(io::Error::new(io::ErrorKind::InvalidInput, problem), at))
 }
 
-/// Whether a file of this name can be written, asked before a long run rather than after it: a draft is, and removed. Nothing is
-/// asked of a file whose folder is still to be made.
+/// Whether a file of this name can be written, asked before a long run rather than after it: a draft is, and removed.
+/// Nothing is asked of a file whose folder is still to be made.
 ///
 /// # Errors
 /// Something that a rename would destroy has this name; or the operating system's, with the path in its text.

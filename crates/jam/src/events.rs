@@ -19,8 +19,8 @@ pub enum EventKind {
     NegativeSpeed,
     /// `s_n < 0`: the pedestrian has passed the one ahead.
     Exchange,
-    /// The formula of the law has no value for the pedestrian: the logarithm of something negative, say. By steps of fixed
-    /// length the time may be that of the start of the step in which this happens.
+    /// The formula of the law has no value for the pedestrian: the logarithm of something negative, say. By steps of
+    /// fixed length the time may be that of the start of the step in which this happens.
     Undefined,
     /// `|v_n|` exceeds [`BLOW_UP`] times the desired speed (or 1): nothing stops it from growing without bound. Also, at a
     /// singular wall, an effective gap below every double: the speeds are still finite, and the time is that of this
@@ -78,7 +78,8 @@ pub struct Event {
     pub pedestrian: usize,
     /// The spacing `s_n` to the pedestrian ahead then, in units of `a_0`.
     pub gap: f64,
-    /// The length of the step that contains it, in units of `tau`; 0 at the start, and where a step of any length was refused.
+    /// The length of the step that contains it, in units of `tau`; 0 at the start, and where a step of any length was
+    /// refused.
     pub step: f64,
 }
 
@@ -310,8 +311,8 @@ impl<'a> Watch<'a> {
         new
     }
 
-    /// Of a step at whose end the law has no value: adds where that begins, if no stop comes before or at that place, and
-    /// drops what comes after it.
+    /// Of a step at whose end the law has no value: adds where that begins, if no stop comes before or at that place,
+    /// and drops what comes after it.
     fn end_at_edge(&self, step: &mut Step<'_>, new: &mut Vec<Event>) {
         let count = self.before.gaps.len();
         let rates_of = |state: &[f64]| {

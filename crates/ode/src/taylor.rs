@@ -82,9 +82,9 @@ impl Taylor {
         system.series(self.order, self.unit, rows);
     }
 
-    /// Whether a step leads to where the rates have no value, though its end may not. Beside such an edge all terms of the
-    /// series are below the tolerance at a step beyond its radius of convergence, where they grow with the order: the sum may
-    /// turn back before the edge, at every step. The path that counts is the tangent. The rates are spoilt.
+    /// Whether a step leads to where the rates have no value, though its end may not. Beside such an edge all terms of
+    /// the series are below the tolerance at a step beyond its radius of convergence, where they grow with the order:
+    /// the sum may turn back before the edge, at every step. The path that counts is the tangent. The rates are spoilt.
     fn is_beyond(&mut self, system: &dyn System, from: &Trial<'_>, rates: &mut [f64]) -> bool {
         let is_growing = self.last_size * from.h > self.before_size * self.unit;
         if !is_growing {

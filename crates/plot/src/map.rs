@@ -116,8 +116,8 @@ impl Map {
         })
     }
 
-    /// The surface at a place counted in cells from the lower left corner; flat beyond the outer centres, and in cells beside
-    /// one without value, which so hides no other.
+    /// The surface at a place counted in cells from the lower left corner; flat beyond the outer centres, and in cells
+    /// beside one without value, which so hides no other.
     fn value(&self, x: f64, y: f64) -> f64 {
         let (left, right, across) = neighbours(x, self.columns);
         let (below, above, up) = neighbours(y, self.rows);

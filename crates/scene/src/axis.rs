@@ -57,8 +57,8 @@ impl Axis {
     }
 }
 
-/// Tries `read` with the axes at the first cell and, while it fails, at others spread over the plane: a formula may have a
-/// value in a part of it only.
+/// Tries `read` with the axes at the first cell and, while it fails, at others spread over the plane: a formula may
+/// have a value in a part of it only.
 ///
 /// # Errors
 /// That of the first cell, if it fails everywhere.

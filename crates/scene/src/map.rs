@@ -62,9 +62,9 @@ pub const CRITERION_HOLDS: f64 = 1e-3;
 pub struct Computed {
     /// One row for each cell that has a value: the two parameters and the value.
     pub table: Table,
-    /// The cells without a value, by their number in the order of the table with all of them: those without a uniform flow, a
-    /// linear response or a finite number, and those in which the paper's criterion differs from the exact one by more than
-    /// [`CRITERION_HOLDS`].
+    /// The cells without a value, by their number in the order of the table with all of them: those without a uniform
+    /// flow, a linear response or a finite number, and those in which the paper's criterion differs from the exact one
+    /// by more than [`CRITERION_HOLDS`].
     pub blank: Vec<usize>,
     /// How many of them have no value at all.
     pub undefined: usize,
@@ -261,8 +261,8 @@ impl Map {
     /// Computes the map, column of cells by column of cells.
     ///
     /// # Errors
-    /// No cell has a uniform flow and a finite value: the parameters of the first, and why. A cell has several uniform flows,
-    /// of which the scene has to name one.
+    /// No cell has a uniform flow and a finite value: the parameters of the first, and why. A cell has several uniform
+    /// flows, of which the scene has to name one.
     pub fn compute(&self) -> Result<Computed, String> {
         self.compute_seen(&mut |_| ())
     }

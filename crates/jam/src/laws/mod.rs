@@ -271,7 +271,8 @@ impl Model {
         self.with_all(&[(name, value)])
     }
 
-    /// The law with other values of some parameters, all set at once: a formula needs a value with the last of them only.
+    /// The law with other values of some parameters, all set at once: a formula needs a value with the last of them
+    /// only.
     ///
     /// # Errors
     /// As [`Model::with`].

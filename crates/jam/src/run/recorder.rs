@@ -248,8 +248,8 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// The time from which on no further event can be found: that of a blow-up, of a law without a value, of a stop from which no run continues, or of
-    /// the last of all events that can follow it.
+    /// The time from which on no further event can be found: that of a blow-up, of a law without a value, of a stop
+    /// from which no run continues, or of the last of all events that can follow it.
     fn over_since(&self) -> Option<f64> {
         let first = |is_wanted: &dyn Fn(EventKind) -> bool| {
             self.watch.found().iter().find(|event| is_wanted(event.kind)).map(|event| event.time)

@@ -30,8 +30,8 @@ fn taylor_does_not_creep_along_an_edge() {
     }
 }
 
-/// A root without a value below a spacing of 0.42, before the overlap at 0.4. The time is that of verner98 and dop853 at
-/// 1e-13, which agree to 1e-11.
+/// A root without a value below a spacing of 0.42, before the overlap at 0.4. The time is that of verner98 and dop853
+/// at 1e-13, which agree to 1e-11.
 #[test]
 fn a_step_of_fixed_length_over_an_edge_ends_on_it() {
     let (law, ring) = ("2*(2*s - v) + 0.1*sqrt(s - 0.42)", Ring { pedestrians: 20, length: 14.0 });

@@ -198,7 +198,8 @@ fn cells_without_uniform_flow_are_blank_and_told() {
 fn cells_in_which_a_formula_has_no_value_are_blank() {
     let law = |response: &str| {
         format!(
-            "[law]\nkind = \"formula\"\nbody = 0.4\nb = 0.5\nacceleration = \"tanh(s - body) - v + {response}*(v[1] - v)\"\n\
+            "[law]\nkind = \"formula\"\nbody = 0.4\nb = 0.5\n\
+             acceleration = \"tanh(s - body) - v + {response}*(v[1] - v)\"\n\
              [map]\nx = {{ parameter = \"headway\", from = 0.5, to = 1.5, cells = 2 }}\n\
              y = {{ parameter = \"a\", from = -1.0, to = 1.0, cells = 4 }}\n"
         )
