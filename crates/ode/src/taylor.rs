@@ -93,6 +93,10 @@ impl Taylor {
         for ((end, state), rate) in self.missing.iter_mut().zip(from.state).zip(from.rates) {
             *end = state + from.h * rate;
         }
+        // a wall is passed by no step, and needs no such look
+        if !system.in_domain(&self.missing) {
+            return false;
+        }
         system.rates(&self.missing, rates);
         !rates.iter().all(|rate| rate.is_finite())
     }
@@ -148,6 +152,7 @@ impl Stepper for Taylor {
         self.next_unit = unit;
     }
 
+    /// The few looks along a tangent are not counted: a step is made of its series.
     fn evaluations(&self) -> u64 {
         self.order as u64 - 1
     }
@@ -179,7 +184,9 @@ impl Stepper for Taylor {
         let range = first.start..last.end;
         let next = (self.order + 1) as f64;
         let of_last = -ends.h / next * power(ends.h / self.unit, self.order);
-        let faded = 1.0 / (1.0 + system.relaxation_rate() * ends.h / (next + 1.0));
+        // what grows instead does not fade
+        let rate = math::larger(system.relaxation_rate(), 0.0);
+        let faded = 1.0 / (1.0 + rate * ends.h / (next + 1.0));
         let of_defect = faded * ends.h / ((next + 1.0) * next);
         let last = &self.coefficients.row(self.order)[range.clone()];
         let (defect, missing) = (&self.defect[range.clone()], &mut self.missing[range.clone()]);

@@ -93,6 +93,18 @@ const CAUTION: f64 = 2.0;
 /// What a difference of two forces does not show, as a part of them and of the difference of their states.
 const UNSEEN: f64 = 1e-6;
 
+/// The larger one of an error of the standard deviation and that of these speeds, of which `most` is the largest error.
+fn larger_std(so_far: f64, speeds: &[f64], errors: &[f64], most: f64) -> f64 {
+    // no standard deviation is off by more than all of its numbers
+    let may_be_larger = (1.0 + UNSURE) * most > so_far;
+    if !may_be_larger {
+        return so_far;
+    }
+    // what they differ by is carried in single precision
+    let digits = f64::from(f32::EPSILON) * most;
+    math::larger(so_far, std_error(speeds, errors, most) + digits)
+}
+
 impl RunObserver for Propagated {
     fn seen(&mut self, step: &mut Step<'_>, sight: &mut Sight<'_, '_>) {
         self.recent.push_events(step, sight);
@@ -156,7 +168,7 @@ impl Propagated {
         let errors = &error[n..2 * n];
         let most = ode::largest(errors);
         self.looked_at = math::larger(self.looked_at, most);
-        self.std = math::larger(self.std, std_error(&state[n..2 * n], errors, most));
+        self.std = larger_std(self.std, &state[n..2 * n], errors, most);
     }
 
     /// Looks at the error of the standard deviation in a step with samples: at its end, where the state and the error are
@@ -179,12 +191,7 @@ impl Propagated {
                 (&state[n..2 * n], &error[n..2 * n], ode::largest(&error[n..2 * n]))
             }
         };
-        // no standard deviation is off by more than all of its numbers
-        if (1.0 + UNSURE) * most > self.std {
-            // what they differ by is carried in single precision
-            let digits = f64::from(f32::EPSILON) * most;
-            self.std = math::larger(self.std, std_error(speeds, errors, most) + digits);
-        }
+        self.std = larger_std(self.std, speeds, errors, most);
     }
 
     /// Before the first step. A step over a kink does not see what it leaves out.

@@ -271,8 +271,8 @@ impl Model {
         self.with_all(&[(name, value)])
     }
 
-    /// The law with other values of some parameters, all set at once: a formula needs a value with the last of them
-    /// only.
+    /// The law with other values of some parameters. A formula needs a value only when all of them are set; a law of
+    /// your own is set one by one.
     ///
     /// # Errors
     /// As [`Model::with`].

@@ -16,7 +16,8 @@ use std::ops::ControlFlow;
 /// The integration failed before anything stopped it, with the time it reached.
 ///
 /// # Panics
-/// The time between samples, a step or a tolerance is not above 0; or displacements are not one for each pedestrian.
+/// The time between samples, a step or a tolerance is not above 0; or there are displacements, but not one for each
+/// pedestrian.
 pub fn run(run: &Run) -> Result<Outcome, Broken> {
     run_from(run, None, &mut ())
 }
