@@ -1,6 +1,8 @@
 //! An axis of a plane of cells: of a stability map or of a sweep.
 
-use files::reader::{FINITE, Reader, SceneError};
+use crate::law;
+use files::reader::{FINITE, Reader, SceneError, Section};
+use jam::laws::Model;
 
 /// Cells of equal width, or of equal ratio, with the values at their centres.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,6 +41,11 @@ impl Axis {
         Ok(axis)
     }
 
+    /// What keeps a law of the paper, which has no negative parameter, from this axis.
+    pub fn negative(&self) -> Option<String> {
+        (self.from < 0.0).then(|| format!("{} cannot be negative; must be a number >= 0.0", self.parameter))
+    }
+
     /// The value at the centre of cell `i`.
     pub fn centre(&self, i: usize) -> f64 {
         self.at(i as f64 + 0.5)
@@ -57,15 +64,17 @@ impl Axis {
     }
 }
 
-/// Tries `read` with the axes at the first cell and, while it fails, at others spread over the plane: a formula may
-/// have a value in a part of it only.
+/// The law of `[law]`, read with the axes at the first cell. `read` sets them. The law of a formula may have a value in a
+/// part of the plane only: while it has none, others are tried that are spread over it. A law of the paper must be valid in
+/// every cell, and is so if in the first: its ranges have no upper end, and axes rise.
 ///
 /// # Errors
-/// That of the first cell, if it fails everywhere.
-pub fn first_valid<T>(
+/// That of the first cell: of a formula, if it fails everywhere.
+pub fn law_of_plane(
+    law: &Section,
     axes: [&Axis; 2],
-    mut read: impl FnMut([f64; 2]) -> Result<T, SceneError>,
-) -> Result<T, SceneError> {
+    mut read: impl FnMut([f64; 2]) -> Result<Model, SceneError>,
+) -> Result<Model, SceneError> {
     let places = |axis: &Axis| {
         let (cells, count) = (axis.cells, axis.cells.min(TRIED));
         let centres: Vec<f64> = (0..count).map(|place| axis.centre(place * cells / count)).collect();
@@ -73,7 +82,7 @@ pub fn first_valid<T>(
     };
     let [across, up] = axes.map(places);
     let first = read([across[0], up[0]]);
-    if first.is_ok() {
+    if first.is_ok() || law::built_in(law).is_some() {
         return first;
     }
     let mut others = across.iter().flat_map(|x| up.iter().map(|y| [*x, *y])).skip(1);

@@ -1,6 +1,6 @@
 //! Stability over two parameters: `[map]` with `[law]` and `[uniform]`.
 
-use crate::axis::{Axis, first_valid};
+use crate::axis::{Axis, law_of_plane};
 use crate::law;
 use files::reader::{FINITE, POSITIVE, Reader, SceneError, Section};
 use files::table::{Table, push_number};
@@ -159,7 +159,7 @@ pub fn read(file: &str, tables: &Section) -> Result<Map, SceneError> {
         }
     }
     map.finish()?;
-    let model = first_valid([&x, &y], |at| {
+    let model = law_of_plane(law_tables, [&x, &y], |at| {
         let mut law = law_tables.clone();
         for (axis, (section, value)) in [&x, &y].into_iter().zip([x_section, y_section].into_iter().zip(at)) {
             place_holder(&mut law, axis, section, value);
@@ -206,7 +206,7 @@ fn unfit(law: &Section, axis: &Axis) -> Option<(&'static str, String)> {
         let valid = [own.join(", "), OF_THE_FLOW.join(", ")].join(", ");
         return Some(("parameter", format!("the {kind} law has no parameter {name}; an axis can be {valid}")));
     }
-    (axis.from < 0.0).then(|| ("from", format!("{name} cannot be negative; must be a number >= 0.0")))
+    axis.negative().map(|problem| ("from", problem))
 }
 
 /// Axes that are no parameters of a law.

@@ -5,7 +5,7 @@ use files::reader::{Entry, FINITE, POSITIVE, Reader, SceneError, Section, Value}
 use jam::laws::Model;
 use jam::ring::{Ring, Start};
 use ode::{Control, Method};
-use scene::axis::{Axis, first_valid};
+use scene::axis::{Axis, law_of_plane};
 use scene::law;
 use scene::run::{self, AtOverlap, FORMS};
 
@@ -47,13 +47,16 @@ pub fn read(file: &str, tables: &Section) -> Result<Sweep, SceneError> {
         }
         if let Some(law) = tables.section("law").and_then(law::built_in) {
             fits(&law, axis).map_err(|problem| place.complaint("parameter", &problem))?;
+            if let (false, Some(problem)) = (OF_THE_RUN.contains(&axis.parameter.as_str()), axis.negative()) {
+                return Err(place.complaint("from", &problem));
+            }
         }
         hold_place(file, &mut tables, axis, section)?;
     }
     let gap = gap(file, &mut tables, [&x, &y])?;
     let mut held = Reader::new(file, "scene", &tables);
     let law_tables = held.section("law")?;
-    let model = first_valid([&x, &y], |at| {
+    let model = law_of_plane(law_tables, [&x, &y], |at| {
         let mut law = law_tables.clone();
         for (axis, value) in [&x, &y].into_iter().zip(at) {
             if !OF_THE_RUN.contains(&axis.parameter.as_str())

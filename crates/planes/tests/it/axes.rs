@@ -20,6 +20,19 @@ fn axes_that_are_no_parameters_are_named_with_what_is_valid() {
         (axis("x = { parameter = \"kind\", from = 0.0, to = 0.6, cells = 30 }"), vec!["sweep.x.parameter", "a_v"]),
         (axis("x = { parameter = \"d_gap\", from = 0.1, to = 0.6, cells = 30 }"), vec!["sweep.x.parameter", "headway"]),
         (axis("x = { parameter = \"v0\", from = 0.1, to = 0.6, cells = 30 }"), vec!["sweep.y.parameter"]),
+        (
+            replace(
+                &axis("x = { parameter = \"epsilon\", from = -1.0, to = 0.5, cells = 3 }"),
+                "epsilon = 0.01",
+                "a_v = 0.1",
+            ),
+            vec![":15:", "sweep.x.from = -1:", "epsilon", ">= 0"],
+        ),
+        // v0 must be above 0: the first centres round to 0, the last do not
+        (
+            replace(&scene, "from = 0.5, to = 3.0, cells = 30", "from = 0.0, to = 2e-323, cells = 30"),
+            vec![":16:", "law.v0 = 0", "> 0.0"],
+        ),
         (axis("x = { parameter = \"a_v\", from = 0.6, to = 0.6, cells = 30 }"), vec!["sweep.x.to", "0.6"]),
         (axis("x = { parameter = \"a_v\", from = 0.0, to = nan, cells = 30 }"), vec!["sweep.x.to"]),
         (axis("x = { parameter = \"a_v\", from = 0.0, to = 0.6, cells = 0 }"), vec!["sweep.x.cells", "1"]),

@@ -41,6 +41,12 @@ fn complaints_about_maps() {
                 ),
             ),
             ("from = 0.1", "from = -0.1", ":9: map.x.from = -0.1: mu cannot be negative; must be a number >= 0.0"),
+            // v0 must be above 0: the first centres round to 0, the last do not
+            (
+                "v0 = 3.0\n[uniform]\nheadway = 3.0\n[map]\nvalue = \"growth_rate\"\nx = { parameter = \"mu\", from = 0.1, to = 1.5,",
+                "mu = 0.1\n[uniform]\nheadway = 3.0\n[map]\nvalue = \"growth_rate\"\nx = { parameter = \"v0\", from = 0, to = 2e-323,",
+                ":9: law.v0 = 0: must be a number > 0.0",
+            ),
             ("to = 1.5", "to = 0.1", ":9: map.x.to = 0.1: must be above from = 0.1"),
             ("cells = 20", "cells = 0", ":9: map.x.cells = 0: must be a whole number from 1 to 2000"),
             (
