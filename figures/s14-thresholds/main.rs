@@ -18,7 +18,8 @@ fn tables(job: &mut Job) -> Result<(), Failure> {
     // the effect of delta alone: <0.5, 0, 1, 0.1> beside the last panel of figure 14
     let (delta, maps): (Vec<_>, Vec<_>) = maps.into_iter().partition(|(name, _)| *name == "delta_k");
     for (name, map) in delta {
-        job.write(name, &map.compute().map_err(Failure::input)?.table)?;
+        let computed = map.compute().map_err(Failure::input)?;
+        job.write(name, &computed.whole().map_err(|why| Failure::work(format!("{name}: {why}")))?)?;
     }
     job.write_rows("monotone", &monotone::table(&maps)?)?;
     thresholds::tables()?.iter().try_for_each(|(name, rows)| job.write_rows(name, rows))

@@ -263,13 +263,10 @@ impl Job {
             Kind::Map => {
                 let map = scene::map::read(&self.scene_file.file, &panel.tables)?;
                 let computed = map.compute().map_err(Failure::input)?;
-                if !computed.blank.is_empty() {
-                    let problem = format!("{}: {} cells are blank", panel.name, computed.blank.len());
-                    return Err(Failure::work(problem));
-                }
                 let error = json!({ map.columns()[2]: computed.error });
+                let table = computed.whole().map_err(|why| Failure::work(format!("{}: {why}", panel.name)))?;
                 self.report.insert(panel.name.clone(), json!({ "method": "closed form", "error": error }));
-                computed.table
+                table
             }
             Kind::Curve => scene::curve::table(&self.scene_file.file, &panel.tables)?,
             Kind::Run | Kind::Sweep | Kind::Drawing => return Ok(()),

@@ -75,6 +75,14 @@ pub struct Computed {
 }
 
 impl Computed {
+    /// The table, where every cell has a value.
+    ///
+    /// # Errors
+    /// A cell is blank: how many are, and why.
+    pub fn whole(self) -> Result<Table, String> {
+        self.blank_reason().map_or(Ok(self.table), Err)
+    }
+
     /// The values of all cells, NaN for blank ones, as a picture takes them.
     pub fn values(&self) -> Vec<f64> {
         let (mut rows, mut blank) = (self.table.rows(), self.blank.iter().peekable());

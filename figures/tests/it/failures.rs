@@ -115,6 +115,23 @@ fn a_figure_says_which_table_is_missing() {
 }
 
 #[test]
+fn a_figure_has_no_blank_cells() {
+    // in the lowest cells the margin is above all numbers
+    let map = "[panel.left]\nlaw = { kind = \"algebraic\", mu = 0.5, q = 1.0, v0 = 3.0 }\nmap.value = \"margin\"\n\
+               map.x = { parameter = \"a_v\", from = 0.0, to = 0.1, cells = 2 }\n\
+               map.y = { parameter = \"d_gap\", from = 0.0, to = 1e-153, cells = 100 }\n";
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let path = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
+    std::fs::write(path("scene.toml"), map).expect("a scene is written");
+    let [scene, tables] = [path("scene.toml"), path("tables")];
+    let words = ["--scene", &scene, "--tables", &tables, "--pictures", &path("pictures")];
+    let output = run("fig03-algebraic-criterion", &words);
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(4), "{message}");
+    assert!(message.contains("left: 5.0 % blank: 10 cells without a value"), "{message}");
+}
+
+#[test]
 fn a_run_that_ends_in_an_event_ends_well() {
     let scene = "figures/fig07-exponential-std/scene.toml";
     let output = run("simulate", &[scene, "--panel", "unstable", "--json"]);

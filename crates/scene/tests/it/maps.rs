@@ -181,12 +181,14 @@ fn cells_without_uniform_flow_are_blank_and_told() {
     let told =
         "50.0 % blank: 2 cells without a value, the first at headway = 1.5, mu = 0.25: no uniform flow at headway";
     assert!(reason.starts_with(told), "{reason}");
+    assert_eq!(computed.clone().whole().err(), Some(reason));
     let csv = String::from_utf8(computed.to_csv(&map)).expect("text");
     assert!(csv.starts_with("headway,mu,margin\n1.5,0.25,\n1.5,0.75,\n2.5,0.25,"), "{csv}");
     // the others are what they are without these
     let (_, alone) =
         self::computed(&whole.replace("from = 1.0, to = 3.0, cells = 2", "from = 2.0, to = 3.0, cells = 1"));
     assert!(alone.table.rows().eq(computed.table.rows()));
+    assert!(alone.whole().is_ok());
     // a plane without any says why
     let parsed = parsed(&whole.replace("to = 3.0, cells = 2", "to = 2.0, cells = 1"));
     let map = scene::map::read("my.toml", &parsed.panels[0].tables).unwrap_or_else(|error| panic!("{error}"));

@@ -9,12 +9,14 @@ use scene::map::Map;
 /// not; there `rising` means that stability is lost along the axis).
 ///
 /// # Errors
-/// A map cannot be computed.
+/// A map cannot be computed, or a cell of it is blank.
 pub fn table(maps: &[(&str, Map)]) -> Result<Rows, Failure> {
     let mut rows = Rows::new(&["figure", "panel", "axis", "cells", "pairs", "rising", "falling", "lost", "regained"]);
     for (name, map) in maps {
         let (figure, panel) = name.split_once('_').unwrap_or((name, ""));
-        let values = map.compute().map_err(Failure::input)?.values();
+        let computed = map.compute().map_err(Failure::input)?;
+        let whole = computed.whole().map_err(|why| Failure::work(format!("{name}: {why}")))?;
+        let values = whole.column(map.columns()[2])?;
         let (columns, lines) = (map.x.cells, map.y.cells);
         let value = |i: usize, j: usize| values[i * lines + j];
         for (axis, along_x) in [(map.x.parameter.as_str(), true), (map.y.parameter.as_str(), false)] {

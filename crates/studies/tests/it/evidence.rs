@@ -136,6 +136,27 @@ fn along_the_strength_stability_is_lost_once_for_each_distance() {
 }
 
 #[test]
+fn maps_with_blank_cells_are_refused() {
+    // in the lowest cells the margin is above all numbers
+    let map = "law = { kind = \"algebraic\", mu = 0.5, q = 1.0, v0 = 3.0 }\nmap.value = \"margin\"\n\
+               map.x = { parameter = \"a_v\", from = 0.0, to = 0.1, cells = 2 }\n\
+               map.y = { parameter = \"d_gap\", from = 0.0, to = 1e-153, cells = 100 }\n";
+    let parsed = scene_file::parse("a", map).expect("a scene");
+    let counted = scene::map::read("a", &parsed.panels[0].tables).expect("a map");
+    let refused = monotone::table(&[("fig03_left", counted)]).expect_err("cells are blank");
+    assert!(refused.message.starts_with("fig03_left: 5.0 % blank: 10 cells without a value"), "{}", refused.message);
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let scene = folder.path().join("scene.toml");
+    std::fs::write(&scene, format!("[panel.delta_k]\n{map}")).expect("a scene is written");
+    let mut figure = std::process::Command::new(env!("CARGO_BIN_EXE_s14-thresholds"));
+    figure.arg("--scene").arg(&scene).arg("--tables").arg(folder.path()).arg("--pictures").arg(folder.path());
+    let output = figure.output().expect("the figure starts");
+    assert_eq!(output.status.code(), Some(4));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("delta_k: 5.0 % blank: "), "{output:?}");
+    assert!(!folder.path().join("delta_k.csv").exists());
+}
+
+#[test]
 fn distances_are_largest_root_mean_square_and_median() {
     assert_eq!(sizes(&[3.0, -4.0, 0.0]), [4.0, (25.0_f64 / 3.0).sqrt(), 3.0]);
     assert_eq!(sizes(&[1.0, -2.0]), [2.0, 2.5_f64.sqrt(), 1.5]);
