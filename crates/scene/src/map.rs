@@ -107,7 +107,8 @@ impl Computed {
         let criterion = (inexact > 0).then(|| percent(inexact) + criterion);
         let undefined = self.first_undefined.as_ref().map(|first| {
             let count = self.undefined;
-            format!("{}{count} cells without a value, the first {first}", percent(count))
+            let cells = if count == 1 { "cell" } else { "cells" };
+            format!("{}{count} {cells} without a value, the first {first}", percent(count))
         });
         let reasons: Vec<String> = criterion.into_iter().chain(undefined).collect();
         (!reasons.is_empty()).then(|| reasons.join("; "))
@@ -305,7 +306,7 @@ impl Map {
                 continue;
             }
             let difference = (value - other).abs() / size(value);
-            error = if difference > error || difference.is_nan() { difference } else { error };
+            error = math::larger(error, difference);
             table.push(&[x, y, value]);
         }
         match first_undefined {
@@ -380,11 +381,13 @@ impl From<&str> for Lack {
     }
 }
 
-/// The same pair, if the first is a number that a table can hold.
-fn finite(values: (f64, f64)) -> Result<(f64, f64), Lack> {
-    match values.0.is_finite() {
-        true => Ok(values),
-        false => Err(Lack::Value(format!("the value is {:?}: a number is too large or too small here", values.0))),
+/// The same pair, if both are numbers that a table can hold.
+fn finite((value, other): (f64, f64)) -> Result<(f64, f64), Lack> {
+    let why = "a number is too large or too small here";
+    match (value.is_finite(), other.is_finite()) {
+        (true, true) => Ok((value, other)),
+        (false, _) => Err(Lack::Value(format!("the value is {value:?}: {why}"))),
+        (true, false) => Err(Lack::Value(format!("the value found the other way is {other:?}: {why}"))),
     }
 }
 

@@ -171,6 +171,19 @@ fn a_cell_without_a_finite_value_is_named() {
 }
 
 #[test]
+fn a_cell_whose_value_is_not_confirmed_has_none() {
+    let axes = "x = { parameter = \"mu\", from = 0.0, to = 2.0, cells = 1 }\n\
+                y = { parameter = \"headway\", from = 1.0, to = 1e151, cells = 20 }\n";
+    let (_, computed) = computed(&format!("{LAW}[map]\nvalue = \"margin\"\n{axes}"));
+    // the twofold digits end near the square root of the smallest number
+    assert!(!computed.table.is_empty() && computed.undefined > 0, "{:?}", computed.blank);
+    assert!(computed.blank.iter().copied().eq(computed.table.len()..20), "{:?}", computed.blank);
+    assert!(computed.error.is_finite(), "{:e}", computed.error);
+    let first = computed.first_undefined.expect("a reason");
+    assert!(first.contains("the value found the other way is NaN: a number is too large"), "{first}");
+}
+
+#[test]
 fn cells_without_uniform_flow_are_blank_and_told() {
     let axes = "x = { parameter = \"headway\", from = 1.0, to = 3.0, cells = 2 }\n\
                 y = { parameter = \"mu\", from = 0.0, to = 1.0, cells = 2 }\n";
@@ -189,6 +202,8 @@ fn cells_without_uniform_flow_are_blank_and_told() {
         self::computed(&whole.replace("from = 1.0, to = 3.0, cells = 2", "from = 2.0, to = 3.0, cells = 1"));
     assert!(alone.table.rows().eq(computed.table.rows()));
     assert!(alone.whole().is_ok());
+    let (_, one) = self::computed(&whole.replace("from = 0.0, to = 1.0, cells = 2", "from = 0.0, to = 1.0, cells = 1"));
+    assert!(one.blank_reason().is_some_and(|reason| reason.contains(": 1 cell without a value, the first at ")));
     // a plane without any says why
     let parsed = parsed(&whole.replace("to = 3.0, cells = 2", "to = 2.0, cells = 1"));
     let map = scene::map::read("my.toml", &parsed.panels[0].tables).unwrap_or_else(|error| panic!("{error}"));
