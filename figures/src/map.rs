@@ -115,17 +115,20 @@ fn picture(map: &scene::map::Map, numbers: &Computed, values: &[f64]) -> Result<
     };
     let panel = map_panel(map, &numbers.values(), Labels { horizontal: true, vertical: true })?;
     let picture = Picture::new(COLUMN_WIDTH, 70.0).scale(ColorScale::diverging(symbol, values.iter().copied()));
-    let cells = values.len() + numbers.blank.len();
-    let inexact = numbers.blank.len() - numbers.undefined;
-    let parts = [(inexact, "criterion not exact to 0.1 %"), (numbers.undefined, "no uniform flow, or no value")];
-    let told = parts.into_iter().filter(|(count, _)| *count > 0).map(|(count, why)| {
-        let percent = 100.0 * count as f64 / cells as f64;
-        format!("{percent:.1} %: {why}")
-    });
-    let told: Vec<String> = told.collect();
-    Ok(if told.is_empty() {
-        picture.panel(panel)
-    } else {
-        picture.titled(&format!("grey, {}", told.join("; ")), panel)
+    Ok(match title(numbers) {
+        None => picture.panel(panel),
+        Some(title) => picture.titled(&title, panel),
     })
+}
+
+/// What grey cells are, if there are any; short enough for the width of a picture.
+fn title(numbers: &Computed) -> Option<String> {
+    let inexact = numbers.blank.len() - numbers.undefined;
+    let percent = |count: usize| format!("{:.1} %", 100.0 * numbers.share(count));
+    match (inexact, numbers.undefined) {
+        (0, 0) => None,
+        (0, undefined) => Some(format!("grey, {}: no uniform flow, or no value", percent(undefined))),
+        (inexact, 0) => Some(format!("grey, {}: criterion not exact to 0.1 %", percent(inexact))),
+        (inexact, undefined) => Some(format!("grey: {} inexact, {} no value", percent(inexact), percent(undefined))),
+    }
 }

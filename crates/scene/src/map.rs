@@ -114,7 +114,8 @@ impl Computed {
         (!reasons.is_empty()).then(|| reasons.join("; "))
     }
 
-    fn share(&self, count: usize) -> f64 {
+    /// The part of all cells that so many are.
+    pub fn share(&self, count: usize) -> f64 {
         count as f64 / (self.table.len() + self.blank.len()) as f64
     }
 
