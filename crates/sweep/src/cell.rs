@@ -91,7 +91,7 @@ impl Sweep {
     /// The scene of a cell; or the outcome that its start decides.
     ///
     /// # Errors
-    /// A formula without a value: where, which, and what would be valid.
+    /// As [`Sweep::place`].
     fn scene(&self, cell: [usize; 2]) -> Result<Result<Scene, Class>, String> {
         self.scene_at(self.at(cell))
     }
@@ -109,8 +109,15 @@ impl Sweep {
         let value = |name: &str| axes.iter().find(|(parameter, _)| *parameter == name).map(|(_, value)| *value);
         let of_law: Vec<(&str, f64)> =
             axes.into_iter().filter(|(name, _)| !super::read::OF_THE_RUN.contains(name)).collect();
-        // a formula that has no value with these
-        let Ok(model) = self.model.with_all(&of_law) else { return Ok(Err(Class::Undefined)) };
+        let model = match self.model.with_all(&of_law) {
+            Ok(model) => model,
+            Err(problem) => {
+                let own = self.model.parameters();
+                let are_known = of_law.iter().all(|(name, _)| own.iter().any(|known| known == name));
+                // a formula that has no value with these
+                return if are_known { Ok(Err(Class::Undefined)) } else { Err(problem) };
+            }
+        };
         let mut ring = self.ring;
         if let Some(count) = value("pedestrians") {
             ring = Ring { pedestrians: count as usize, length: ring.headway() * count };
@@ -160,7 +167,8 @@ impl Sweep {
     /// What is known of a cell without a run.
     ///
     /// # Errors
-    /// A formula without a value, or with several steady speeds.
+    /// Where, and: formulas that look further than the ring is long; several steady speeds, of which the scene has to name
+    /// one; an axis that is no parameter of the law.
     pub fn place(&self, cell: [usize; 2]) -> Result<Precheck, String> {
         let scene = match self.scene(cell)? {
             Ok(scene) => scene,

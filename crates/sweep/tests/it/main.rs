@@ -86,3 +86,21 @@ fn a_gap_of_the_uniform_flow_gives_each_cell_the_ring_that_an_axis_of_gaps_gives
         assert!(complaint.contains(told), "{told}: {complaint}");
     }
 }
+
+#[test]
+fn only_a_formula_without_a_value_is_undefined() {
+    let mut foreign = sweep();
+    foreign.x.parameter = "mu".to_owned();
+    for problem in [foreign.place([0, 0]).err(), foreign.compute([0, 0]).err()] {
+        let problem = problem.expect("the logarithmic law has no mu");
+        assert!(problem.starts_with("at mu = 0.01, v0 = ") && problem.contains("no parameter mu"), "{problem}");
+    }
+    let text = "[law]\nkind = \"formula\"\nbody = 0.4\nv0 = 1.0\nacceleration = \"v0*tanh(s - body) - v + ln(a)*v\"\n\
+                [ring]\npedestrians = 6\n[start]\nshift = 0.1\n[run]\nt_end = 20.0\n[sweep]\n\
+                x = { parameter = \"a\", from = -1.0, to = 1.0, cells = 2 }\n\
+                y = { parameter = \"headway\", from = 1.0, to = 2.0, cells = 2 }\n";
+    let parsed = scene_file::parse("own.toml", text).expect("TOML");
+    let sweep = read("own.toml", &parsed.panels[0].tables).expect("a sweep");
+    let classes = [0, 1].map(|i| sweep.place([i, 0]).expect("a place").class);
+    assert_eq!(classes, [Some(jam::outcome::Class::Undefined), None]);
+}
