@@ -75,19 +75,22 @@ pub fn law_of_plane(
     axes: [&Axis; 2],
     mut read: impl FnMut([f64; 2]) -> Result<Model, SceneError>,
 ) -> Result<Model, SceneError> {
-    let places = |axis: &Axis| {
-        let (cells, count) = (axis.cells, axis.cells.min(TRIED));
-        let centres: Vec<f64> = (0..count).map(|place| axis.centre(place * cells / count)).collect();
-        centres
-    };
-    let [across, up] = axes.map(places);
-    let first = read([across[0], up[0]]);
+    let places = spread(axes);
+    let first = read(places[0]);
     if first.is_ok() || law::built_in(law).is_some() {
         return first;
     }
-    let mut others = across.iter().flat_map(|x| up.iter().map(|y| [*x, *y])).skip(1);
-    others.find_map(|at| read(at).ok()).map_or(first, Ok)
+    places[1..].iter().find_map(|at| read(*at).ok()).map_or(first, Ok)
 }
 
 /// As many cells along each axis are tried.
 const TRIED: usize = 16;
+
+/// The centres of cells that are spread over the plane, that of the first cell first; of a small plane all.
+pub(crate) fn spread(axes: [&Axis; 2]) -> Vec<[f64; 2]> {
+    let [across, up] = axes.map(|axis| {
+        let (cells, count) = (axis.cells, axis.cells.min(TRIED));
+        (0..count).map(|place| axis.centre(place * cells / count)).collect::<Vec<f64>>()
+    });
+    across.iter().flat_map(|x| up.iter().map(|y| [*x, *y])).collect()
+}

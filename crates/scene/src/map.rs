@@ -1,6 +1,6 @@
 //! Stability over two parameters: `[map]` with `[law]` and `[uniform]`.
 
-use crate::axis::{Axis, law_of_plane};
+use crate::axis::{Axis, law_of_plane, spread};
 use crate::law;
 use files::reader::{FINITE, POSITIVE, Reader, SceneError, Section};
 use files::table::{Table, push_number};
@@ -271,8 +271,8 @@ impl Map {
     /// Computes the map, column of cells by column of cells.
     ///
     /// # Errors
-    /// No cell has a uniform flow and a finite value: the parameters of the first, and why. A cell has several uniform
-    /// flows, of which the scene has to name one.
+    /// Of 256 cells spread over the plane (of a small one: of all) none has a uniform flow and a finite value: the
+    /// parameters of the first, and why. A cell has several uniform flows, of which the scene has to name one.
     pub fn compute(&self) -> Result<Computed, String> {
         self.compute_seen(&mut |_| ())
     }
@@ -282,6 +282,7 @@ impl Map {
     /// # Errors
     /// As [`Map::compute`].
     pub fn compute_seen(&self, onlooker: &mut dyn FnMut(f64)) -> Result<Computed, String> {
+        self.has_values(onlooker)?;
         let mut table = Table::new(&self.columns());
         let (mut error, mut blank) = (0.0, Vec::new());
         let (mut undefined, mut first_undefined) = (0, None);
@@ -289,7 +290,7 @@ impl Map {
         for cell in 0..cells {
             onlooker(cell as f64 / cells as f64);
             let (x, y) = (self.x.centre(cell / self.y.cells), self.y.centre(cell % self.y.cells));
-            let place = |why: &str| format!("at {} = {x:?}, {} = {y:?}: {why}", self.x.parameter, self.y.parameter);
+            let place = |why: &str| self.told([x, y], why);
             let (value, other) = match self.cell(x, y).and_then(finite) {
                 Ok(values) => values,
                 Err(Lack::Choice(why)) => return Err(place(&why)),
@@ -310,10 +311,26 @@ impl Map {
             error = math::larger(error, difference);
             table.push(&[x, y, value]);
         }
-        match first_undefined {
-            Some(why) if undefined == cells => Err(why),
-            first_undefined => Ok(Computed { table, blank, undefined, first_undefined, error }),
+        Ok(Computed { table, blank, undefined, first_undefined, error })
+    }
+
+    /// Whether cells spread over the plane have values: a plane of a heavy formula is not computed in whole to be refused.
+    fn has_values(&self, onlooker: &mut dyn FnMut(f64)) -> Result<(), String> {
+        let (places, mut first) = (spread([&self.x, &self.y]), None);
+        for at in &places {
+            onlooker(0.0);
+            match self.cell(at[0], at[1]).and_then(finite) {
+                Err(Lack::Value(why)) => first.get_or_insert_with(|| self.told(*at, &why)),
+                // several speeds are told where the plane is computed
+                Ok(_) | Err(Lack::Choice(_)) => return Ok(()),
+            };
         }
+        let first = first.unwrap_or_default();
+        Err(format!("{first}; none of {} cells spread over the plane has a value", places.len()))
+    }
+
+    fn told(&self, [x, y]: [f64; 2], why: &str) -> String {
+        format!("at {} = {x:?}, {} = {y:?}: {why}", self.x.parameter, self.y.parameter)
     }
 
     /// The value of a cell, and the same found another way.

@@ -167,7 +167,20 @@ fn a_cell_without_a_finite_value_is_named() {
     let map = scene::map::read("my.toml", &parsed.panels[0].tables).expect("a map");
     let problem = map.compute().expect_err("mu^2 is above all numbers");
     assert!(problem.starts_with("at mu = 1e200, d_gap = 1.25: the value is "), "{problem}");
-    assert!(problem.ends_with("a number is too large or too small here"), "{problem}");
+    let end = "a number is too large or too small here; none of 2 cells spread over the plane has a value";
+    assert!(problem.ends_with(end), "{problem}");
+}
+
+#[test]
+fn a_plane_without_values_is_refused_after_some_cells() {
+    let axes = "x = { parameter = \"mu\", from = 0.0, to = 1.0, cells = 100 }\n\
+                y = { parameter = \"headway\", from = 1.0, to = 1.1, cells = 100 }\n";
+    let parsed = parsed(&format!("{LAW}[map]\n{axes}"));
+    let map = scene::map::read("my.toml", &parsed.panels[0].tables).expect("a map");
+    let mut seen = 0;
+    let problem = map.compute_seen(&mut |_| seen += 1).expect_err("a headway of 1 leaves no room");
+    assert!(problem.ends_with("none of 256 cells spread over the plane has a value"), "{problem}");
+    assert_eq!(seen, 256);
 }
 
 #[test]
