@@ -83,7 +83,8 @@ def map(scene: Scene, *, panel: str | None = None, progress: Progress = None, **
     Re z of one k; ``criterion`` is the paper's, blank where its assumptions fail.
 
     Cells without a uniform flow or a value are blank. Raises `SceneError` (a ValueError) for an invalid scene, if a cell has
-    several uniform flows and the scene names none, and if no cell has a value.
+    several uniform flows and the scene names none, and if no cell has a value of 256
+    that are spread over the plane (of a small one: of all).
 
     >>> speeds = map({
     ...     "law": {"kind": "formula", "acceleration": "kappa*(V - v)", "V": "tanh(s - 2) + tanh(2)", "body": 0.0},
