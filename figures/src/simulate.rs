@@ -8,7 +8,7 @@ use crate::uniform;
 use files::reader::Section;
 use files::scene_file::{self, Kind};
 use files::table::Table;
-use files::write::{atomic_all, is_same_file};
+use files::write::{atomic_all, resolved};
 use jam::errors::Errors;
 use jam::events::Event;
 use jam::outcome::{AGREEMENT, Decision, Verdict};
@@ -140,7 +140,7 @@ fn can_write(arguments: &Arguments) -> Result<(), Failure> {
     let checkpoint = arguments.care.file();
     outputs::can_write(&arguments.scene, arguments.out.as_deref(), &results)?;
     checkpoint.map_or(Ok(()), |file| outputs::is_not_scene(file, &arguments.scene))?;
-    match checkpoint.filter(|file| results.iter().any(|place| is_same_file(place, file))) {
+    match checkpoint.filter(|file| results.iter().any(|place| resolved(place) == resolved(file))) {
         Some(file) => Err(Failure::input(format!(
             "{}: the checkpoint is removed at the end of the run; choose a file that holds no results",
             file.display()

@@ -125,16 +125,12 @@ pub fn can_be_file(path: &Path) -> io::Result<()> {
     File::create(draft.path()).map(drop).map_err(|error| with_path(error, path))
 }
 
-/// Whether two paths name one file, also through a link, whether or not it exists yet.
-pub fn is_same_file(one: &Path, other: &Path) -> bool {
-    let entry = |path: &Path| Some((fs::canonicalize(folder_of(path)).ok()?, path.file_name()?.to_owned()));
-    let is_same = |first: Option<_>, second| first.is_some() && first == second;
-    one == other
-        || is_same(
-            entry(one).map(|(folder, name)| folder.join(name)),
-            entry(other).map(|(folder, name)| folder.join(name)),
-        )
-        || is_same(fs::canonicalize(one).ok(), fs::canonicalize(other).ok())
+/// The one path of a file under any of its names: absolute and without links, also where it or its folder is still to be
+/// made.
+pub fn resolved(path: &Path) -> PathBuf {
+    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+    let from = |at: &Path| Some(fs::canonicalize(at).ok()?.join(path.strip_prefix(at).ok()?));
+    path.ancestors().find_map(from).unwrap_or_else(|| path.clone())
 }
 
 /// The name of a draft of `name`: no other process has this number, and no other draft of this process that count.
@@ -155,7 +151,8 @@ pub fn is_draft_name(name: &str) -> bool {
 /// # Errors
 /// A rename fails: what was renamed before it stays, the other old files are untouched.
 pub fn publish(drafts: Vec<Draft>) -> io::Result<()> {
-    let folders: BTreeSet<PathBuf> = drafts.iter().map(|draft| folder_of(&draft.place)).collect();
+    // each once, whatever its names: this process would wait for itself
+    let folders: BTreeSet<PathBuf> = drafts.iter().map(|draft| resolved(&folder_of(&draft.place))).collect();
     // in the order of their names, so that two writers never wait for each other
     let opened: Vec<Option<File>> = folders.iter().map(|folder| File::open(folder).ok()).collect();
     for folder in opened.iter().flatten() {

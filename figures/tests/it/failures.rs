@@ -236,6 +236,32 @@ fn no_file_of_the_user_is_overwritten_or_removed() {
     }
 }
 
+/// One folder, still to be made, by several names.
+#[test]
+fn a_state_may_be_written_to_the_folder_that_is_made() {
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    let folder = scratch.path();
+    std::fs::copy(root().join("scenes/ring.toml"), folder.join("my.toml")).expect("a scene");
+    let whole = folder.join("o3");
+    let whole = whole.to_str().expect("UTF-8");
+    for (out, state) in
+        [("./o1", "o1/f.csv"), ("o2", "./o2/f.csv"), (whole, "o3/f.csv"), ("o4/run", "o4/f.csv"), ("o5/", "o5/f.csv")]
+    {
+        let (code, told) = in_folder(folder, &["--tables-only", "--out", out, "--state", state]);
+        assert_eq!(code, Some(0), "{out} {state}: {told}");
+        assert!(folder.join(state).exists() && folder.join(out).join("std.csv").exists(), "{out} {state}");
+    }
+    for (out, state, words) in [
+        ("./o6", "o6/std.csv", "two files of this name"),
+        ("o7", "o8/f.csv", "its folder is missing"),
+        ("o7", "o7/run/f.csv", "its folder is missing"),
+    ] {
+        let (code, told) = in_folder(folder, &["--out", out, "--state", state]);
+        assert!(code == Some(2) && told.contains(words), "{out} {state}: {told}");
+        assert!(!folder.join(out).exists(), "{out}");
+    }
+}
+
 #[test]
 fn what_an_earlier_run_left_in_the_folder_is_named() {
     let scratch = tempfile::tempdir().expect("a scratch folder");

@@ -179,3 +179,19 @@ fn a_file_hashes_as_its_bytes() {
     let error = sha256_file(Path::new("no/such/file")).expect_err("there is none");
     assert!(error.to_string().starts_with("no/such/file: "), "{error}");
 }
+
+/// A folder that is locked by one of its names must not be waited for by another.
+#[test]
+fn files_of_one_folder_are_written_together_whatever_its_names() {
+    let folder = Folder::new("names");
+    let other = folder.0.join("..").join(folder.0.file_name().expect("a name"));
+    let files = [(folder.0.join("one"), b"1".to_vec()), (other.join("two"), b"2".to_vec())];
+    let writer = std::thread::spawn(move || atomic_all(&files));
+    let begin = std::time::Instant::now();
+    while !writer.is_finished() {
+        assert!(begin.elapsed().as_secs() < 60, "it waits for itself");
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    writer.join().expect("no panic").expect("written");
+    assert_eq!(folder.names(), ["one", "two"]);
+}
