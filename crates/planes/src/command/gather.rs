@@ -20,20 +20,21 @@ pub(super) const OUTPUTS: [&str; 5] = ["cells.csv", "sweep.png", "sweep.svg", "s
 /// Missing shards, named (code 3); foreign or damaged ones (code 2); two that disagree.
 pub(super) fn gather(task: &Task, arguments: &Arguments) -> Result<(), Failure> {
     let cells = cells(task)?;
+    let [of_cells, png, svg, of_summary, of_sums] = OUTPUTS.map(|name| task.out.join(name));
     let csv = table::table(&task.sweep, &cells);
     let summary = summary(task, &cells);
-    let mut files: Vec<(PathBuf, Vec<u8>)> = vec![(task.out.join("cells.csv"), csv.into_bytes())];
+    let mut files: Vec<(PathBuf, Vec<u8>)> = vec![(of_cells, csv.into_bytes())];
     if !arguments.tables_only {
         let rendered = crate::picture::picture(&task.sweep, &cells)?.render().map_err(Failure::work)?;
-        files.push((task.out.join("sweep.png"), rendered.png));
-        files.push((task.out.join("sweep.svg"), rendered.svg));
+        files.push((png, rendered.png));
+        files.push((svg, rendered.svg));
     }
-    files.push((task.out.join("summary.json"), format!("{summary:#}\n").into_bytes()));
+    files.push((of_summary, format!("{summary:#}\n").into_bytes()));
     let name = |path: &PathBuf| path.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned());
     let mut sums: Vec<String> =
         files.iter().map(|(path, bytes)| format!("{}  {}\n", sha256(bytes), name(path))).collect();
     sums.sort_by(|a, b| a[66..].cmp(&b[66..]));
-    files.push((task.out.join("SHA256SUMS"), sums.concat().into_bytes()));
+    files.push((of_sums, sums.concat().into_bytes()));
     atomic_all(&files)?;
     if arguments.json {
         return print(&summary.to_string());
