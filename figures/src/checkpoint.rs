@@ -1,9 +1,9 @@
 //! Progress of a long run, and a checkpoint file from which it is resumed after a kill.
 //!
 //! The file: a line `checkpoint 4 PROGRAM SCENE SUM`, then the seconds of CPU so far and the run, as 64-bit words.
-//! These are SHA-256, `SUM` that of everything behind the line. What is damaged, cut off or of another program is of no
-//! use, and the run starts over. What this program would resume with another scene is refused: starting over would lose
-//! it.
+//! These are SHA-256, `SUM` that of everything behind the line. What is damaged, cut off or of another program is of no use
+//! to this one: the run starts over, and replaces it. What this program would resume with another scene is refused, since
+//! it would be replaced too, and it is of use.
 
 use crate::failure::{Failure, say};
 use cpu_time::{ProcessTime, ThreadTime};

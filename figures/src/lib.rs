@@ -1,7 +1,6 @@
 //! What the programs of the figures share: the command line and the output folders ([`job`]), panels used by several
-//! figures ([`panels`]) and their titles ([`titles`]), exit codes ([`failure`]), whether results
-//! can be written ([`outputs`]); the programs
-//! for user scenes ([`simulate`] with [`checkpoint`], [`map`]).
+//! figures ([`panels`]) and their titles ([`titles`]), exit codes ([`failure`]), whether results can be written
+//! ([`outputs`]); the programs for user scenes ([`simulate`] with [`checkpoint`], [`map`]).
 
 pub mod checkpoint;
 pub mod failure;
