@@ -1,5 +1,5 @@
-//! A second run, and the error estimate from the difference between both runs. Its force is stronger than roundings of constants
-//! may make it, which both runs would else have in common.
+//! A second run, and the error estimate from the difference between both runs. Its force is too strong, by more than
+//! constants may be off: else both runs would have the rounding of constants in common.
 
 use super::of_std::{UNSURE, std_error};
 use super::recent::{Compared, Instant, Recent, Sort};
@@ -71,6 +71,8 @@ pub(super) struct Second {
     instants: [Vec<Instant>; 2],
     /// How fast what falls through 0 does so in each of the run's events, where known.
     rates: Vec<Option<f64>>,
+    /// What becomes of the shift, if both runs lose it.
+    lost: Option<Errors>,
     /// The evaluations of this run, and of an earlier one that gave no estimate.
     evaluations: u64,
 }
@@ -81,7 +83,9 @@ impl Second {
     pub fn new(run: &Run, outcome: &Outcome, seen: Option<&Recent>, onlooker: &mut dyn RunObserver) -> Second {
         let instants = seen.map_or(Vec::new(), |seen| seen.instants(run));
         let rates = outcome.events.iter().map(|event| seen.and_then(|seen| seen.rate(event))).collect();
-        Second { rates, ..Second::compared(run, outcome, &instants, onlooker) }
+        let made = Second::compared(run, outcome, &instants, onlooker);
+        let lost = if made.loses_shift(run) { of_lost_shift(run, outcome, onlooker) } else { None };
+        Second { rates, lost, ..made }
     }
 
     fn compared(run: &Run, outcome: &Outcome, instants: &[Instant], onlooker: &mut dyn RunObserver) -> Second {
@@ -107,10 +111,9 @@ impl Second {
         let is_at_event = outcome.ends_at_event() && other.ends_at_event();
         let is_same_time = is_at_event || (times[0] - times[1]).abs() <= SAME_TIME * times[0];
         let is_through_wall = is_through_wall(run, outcome);
-        let is_shift_lost = loses_shift(run) && self.form != StateVariables::Deviations;
-        let lost = if is_shift_lost { of_lost_shift(run, outcome) } else { None };
-        let has_std = ends_alike && confirmed::reaches(outcome, other) && (!is_shift_lost || lost.is_some());
-        let of_lost = |number: fn(&Errors) -> Option<f64>| lost.as_ref().and_then(number);
+        let lost = self.lost.as_ref();
+        let has_std = ends_alike && confirmed::reaches(outcome, other) && (!self.loses_shift(run) || lost.is_some());
+        let of_lost = |number: fn(&Errors) -> Option<f64>| lost.and_then(number);
         let is_known = ends_alike && is_same_time && !is_through_wall && !is_not_finite(run, outcome);
         let late = if is_at_event { factor * (times[0] - times[1]).abs() } else { 0.0 };
         let state = |numbers: fn(&Outcome) -> &[f64], before: fn(&Instant) -> &[f64], rate: f64| {
@@ -131,8 +134,7 @@ impl Second {
         // an error of that size may be hidden by the stronger force, which makes as much of a motion that all have in common
         let constants = of_constants(run);
         Errors {
-            cost: self.evaluations as f64 / outcome.statistics.evaluations as f64
-                + lost.as_ref().map_or(0.0, |lost| lost.cost),
+            cost: self.evaluations as f64 / outcome.statistics.evaluations as f64 + lost.map_or(0.0, |lost| lost.cost),
             std: has_std.then(|| {
                 let last = outcome.samples.times.last().copied().unwrap_or(0.0);
                 let instants = self.instants().filter(|(one, _)| one.time <= last).map(|(one, other)| {
@@ -156,6 +158,11 @@ impl Second {
                 .flatten()
                 .reduce(math::smaller),
         }
+    }
+
+    /// Whether the shift is lost in this run as in the run.
+    fn loses_shift(&self, run: &Run) -> bool {
+        loses_shift(run) && self.form != StateVariables::Deviations
     }
 
     /// Both runs at each instant.
@@ -212,15 +219,17 @@ impl Second {
     }
 }
 
-/// What becomes of a shift that the second run loses as the run does: the steps of Taylor's method carry it along, however small.
-/// `None` where they do not, as over kinks.
-fn of_lost_shift(run: &Run, outcome: &Outcome) -> Option<Errors> {
+/// What becomes of a shift that the second run loses as the run does: the steps of Taylor's method carry it along, however
+/// small. `None` where they do not, as over kinks, or where the onlooker ends them.
+fn of_lost_shift(run: &Run, outcome: &Outcome, onlooker: &mut dyn RunObserver) -> Option<Errors> {
     if run.model.has_kinks() {
         return None;
     }
     let control = Control::Adaptive { tolerance: LOOSE };
     let series = Run { method: Method::Taylor, control, most_steps: most_steps(run, outcome), ..again(run, outcome) };
-    let (made, propagated) = run_propagated(&series, &mut ());
+    // without a judgement, which the onlooker may ask for
+    let mut watched = Compared { run: &series, first: &[], second: Vec::new(), onlooker };
+    let (made, propagated) = run_propagated(&series, &mut watched);
     let made = made.ok().filter(|made| confirmed::reaches(outcome, made))?;
     let cost = made.statistics.evaluations as f64 / outcome.statistics.evaluations as f64;
     propagated.errors(&series, &made).map(|errors| Errors { cost, ..errors })
@@ -346,7 +355,7 @@ fn made(second: &Run, factor: f64, instants: &[Instant], onlooker: &mut dyn RunO
     let outcome = run_off(second, off, None, &mut compared).unwrap_or_else(|broken| *broken.outcome);
     let instants = [instants.to_vec(), compared.second];
     let (form, evaluations) = (second.form, outcome.statistics.evaluations);
-    Second { form, factor, gathered: 0.0, instants, rates: Vec::new(), evaluations, outcome }
+    Second { form, factor, gathered: 0.0, instants, rates: Vec::new(), lost: None, evaluations, outcome }
 }
 
 /// The same run up to the time that it reached: in deviations if possible, and not in positions, whose roundings at the start both
