@@ -322,13 +322,16 @@ fn in_words(
         let others = if at_once > 0 { format!(" and {at_once} more") } else { String::new() };
         let _ = write!(
             text,
-            "\n{} at t = {}, pedestrian {}{others}, spacing {:?}, within a step of {:e}",
+            "\n{} at t = {}, pedestrian {}{others}, spacing {:?}",
             kind.name(),
             sure(time, errors.and_then(|errors| errors.events[index])),
             event.pedestrian,
             event.gap,
-            event.step
         );
+        // at the start and after the last step there is none around the event
+        if event.step > 0.0 {
+            let _ = write!(text, ", within a step of {:.1e}", event.step);
+        }
         if event.is_at_wall() {
             let _ = write!(text, "; followed to here: the next throw is at a gap below every double");
         }
