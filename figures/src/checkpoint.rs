@@ -68,8 +68,8 @@ const SILENCE: Duration = Duration::from_secs(1);
 impl CheckpointOptions {
     /// Runs the scene, from the checkpoint if there is one; if it is to be checked, its steps are asked for their errors.
     ///
-    /// # Errors The program cannot be read; its hash identifies the checkpoint. The checkpoint is that of another
-    /// scene.
+    /// # Errors
+    /// The program cannot be read; its hash identifies the checkpoint. The checkpoint is that of another scene.
     pub fn run(&self, scene: &Scene, is_checked: bool) -> Result<FinishedRun, Failure> {
         let clock = ProcessTime::now();
         let mut keeper = CheckpointWriter::new(self, scene)?;

@@ -99,8 +99,9 @@ fn methods() -> String {
 
 /// Runs the scene and writes what was asked for.
 ///
-/// # Errors A bad scene or option (nothing is written); a run that cannot continue (its tables are written); a file
-/// that cannot be written.
+/// # Errors
+/// A bad scene or option (nothing is written); a run that cannot continue (its tables are written); a file that cannot
+/// be written.
 pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     let scene = read_scene(arguments)?;
     can_write(arguments)?;

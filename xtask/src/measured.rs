@@ -67,7 +67,8 @@ struct TableReport {
 /// Measures one figure that is up to date. `estimates` has every run of it by key; `scenes` gives the scene under which
 /// a run's events are listed, by key.
 ///
-/// # Errors An output or the program's report on it cannot be read.
+/// # Errors
+/// An output or the program's report on it cannot be read.
 pub fn measure(
     paths: &Paths,
     survey: &FigureState<'_>,

@@ -59,7 +59,8 @@ impl Records {
     /// Reads the records. Without a file, or if it is malformed or not as it was written, there are none and everything
     /// counts as stale, since the errors and events in it would enter the manifest.
     ///
-    /// # Errors Failed: the records cannot be serialised.
+    /// # Errors
+    /// Failed: the records cannot be serialised.
     pub fn read(paths: &Paths) -> Result<Records, Failure> {
         let sealed: Sealed = serde_json::from_str(&disk::read_own(&paths.state())).unwrap_or_default();
         let is_whole = sum(&sealed.records)? == sealed.sha256;

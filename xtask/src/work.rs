@@ -259,7 +259,8 @@ impl Ends {
 
 /// The code to end with when nodes have failed: that of the first.
 ///
-/// # Errors The failure of the first node that failed; its text has already been reported.
+/// # Errors
+/// The failure of the first node that failed; its text has already been reported.
 pub fn verdict<T>(nodes: &[Node], outcomes: &[Outcome<T>]) -> Result<(), Failure> {
     let failed = nodes.iter().zip(outcomes).find_map(|(node, outcome)| match outcome {
         Outcome::Failed(failure) => Some((node, failure)),

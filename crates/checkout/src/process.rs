@@ -7,7 +7,8 @@ use std::process::{Command, Stdio};
 
 /// Runs a program that shares our stdout and stderr.
 ///
-/// # Errors It cannot be started; or it failed and has reported why.
+/// # Errors
+/// It cannot be started; or it failed and has reported why.
 pub fn run_shown(command: &mut Command) -> Result<(), Failure> {
     let name = command.get_program().to_string_lossy().into_owned();
     let status = command.status().map_err(|error| not_started(&name, &error))?;

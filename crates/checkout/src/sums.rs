@@ -53,8 +53,9 @@ impl State {
 impl Sums {
     /// Parses a list; `file` is only for messages.
     ///
-    /// # Errors Usage: a line of another form, a name that leaves the root or has control characters, or a repeated
-    /// name; with the line number.
+    /// # Errors
+    /// Usage: a line of another form, a name that leaves the root or has control characters, or a repeated name; with
+    /// the line number.
     pub fn parse(file: &str, text: &str) -> Result<Sums, Failure> {
         let mut by_name = BTreeMap::new();
         for (index, line) in text.lines().enumerate() {

@@ -72,7 +72,8 @@ impl Ledger {
 
     /// Reads `data/ledger.json`.
     ///
-    /// # Errors Stale: the file does not exist. Usage: it is malformed.
+    /// # Errors
+    /// Stale: the file does not exist. Usage: it is malformed.
     pub fn read(paths: &Paths) -> Result<Ledger, Failure> {
         let path = paths.ledger();
         let missing = || Failure::Stale(format!("{}: no such file; cargo xtask verify makes it", path.display()));

@@ -79,7 +79,8 @@ pub fn number(found: Uncertain, digits: Option<usize>) -> String {
 
 /// A text with numbers in place of `{name}`, `{name:5}` (digits) and `{name:percent}`.
 ///
-/// # Errors Usage: an unknown test name (the message lists the valid ones), an unbalanced brace, or another form.
+/// # Errors
+/// Usage: an unknown test name (the message lists the valid ones), an unbalanced brace, or another form.
 pub fn fill(
     text: &str,
     named: &BTreeMap<&str, Uncertain>,

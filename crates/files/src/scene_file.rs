@@ -66,7 +66,8 @@ pub struct SceneFile {
 impl SceneFile {
     /// The panel of this name.
     ///
-    /// # Errors There is no such panel; the message lists the names.
+    /// # Errors
+    /// There is no such panel; the message lists the names.
     pub fn panel(&self, name: &str) -> Result<&Panel, SceneError> {
         self.panels.iter().find(|panel| panel.name == name).ok_or_else(|| {
             let names: Vec<&str> = self.panels.iter().map(|panel| panel.name.as_str()).collect();

@@ -288,9 +288,9 @@ impl<V: Value> Grid<V> {
 
     /// Reads CSV as [`Grid::to_csv`] writes it.
     ///
-    /// # Errors [`TableError::Malformed`] with the line, for text that is not UTF-8, a column name that does not
-    /// consist of lower-case letters, digits and `_` or is repeated, a cell that is not a value, or a row of another
-    /// length.
+    /// # Errors
+    /// [`TableError::Malformed`] with the line, for text that is not UTF-8, a column name that does not consist of
+    /// lower-case letters, digits and `_` or is repeated, a cell that is not a value, or a row of another length.
     pub fn parse(bytes: &[u8]) -> Result<Grid<V>, TableError> {
         let text = text::decode(bytes.to_vec()).map_err(|(line, problem)| malformed(line as u64, problem))?;
         let mut reader = csv::ReaderBuilder::new().flexible(true).from_reader(text.as_bytes());

@@ -10,7 +10,8 @@ impl Bound {
     ///
     /// Infinite values on the way are allowed, as long as the result is finite.
     ///
-    /// # Errors The result is not finite: the responsible operation, its operands, and its position.
+    /// # Errors
+    /// The result is not finite: the responsible operation, its operands, and its position.
     pub fn eval(&self, root: Id, variable: impl FnMut(Variable) -> f64) -> Result<f64, Error> {
         let values = self.values(root, |constant| constant, variable);
         let value = values[root];

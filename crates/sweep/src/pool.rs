@@ -60,7 +60,8 @@ impl<'a> Pool<'a> {
     /// Computes the tiles on the given number of threads; `hear` is called once for each cell that is run. Returns the
     /// cells of all tiles, tile by tile; `None` if it was stopped.
     ///
-    /// # Errors The first error of a cell or of `hear`; the other threads end after their current cell.
+    /// # Errors
+    /// The first error of a cell or of `hear`; the other threads end after their current cell.
     pub fn compute<E: From<String> + Send>(
         &self,
         jobs: usize,

@@ -16,8 +16,9 @@ const SAME: &str = "same bits";
 
 /// Judges a receipt.
 ///
-/// # Errors Usage: it is not a receipt, or lists an unknown table. Differs: a sum is not the committed one, or the
-/// verdict of the receipt contradicts its sums.
+/// # Errors
+/// Usage: it is not a receipt, or lists an unknown table. Differs: a sum is not the committed one, or the verdict of
+/// the receipt contradicts its sums.
 pub fn check(paths: &Paths, file: &Path) -> Result<(), Failure> {
     let text = disk::read_text(file)?.ok_or_else(|| Failure::Usage(format!("{}: no such file", file.display())))?;
     let name = file.display().to_string();

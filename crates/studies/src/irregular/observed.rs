@@ -32,7 +32,8 @@ pub(super) struct Window {
 
 /// Successive windows of a run from a given state and time, with the given number and length, and its last state.
 ///
-/// # Errors The run failed, or two pedestrians touched.
+/// # Errors
+/// The run failed, or two pedestrians touched.
 pub(super) fn windows(
     case: &Case,
     start: &[f64],

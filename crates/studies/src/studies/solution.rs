@@ -18,7 +18,8 @@ pub type Distances = [f64; 3];
 
 /// The scene as the reference has it.
 ///
-/// # Errors No scene has this name.
+/// # Errors
+/// No scene has this name.
 pub fn exact_scene() -> Result<Scene, Failure> {
     scene(NAME, Parameters::Doubles).ok_or_else(|| Failure::work(format!("no scene {NAME}")))
 }
