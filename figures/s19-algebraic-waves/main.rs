@@ -38,8 +38,8 @@ fn tables(job: &mut Job) -> Result<(), Failure> {
 /// The width of the ramp of two more runs: a narrower ramp needs a stronger force.
 const NARROW: f64 = 0.02;
 
-/// The outcome of the run, with one thing changed at a time: method, start, number of pedestrians at the same headway, width
-/// of the ramp, strength; and the strength with a narrow ramp.
+/// The outcome of the run, with one thing changed at a time: method, start, number of pedestrians at the same headway,
+/// width of the ramp, strength; and the strength with a narrow ramp.
 fn varied(scene: &Scene) -> Result<MixedTable, Failure> {
     let mut sheet = MixedTable::new(&[
         "varied",

@@ -1,5 +1,5 @@
-//! Supplement 26: irregular waves of the algebraic law with widening: paths of all (a), the standard deviation of the speeds
-//! over windows by two methods from three starts (b), and how runs part (c).
+//! Supplement 26: irregular waves of the algebraic law with widening: paths of all (a), the standard deviation of the
+//! speeds over windows by two methods from three starts (b), and how runs part (c).
 
 use figures::panels::trajectories;
 use figures::{Failure, Job, figure};

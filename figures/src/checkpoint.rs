@@ -1,9 +1,9 @@
 //! Progress of a long run, and a checkpoint file from which it is resumed after a kill.
 //!
 //! The file: a line `checkpoint 4 PROGRAM SCENE SUM`, then the seconds of CPU so far and the run, as 64-bit words.
-//! These are SHA-256, `SUM` that of everything behind the line. What is damaged, cut off or of another program is of no use
-//! to this one: the run starts over, and replaces it. What this program would resume with another scene is refused, since
-//! it would be replaced too, and it is of use.
+//! These are SHA-256, `SUM` that of everything behind the line. What is damaged, cut off or of another program is of no
+//! use to this one: the run starts over, and replaces it. What this program would resume with another scene is refused,
+//! since it would be replaced too, and it is of use.
 
 use crate::failure::{Failure, say};
 use cpu_time::{ProcessTime, ThreadTime};
@@ -66,7 +66,8 @@ const WRITING: u32 = 100;
 const SILENCE: Duration = Duration::from_secs(1);
 
 impl CheckpointOptions {
-    /// Runs the scene, from the checkpoint if there is one; if it is to be checked, its steps are asked for their errors.
+    /// Runs the scene, from the checkpoint if there is one; if it is to be checked, its steps are asked for their
+    /// errors.
     ///
     /// # Errors
     /// The program cannot be read; its hash identifies the checkpoint. The checkpoint is that of another scene.

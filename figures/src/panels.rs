@@ -23,8 +23,9 @@ pub struct Labels {
     pub vertical: bool,
 }
 
-/// Maps of one colour scale in rows of `columns`, one column of a journal wide and `height` millimetres high, each under
-/// its title. Neighbours share axes: those at the left label the vertical one, those at the bottom the horizontal one.
+/// Maps of one colour scale in rows of `columns`, one column of a journal wide and `height` millimetres high, each
+/// under its title. Neighbours share axes: those at the left label the vertical one, those at the bottom the horizontal
+/// one.
 ///
 /// # Errors
 /// No such panel, or its table is missing or damaged.

@@ -133,8 +133,8 @@ pub fn main(arguments: &Arguments) -> Result<(), Failure> {
     broken.map_or(Ok(()), |broken| Err(Failure::work(broken)))
 }
 
-/// Whether the files can be written, asked before a long run: none of them may be the scene, and the checkpoint, which is
-/// removed at the end, none of the others.
+/// Whether the files can be written, asked before a long run: none of them may be the scene, and the checkpoint, which
+/// is removed at the end, none of the others.
 fn can_write(arguments: &Arguments) -> Result<(), Failure> {
     let in_folder = arguments.out.iter().flat_map(|folder| OUTPUTS.map(|name| folder.join(name)));
     let results: Vec<PathBuf> = in_folder.chain(arguments.state.clone()).collect();
@@ -243,8 +243,8 @@ fn written(folder: &Path, scene: &Scene, outcome: &Outcome, errors: Option<&Erro
     files
 }
 
-/// `event,t,n`: the first event of each kind, a line for each pedestrian to whom it happens; and `error` of its time, if it
-/// is estimated, empty where the second run has no such event.
+/// `event,t,n`: the first event of each kind, a line for each pedestrian to whom it happens; and `error` of its time,
+/// if it is estimated, empty where the second run has no such event.
 fn events(outcome: &Outcome, errors: Option<&Errors>) -> String {
     let mut text = if errors.is_some() { "event,t,n,error\n" } else { "event,t,n\n" }.to_owned();
     for (index, event) in outcome.events.iter().enumerate() {

@@ -2,7 +2,8 @@
 
 use formula::{Definition, Error, Expression, Given, Location, Variable, law};
 
-/// Tries one file: a law whose lines are `name = number` and `name = expression`, and the whole of it as one expression.
+/// Tries one file: a law whose lines are `name = number` and `name = expression`, and the whole of it as one
+/// expression.
 pub fn read(bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
     let definitions: Vec<Definition<'_>> = text.lines().enumerate().filter_map(definition).collect();

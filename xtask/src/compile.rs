@@ -13,8 +13,8 @@ use std::path::Path;
 use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-/// The fonts that the pictures embed, each with its SHA-256: a damaged one would be compiled in, and every picture would
-/// fail or differ.
+/// The fonts that the pictures embed, each with its SHA-256: a damaged one would be compiled in, and every picture
+/// would fail or differ.
 pub const FONT_SUMS: [(&str, &str); 2] = [
     ("LibertinusSerif-Italic.otf", "9a393d63d6e05f620d3dc0190dfd35a8ede58c0808cf0fc9de7fcb9c723e4c24"),
     ("LibertinusSerif-Regular.otf", "fcf06307a77367394fcb0ccb241e59eea70dba3d732be309647611224679c733"),
@@ -44,8 +44,8 @@ pub const STUDIES: Package =
 /// Removes what is built of our own sources.
 const CLEAN: &str = "clean --quiet --release --locked -p jamming-math -p jamming-ode -p jamming -p files -p scene -p sweep -p plot -p reference -p figures -p planes -p studies";
 
-/// What was built: the hashes of the sources, and size and date of each program, so that one that was built by hand since
-/// then is not taken for ours.
+/// What was built: the hashes of the sources, and size and date of each program, so that one that was built by hand
+/// since then is not taken for ours.
 #[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Built {
     sources: Inputs,
@@ -86,9 +86,9 @@ impl Package {
         recorded != self.current(paths, all, sources) || recorded.programs.len() != self.programs(all).count()
     }
 
-    /// Cargo compares dates: whether a source that has changed since the last build is older than what was built then (the
-    /// clock was set back, an archive has kept its dates, it was saved during the build), so that cargo would leave the
-    /// program as it was.
+    /// Cargo compares dates: whether a source that has changed since the last build is older than what was built then
+    /// (the clock was set back, an archive has kept its dates, it was saved during the build), so that cargo would
+    /// leave the program as it was.
     fn is_hidden_from_cargo(self, paths: &Paths, all: &[Figure], sources: &SourceHashes) -> bool {
         let newest = self.programs(all).filter_map(|name| date(&paths.binary(name))).max();
         let built_from = self.recorded(paths).sources;

@@ -1,8 +1,8 @@
 //! The runner: it builds the programs of the figures, starts them in the right order, and has another program judge
 //! their outputs.
 //!
-//! It links no physics, no judging and no publishing. `verbs` holds the verbs of the command line; the modules beside it
-//! are what they share. Data flows `sources -> record -> plan -> pool -> work -> measured`.
+//! It links no physics, no judging and no publishing. `verbs` holds the verbs of the command line; the modules beside
+//! it are what they share. Data flows `sources -> record -> plan -> pool -> work -> measured`.
 
 pub mod child;
 pub mod cli;

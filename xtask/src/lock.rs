@@ -10,7 +10,8 @@ use std::sync::{Mutex, PoisonError};
 /// The lock of this process, for its programs.
 static HELD: Mutex<Option<File>> = Mutex::new(None);
 
-/// Held while the runner writes; freed when dropped, also by a crash. What takes it while this process has it shares it.
+/// Held while the runner writes; freed when dropped, also by a crash. What takes it while this process has it shares
+/// it.
 #[derive(Debug)]
 pub struct Lock {
     /// None for one that shares the lock of another.

@@ -97,8 +97,8 @@ impl SourceHashes {
         hashing::digest(&self.numbers_from(&["crates/sweep/"]))
     }
 
-    /// What a figure is made from: shared sources, its own folder, the committed tables that its scene names, and its runs by
-    /// panel and key.
+    /// What a figure is made from: shared sources, its own folder, the committed tables that its scene names, and its
+    /// runs by panel and key.
     pub fn figure(&self, figure: &Figure, runs: &[(String, String)]) -> Inputs {
         let folder = Paths::figure_folder(&figure.slug);
         let supplement = if figure.is_supplement() { &SUPPLEMENT_SOURCES[..] } else { &[] };

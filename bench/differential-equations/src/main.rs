@@ -1,4 +1,5 @@
-//! The crate `differential-equations`: DOP853, Dormand and Prince's 5(4) and Verner's pairs; samples from its interpolants.
+//! The crate `differential-equations`: DOP853, Dormand and Prince's 5(4) and Verner's pairs; samples from its
+//! interpolants.
 //!
 //! Arguments and results as in `bench/cpp/harness.hpp`; the right-hand side is the library of `bench/cpp/rhs.cpp`.
 

@@ -58,8 +58,8 @@ pub fn write_own(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     write(path, bytes)
 }
 
-/// Makes a folder of the runner's own and those above it; a file or a dead link of this name is removed. Several threads
-/// may ask for the same folder at once.
+/// Makes a folder of the runner's own and those above it; a file or a dead link of this name is removed. Several
+/// threads may ask for the same folder at once.
 ///
 /// # Errors
 /// The folder cannot be made.

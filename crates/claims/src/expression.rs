@@ -100,8 +100,8 @@ impl Right {
         Ok(Right { text: text.to_owned(), expression })
     }
 
-    /// The formula, if all its names are columns; one of several operands is taken for one anyway, so that its names are
-    /// complained of.
+    /// The formula, if all its names are columns; one of several operands is taken for one anyway, so that its names
+    /// are complained of.
     fn formula(&self, sheet: &LedgerTable) -> Option<&Expression> {
         let is_column = |name: &String| sheet.place(name).is_some();
         let expression = self.expression.as_ref()?;

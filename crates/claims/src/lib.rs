@@ -8,7 +8,8 @@
 //!
 //! ```toml
 //! name = "least"                # for placeholders; optional
-//! take = "least"                # least largest mean sum span first last | only: of the one row that is left | count, share: of rows
+//! take = "least"                # least largest mean sum span first last | only: of the one row that is left |
+//!                               # count, share: of rows
 //! of = "v"                      # a formula (crate `formula`) whose names are columns: "v - v_beside"
 //! table = "fig11/trajectories"  # below data/, without .csv
 //! where = ["t >= 1", "v < 0"]   # all must hold; op one of < <= > >= = !=
@@ -21,13 +22,13 @@
 //! is = "> 0"                    # what must be true: `op number`, or `1 within 0.02`; without it the test only reports
 //! ```
 //!
-//! On the right of a comparison stands a formula too, a word that stands in the column on the left (in single quotes where
-//! a column has that name), or `empty`. A comparison of numbers with an empty cell does not hold.
+//! On the right of a comparison stands a formula too, a word that stands in the column on the left (in single quotes
+//! where a column has that name), or `empty`. A comparison of numbers with an empty cell does not hold.
 //!
-//! Every number has an error: that of `error_of`; else the one the manifest states for the column, a part of the column's
-//! range (of tables in closed form, a part of numbers above 1); else none, the number is taken as it is written. A
-//! comparison is true or false only if it is so for all values within the errors, and undecided otherwise; rows of which
-//! it is open whether they are chosen count as error.
+//! Every number has an error: that of `error_of`; else the one the manifest states for the column, a part of the
+//! column's range (of tables in closed form, a part of numbers above 1); else none, the number is taken as it is
+//! written. A comparison is true or false only if it is so for all values within the errors, and undecided otherwise;
+//! rows of which it is open whether they are chosen count as error.
 //!
 //! A claim has `[[claim.test]]` of the statement as it is written and perhaps `[[claim.under]]`, of the statement under
 //! its `condition`. The verdict follows from them ([`report::verdict`]); the one in the file is what is expected.

@@ -35,8 +35,8 @@ pub type Rows = Vec<(usize, Uncertain)>;
 /// The rows that are left of the table, each with its value.
 ///
 /// # Errors
-/// As [`evaluate`]; or the measure takes another one than `only`, has a second operand, or a row of which it is open whether
-/// it is left.
+/// As [`evaluate`]; or the measure takes another one than `only`, has a second operand, or a row of which it is open
+/// whether it is left.
 pub fn each(measure: &Measure, tables: &Tables<'_>, place: &ClaimLocation) -> Result<(Rc<LedgerTable>, Rows), Failure> {
     if measure.take != Take::Only || measure.operand(place)?.is_some() {
         return Err(place.fail("take", "must be `only`, without a second operand, where each row gives a number"));

@@ -1,5 +1,5 @@
-//! Files as every program of the project needs them, without physics: scene files with line numbers ([`scene_file`]), CSV
-//! tables whose numbers have shortest round-trip form ([`table`]), atomic writing ([`mod@write`]); and the paper's
+//! Files as every program of the project needs them, without physics: scene files with line numbers ([`scene_file`]),
+//! CSV tables whose numbers have shortest round-trip form ([`table`]), atomic writing ([`mod@write`]); and the paper's
 //! symbols of what both name ([`symbols`]).
 
 pub mod pairs;

@@ -10,10 +10,10 @@ pub const KEYS: [&str; 2] = ["t", "n"];
 /// A row of each table, with the place of the first, from 0.
 pub type Pair<'a, V> = (usize, &'a [V], &'a [V]);
 
-/// The rows that name the same, in the order of the first table, and the number of rows without a partner. A row is named
-/// by its cells in the columns [`KEYS`] that both tables have, and by its words; of several rows of one name the k-th
-/// belongs to the k-th. Rows left over are tried once more without their words: another word is a difference in a row, not
-/// another row.
+/// The rows that name the same, in the order of the first table, and the number of rows without a partner. A row is
+/// named by its cells in the columns [`KEYS`] that both tables have, and by its words; of several rows of one name the
+/// k-th belongs to the k-th. Rows left over are tried once more without their words: another word is a difference in a
+/// row, not another row.
 pub fn pairs<'a, V: Value>(one: &'a Grid<V>, other: &'a Grid<V>) -> (Vec<Pair<'a, V>>, usize) {
     let keys = KEYS.iter().filter_map(|name| Some((one.place(name).ok()?, other.place(name).ok()?)));
     let (mine, theirs): (Vec<usize>, Vec<usize>) = keys.unzip();

@@ -328,7 +328,8 @@ impl<V: Value> Grid<V> {
 }
 
 impl MixedTable {
-    /// The rows that have these words in these columns, as numbers of the columns `take`; rows without one are left out.
+    /// The rows that have these words in these columns, as numbers of the columns `take`; rows without one are left
+    /// out.
     ///
     /// # Errors
     /// There is no such column.

@@ -125,8 +125,8 @@ pub fn can_be_file(path: &Path) -> io::Result<()> {
     File::create(draft.path()).map(drop).map_err(|error| with_path(error, path))
 }
 
-/// The one path of a file under any of its names: absolute and without links, also where it or its folder is still to be
-/// made.
+/// The one path of a file under any of its names: absolute and without links, also where it or its folder is still to
+/// be made.
 pub fn resolved(path: &Path) -> PathBuf {
     let path = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
     let from = |at: &Path| Some(fs::canonicalize(at).ok()?.join(path.strip_prefix(at).ok()?));

@@ -15,8 +15,8 @@ pub struct Kink {
     pub right: Option<Id>,
 }
 
-/// The formulas of a law, or one expression, as a list of operations: operands come first, equal operations are one, and
-/// every operation is needed by a root.
+/// The formulas of a law, or one expression, as a list of operations: operands come first, equal operations are one,
+/// and every operation is needed by a root.
 #[derive(Clone, Debug)]
 pub struct Bound {
     pub(crate) file: String,

@@ -9,8 +9,8 @@ use crate::place::{Error, Location, Problem};
 use math::number::Number;
 use std::collections::BTreeMap;
 
-/// An expression outside of a law: functions, constants and operators as there, but `s v x j sum`, and functions without
-/// brackets, are names like all others, and every name is a variable.
+/// An expression outside of a law: functions, constants and operators as there, but `s v x j sum`, and functions
+/// without brackets, are names like all others, and every name is a variable.
 #[derive(Clone, Debug)]
 pub struct Expression {
     names: Vec<(String, Location)>,

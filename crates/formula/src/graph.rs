@@ -109,16 +109,16 @@ impl Graph {
     /// Gives the parameters values, in the order of [`parameters`](Graph::parameters), and folds:
     ///
     /// - What has no variable is computed once.
-    /// - A product with a factor 0 that is a literal or a parameter is 0, and gone from the sum that it is a term of; so
-    ///   is a quotient whose numerator is such. A factor or divisor 1 of that kind is gone.
+    /// - A product with a factor 0 that is a literal or a parameter is 0, and gone from the sum that it is a term of;
+    ///   so is a quotient whose numerator is such. A factor or divisor 1 of that kind is gone.
     /// - An exponent without variables whose value is whole and at most 16 in size becomes repeated multiplication.
     /// - `ramp(x, eps)` becomes `eps * softplus(x * (-1 / eps))`, and for `eps = 0` `max(0, -x)`.
     ///
     /// Nothing else is changed and nothing re-associated.
     ///
     /// # Errors
-    /// A part without variables that has no finite value, a value that is not finite, or a negative width of a ramp, with
-    /// its place in the file.
+    /// A part without variables that has no finite value, a value that is not finite, or a negative width of a ramp,
+    /// with its place in the file.
     ///
     /// # Panics
     /// `values` has another length than the list of parameters.

@@ -49,8 +49,8 @@ pub struct Definition<'a> {
 /// file but for `kind`: `acceleration` and `body`, `gap` and `scale` where given, parameters, named expressions.
 ///
 /// # Errors
-/// The first thing that is wrong, with its place, what was found and what would be valid: syntax, unknown names (with the
-/// nearest), circles, unused names, reserved names, a law that is too large.
+/// The first thing that is wrong, with its place, what was found and what would be valid: syntax, unknown names (with
+/// the nearest), circles, unused names, reserved names, a law that is too large.
 pub fn law(file: &str, section: Location, definitions: &[Definition<'_>]) -> Result<Graph, Error> {
     graph(file, section, definitions).map_err(|problem| problem.within(file))
 }

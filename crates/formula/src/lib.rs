@@ -2,12 +2,14 @@
 //!
 //! A text becomes a tree, the trees of a law one [`Graph`] whose parameters are symbols, and that, with numbers for
 //! parameters, a [`Bound`] list of operations. The list is carried out as it stands: by [`Bound::eval`] in doubles, by
-//! [`Bound::carry_out`] with any [`Number`](math::number::Number), or by an interpreter that goes over [`Bound::nodes`].
+//! [`Bound::carry_out`] with any [`Number`](math::number::Number), or by an interpreter that goes over
+//! [`Bound::nodes`].
 //!
 //! ```
 //! use formula::{Definition, Given, Location, Variable, law};
 //!
-//! let line = |name, given, line| Definition { name, key: Location { line, column: 1 }, value: Location { line, column: 17 }, given };
+//! let at = |line, column| Location { line, column };
+//! let line = |name, given, line| Definition { name, key: at(line, 1), value: at(line, 17), given };
 //! let graph = law("scene.toml", Location { line: 1, column: 1 }, &[
 //!     line("acceleration", Given::Text("kappa*(V - v)"), 2),
 //!     line("V", Given::Text("tanh(s - 2) + tanh(2)"), 3),
@@ -38,9 +40,9 @@
 //! Formulas know no units: they compute with numbers in the units of their writer, who sees to it that `body` is a
 //! length, `v0` or `scale` a speed, and arguments of functions are dimensionless. Numbers of a text are finite doubles.
 //!
-//! An [`Error`] carries file, line, column, what was found and what would be valid. [`Bound::eval`] returns one where the
-//! result is not finite; [`Bound::carry_out`] goes on with NaN or infinities, as its numbers do. A node, root or place in
-//! a list that belongs to another formula panics or gives numbers without meaning.
+//! An [`Error`] carries file, line, column, what was found and what would be valid. [`Bound::eval`] returns one where
+//! the result is not finite; [`Bound::carry_out`] goes on with NaN or infinities, as its numbers do. A node, root or
+//! place in a list that belongs to another formula panics or gives numbers without meaning.
 
 mod arena;
 mod bound;

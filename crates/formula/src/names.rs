@@ -60,8 +60,8 @@ pub(crate) fn is_name(text: &str) -> bool {
     text.starts_with(|c: char| c.is_ascii_alphabetic()) && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
 }
 
-/// The candidate that differs from `name` by the fewest letters, if it is close: by at most a third of the letters, but 1
-/// in any case. Among equals the first.
+/// The candidate that differs from `name` by the fewest letters, if it is close: by at most a third of the letters, but
+/// 1 in any case. Among equals the first.
 pub(crate) fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let reach = (name.chars().count() / 3).max(1);
     let scored = candidates.map(|candidate| (distance(name, candidate), candidate));

@@ -1,6 +1,6 @@
-//! How long the errors of runs take, relative to the runs: each panel of a scene is run with errors and without in turn, and
-//! the ratio of the medians less 1 is printed: `target/release/examples/error_time SCENE [PAIRS]`. Without a scene, short random
-//! runs, all of them in each turn: `error_time short [PAIRS]`.
+//! How long the errors of runs take, relative to the runs: each panel of a scene is run with errors and without in
+//! turn, and the ratio of the medians less 1 is printed: `target/release/examples/error_time SCENE [PAIRS]`. Without a
+//! scene, short random runs, all of them in each turn: `error_time short [PAIRS]`.
 
 use hunt::draw;
 use jam::errors::stated;

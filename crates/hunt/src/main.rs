@@ -10,7 +10,9 @@ use std::process::ExitCode;
 struct Arguments {
     /// Scene files to judge instead of random ones
     scenes: Vec<PathBuf>,
-    /// The first seed; from 1000000 on the laws are formulas; from 2000000 on the scenes of seeds lower by that, all by Taylor's method; from 10000000 on they have what the others never have: two or three hundred pedestrians, dense samples, runs shorter than a step, long runs, panels that differ in everything, everybody displaced
+    /// The first seed; from 1000000 on the laws are formulas; from 2000000 on the scenes of seeds lower by that, all by
+    /// Taylor's method; from 10000000 on they have what the others never have: two or three hundred pedestrians, dense
+    /// samples, runs shorter than a step, long runs, panels that differ in everything, everybody displaced
     #[arg(long, default_value_t = 0)]
     from: u64,
     /// How many scenes

@@ -78,8 +78,8 @@ pub fn ratios(scene: &Scene, outcome: &Outcome, answer: &Answer, stated: &Stated
 /// The part of a run that places within steps are known to: half a rounding.
 pub(crate) const FINEST: f64 = 1e-16;
 
-/// What a run states, and the run up to there if its check does not confirm all of it; of the table of trajectories, of which
-/// it states nothing, the difference from a second run.
+/// What a run states, and the run up to there if its check does not confirm all of it; of the table of trajectories, of
+/// which it states nothing, the difference from a second run.
 pub fn of(scene: &Scene, outcome: &Outcome, propagated: &Propagated) -> (Option<Broken>, Stated) {
     let (errors, refused) = errors::checked(scene, outcome, Some(propagated), &mut (), &mut ());
     let cost = errors.cost;
@@ -87,7 +87,8 @@ pub fn of(scene: &Scene, outcome: &Outcome, propagated: &Propagated) -> (Option<
     let or_none = |error: Option<f64>| error.unwrap_or(f64::INFINITY);
     let end = [or_none(errors.positions), or_none(errors.speeds)];
     let table = difference(scene, outcome).table;
-    // the last row of the table is the end; two methods may agree by chance. A run whose check ended elsewhere states nothing
+    // the last row of the table is the end; two methods may agree by chance. A run whose check ended elsewhere states
+    // nothing
     let with_end = |i: usize| match errors.std {
         None => f64::INFINITY,
         Some(_) if end[i].is_finite() => math::larger(table[i], end[i]),

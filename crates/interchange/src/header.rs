@@ -5,8 +5,8 @@ use files::reader::{POSITIVE, Reader, SceneError};
 use files::scene_file::{Kind, Panel, SceneFile};
 use std::ops::RangeInclusive;
 
-/// The desired speed that the paper calls typical, in tenths of a metre a second; where `a_0` is not given it follows from
-/// this one. A whole number, so that a length such as 0.2 m is not missed by a rounding.
+/// The desired speed that the paper calls typical, in tenths of a metre a second; where `a_0` is not given it follows
+/// from this one. A whole number, so that a length such as 0.2 m is not missed by a rounding.
 pub const TYPICAL_SPEED: u32 = 12;
 
 /// Frames a second that can be asked for.
@@ -51,7 +51,8 @@ impl Header {
     /// [`TYPICAL_SPEED`]; `time` is `tau` in seconds.
     ///
     /// # Errors
-    /// `a_0` is out of range, the panel is no run, or its ring or desired speed is missing or out of range, with file and line.
+    /// `a_0` is out of range, the panel is no run, or its ring or desired speed is missing or out of range, with file
+    /// and line.
     pub fn new(
         scene_file: &SceneFile,
         panel: &Panel,

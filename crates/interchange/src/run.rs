@@ -12,8 +12,8 @@ const MOST_ROWS: f64 = 2e7;
 /// Runs the panel into `folder`; its table of trajectories. `t_end` is in units of `tau`, by default that of the scene.
 ///
 /// # Errors
-/// Input: the frames are more rows than a run may have, or `simulate` refuses the scene. Otherwise what kept the run from
-/// being made.
+/// Input: the frames are more rows than a run may have, or `simulate` refuses the scene. Otherwise what kept the run
+/// from being made.
 pub fn make(
     simulate: &Path,
     scene_file: &SceneFile,

@@ -1,5 +1,5 @@
-//! Prints fingerprints of the bits of every law, compiled and as a formula: `checks/other-machines.sh` compares them with
-//! `crates/jam/tests/bits.csv`.
+//! Prints fingerprints of the bits of every law, compiled and as a formula: `checks/other-machines.sh` compares them
+//! with `crates/jam/tests/bits.csv`.
 
 #[path = "../tests/it/fingerprints.rs"]
 mod fingerprints;

@@ -51,7 +51,8 @@ fn cpu_seconds() -> Option<f64> {
     text.split_whitespace().next()?.parse().ok().map(|nanoseconds: f64| 1e-9 * nanoseconds)
 }
 
-/// Each law with all its terms, and with fewer; then the laws of the paper's runs in other forms and other work on them.
+/// Each law with all its terms, and with fewer; then the laws of the paper's runs in other forms and other work on
+/// them.
 fn variants() -> Vec<Variant> {
     let named = |name: &str, pedestrians, work| Variant { name: name.to_owned(), pedestrians, work };
     let mut variants: Vec<Variant> = laws()
@@ -160,7 +161,8 @@ fn series(model: Model, pedestrians: usize) -> Work {
     })
 }
 
-/// A function of rows, on a copy of a row. Its type is its own: through a pointer it would be that of the narrow registers.
+/// A function of rows, on a copy of a row. Its type is its own: through a pointer it would be that of the narrow
+/// registers.
 struct Row<'a, F> {
     function: F,
     x: &'a [f64],

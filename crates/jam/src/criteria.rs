@@ -1,11 +1,11 @@
 //! The stability criteria as the paper prints them, with lengths in units of `a_0` and times in units of `tau`. A
-//! negative value means stable. Parameters are in the ranges of their laws; at a gap that is not in the range stated the
-//! value is NaN or has no meaning.
+//! negative value means stable. Parameters are in the ranges of their laws; at a gap that is not in the range stated
+//! the value is NaN or has no meaning.
 
 use crate::laws::{Algebraic, C, Exponential, Logarithmic};
 
-/// `Phi` of the algebraic law (condition): `phi omega - delta gamma / d'^q - 1/2`, `omega = 1 / (2 a_v phi + 1)`, at the
-/// uniform effective distance `gap = d' > 0`.
+/// `Phi` of the algebraic law (condition): `phi omega - delta gamma / d'^q - 1/2`, `omega = 1 / (2 a_v phi + 1)`, at
+/// the uniform effective distance `gap = d' > 0`.
 pub fn algebraic(law: &Algebraic, gap: f64) -> f64 {
     let (delta, q, a_v, gamma) = (law.delta, law.q, law.a_v, law.gamma());
     let phi = q * gamma * gamma / math::pow(gap, q + 1.0);

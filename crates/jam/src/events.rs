@@ -22,9 +22,9 @@ pub enum EventKind {
     /// The formula of the law has no value for the pedestrian: the logarithm of something negative, say. By steps of
     /// fixed length the time may be that of the start of the step in which this happens.
     Undefined,
-    /// `|v_n|` exceeds [`BLOW_UP`] times the desired speed (or 1): nothing stops it from growing without bound. Also, at a
-    /// singular wall, an effective gap below every double: the speeds are still finite, and the time is that of this
-    /// approach, before the singularity (by about 1e-2 for the run of `GUO` with `mu = 1`).
+    /// `|v_n|` exceeds [`BLOW_UP`] times the desired speed (or 1): nothing stops it from growing without bound. Also,
+    /// at a singular wall, an effective gap below every double: the speeds are still finite, and the time is that of
+    /// this approach, before the singularity (by about 1e-2 for the run of `GUO` with `mu = 1`).
     BlowUp,
 }
 
@@ -35,7 +35,8 @@ pub enum EventKind {
 pub const BLOW_UP: f64 = 1e12;
 
 impl Event {
-    /// Whether the run could not follow a pedestrian any further to a wall, at a gap below every double: no step shows that.
+    /// Whether the run could not follow a pedestrian any further to a wall, at a gap below every double: no step shows
+    /// that.
     pub fn is_at_wall(&self) -> bool {
         self.kind == EventKind::BlowUp && self.step == 0.0 && self.time > 0.0
     }
@@ -244,8 +245,8 @@ impl<'a> Watch<'a> {
         instant.effective_gaps
     }
 
-    /// How fast what falls through 0 in an event changes, for a pedestrian in this state, if the state changes like this:
-    /// its rates, or an error.
+    /// How fast what falls through 0 in an event changes, for a pedestrian in this state, if the state changes like
+    /// this: its rates, or an error.
     pub fn change(&mut self, kind: EventKind, pedestrian: usize, state: &[f64], direction: &[f64]) -> f64 {
         self.before.read(self.form, &*self.force, state, direction);
         // what the next step begins with is read anew
@@ -402,8 +403,8 @@ impl<'a> Watch<'a> {
         found
     }
 
-    /// The overlap in a step that was beyond a wall at none but its stages: at its end, of the pedestrian with the least
-    /// effective gap at its start.
+    /// The overlap in a step that was beyond a wall at none but its stages: at its end, of the pedestrian with the
+    /// least effective gap at its start.
     fn back_from_beyond(&self, step: &Step<'_>) -> Event {
         let effective_gaps = self.before.effective_gaps.iter().enumerate();
         let (pedestrian, _) =

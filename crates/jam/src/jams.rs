@@ -7,7 +7,8 @@ pub struct Jam {
     pub first: usize,
     /// How many are in it, 1 to `N - 1`.
     pub pedestrians: usize,
-    /// Distance between its two ends, in units of `a_0`: where the speed, linear between neighbours, crosses the threshold.
+    /// Distance between its two ends, in units of `a_0`: where the speed, linear between neighbours, crosses the
+    /// threshold.
     pub extent: f64,
     /// The middle between its ends, in units of `a_0`, unwrapped like the positions.
     pub centre: f64,
@@ -95,8 +96,8 @@ impl Drift {
         (self.time > 0.0).then(|| (self.distance / self.time, self.time))
     }
 
-    /// The error of that speed on a ring of this headway, in units of `a_0`: the ends of a jam lie between pedestrians, so that where
-    /// its way begins and ends is known to about a headway. `None` where there is no speed.
+    /// The error of that speed on a ring of this headway, in units of `a_0`: the ends of a jam lie between pedestrians,
+    /// so that where its way begins and ends is known to about a headway. `None` where there is no speed.
     pub fn speed_error(&self, headway: f64) -> Option<f64> {
         (self.time > 0.0).then(|| headway / self.time)
     }

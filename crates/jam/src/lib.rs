@@ -24,27 +24,28 @@
 //!
 //! # Units
 //!
-//! All quantities are dimensionless. For the laws of the paper (Chraibi et al., Phys. Rev. E 92, 042809, 2015) lengths are in
-//! units of `a_0`, half the size of a standing pedestrian, and times in units of `tau`, the relaxation time (eq-rescale); a
-//! law of your own brings its own units of length and time, and where the documentation says `a_0` and `tau`, read these.
-//! Wave numbers `k` are in radians per pedestrian.
+//! All quantities are dimensionless. For the laws of the paper (Chraibi et al., Phys. Rev. E 92, 042809, 2015) lengths
+//! are in units of `a_0`, half the size of a standing pedestrian, and times in units of `tau`, the relaxation time
+//! (eq-rescale); a law of your own brings its own units of length and time, and where the documentation says `a_0` and
+//! `tau`, read these. Wave numbers `k` are in radians per pedestrian.
 //!
-//! Rows have one number for each of the `N` pedestrians, who are counted from 0; pedestrian `n` follows `n + 1`, and the last
-//! follows the first. With a row of another length a call panics, or its result has no meaning. Positions are unwrapped: they
-//! grow beyond the length of the ring.
+//! Rows have one number for each of the `N` pedestrians, who are counted from 0; pedestrian `n` follows `n + 1`, and
+//! the last follows the first. With a row of another length a call panics, or its result has no meaning. Positions are
+//! unwrapped: they grow beyond the length of the ring.
 //!
-//! A number that does not exist is `None` or an error, with two exceptions: where an acceleration has no value it is NaN, and
-//! so are coefficients of [`stability::Linear`] where a law has no derivatives. What is computed from NaN is NaN.
+//! A number that does not exist is `None` or an error, with two exceptions: where an acceleration has no value it is
+//! NaN, and so are coefficients of [`stability::Linear`] where a law has no derivatives. What is computed from NaN is
+//! NaN.
 //!
-//! The crates that occur in signatures are re-exported: [`math`] (kinds of numbers), [`ode`] (methods, tolerances, steps) and
-//! [`formula`] (the language of formulas).
+//! The crates that occur in signatures are re-exported: [`math`] (kinds of numbers), [`ode`] (methods, tolerances,
+//! steps) and [`formula`] (the language of formulas).
 //!
 //! # A tour
 //!
 //! ## Laws
 //!
-//! [`laws::Model`] is a law with its parameters: one of the three of the paper, a [`laws::Formula`], or a Rust type that
-//! implements [`laws::Law`].
+//! [`laws::Model`] is a law with its parameters: one of the three of the paper, a [`laws::Formula`], or a Rust type
+//! that implements [`laws::Law`].
 //!
 //! ```
 //! use jam::laws::{Logarithmic, Model};
@@ -59,14 +60,14 @@
 //! # Ok::<(), String>(())
 //! ```
 //!
-//! A formula as a text needs no compiler and may look at several neighbours. A law in Rust runs at the speed of the built-in
-//! ones; its formula is written once for any [`math::number::Number`], and accelerations, linear stability, Taylor's method and
-//! differences from the uniform flow without cancellation follow from it.
+//! A formula as a text needs no compiler and may look at several neighbours. A law in Rust runs at the speed of the
+//! built-in ones; its formula is written once for any [`math::number::Number`], and accelerations, linear stability,
+//! Taylor's method and differences from the uniform flow without cancellation follow from it.
 //!
 //! ## Stability
 //!
-//! The uniform flow has equal spacings and the [steady speed](uniform::steady_speed). Its [`stability::Response`] is exact for
-//! every wave number `k` in (0, pi].
+//! The uniform flow has equal spacings and the [steady speed](uniform::steady_speed). Its [`stability::Response`] is
+//! exact for every wave number `k` in (0, pi].
 //!
 //! ```
 //! use jam::laws::{Formula, Model};
@@ -94,8 +95,8 @@
 //!
 //! ## A map
 //!
-//! A map is a loop over parameters and headways. A point where the law has no uniform flow, or no derivative, has no value. The
-//! law is a Rust type here, whose parameter is known by its name:
+//! A map is a loop over parameters and headways. A point where the law has no uniform flow, or no derivative, has no
+//! value. The law is a Rust type here, whose parameter is known by its name:
 //!
 //! ```
 //! use jam::laws::{Law, Model, Parameter, Range};
@@ -133,8 +134,8 @@
 //! ## Samples, jams, and the outcome of a run
 //!
 //! [`run::Run`] says what is integrated and what is kept; its fields can be replaced. The [`run::Outcome`] holds
-//! samples at regular times, taken from inside the steps; the jams at the end and how fast they travel ([`jams`]); and, if
-//! an observer asks for it, the outcome of the run ([`outcome`]).
+//! samples at regular times, taken from inside the steps; the jams at the end and how fast they travel ([`jams`]); and,
+//! if an observer asks for it, the outcome of the run ([`outcome`]).
 //!
 //! ```
 //! # use jam::laws::{Law, Model, Parameter, Range};
@@ -177,8 +178,8 @@
 //!
 //! ## Events
 //!
-//! The first overlap, negative speed and exchange of places are found to the last bit of the time ([`events`]). An overlap ends
-//! the samples, unless [`run::AtOverlap`] says otherwise.
+//! The first overlap, negative speed and exchange of places are found to the last bit of the time ([`events`]). An
+//! overlap ends the samples, unless [`run::AtOverlap`] says otherwise.
 //!
 //! ```
 //! # use jam::laws::{Law, Model, Parameter, Range};
@@ -212,8 +213,8 @@
 //!
 //! ## Looking on
 //!
-//! A [`run::RunObserver`] receives samples, events and steps as they occur, and can end a run. Long runs can be resumed from a
-//! [`run::Checkpoint`].
+//! A [`run::RunObserver`] receives samples, events and steps as they occur, and can end a run. Long runs can be resumed
+//! from a [`run::Checkpoint`].
 //!
 //! ```
 //! # use jam::laws::{Formula, Model};
@@ -236,7 +237,8 @@
 //!     }
 //! }
 //!
-//! # let lines = [("acceleration", "kappa*(tanh(s - 2) + tanh(2) - v)".into()), ("kappa", 1.0.into()), ("body", 0.0.into())];
+//! # let acceleration = "kappa*(tanh(s - 2) + tanh(2) - v)";
+//! # let lines = [("acceleration", acceleration.into()), ("kappa", 1.0.into()), ("body", 0.0.into())];
 //! # let law = Model::Formula(Formula::written(&lines)?);
 //! let run = Run::new(law, Ring { pedestrians: 50, length: 100.0 }, Start { shift: 0.1 }, 300.0)?;
 //! let mut observer = UntilWaves::default();
@@ -248,9 +250,10 @@
 //!
 //! # Accuracy
 //!
-//! A tolerance bounds the error of a step, not that of a run. [`errors::stated`] makes a run and estimates the errors of its
-//! results; it refuses samples that its check does not confirm. The estimates hold what steps leave out, roundings, and a force that
-//! is off by a part at all times, as rounded constants make it: those of the law, and the headway `L/N`. Parameters count as exact.
+//! A tolerance bounds the error of a step, not that of a run. [`errors::stated`] makes a run and estimates the errors
+//! of its results; it refuses samples that its check does not confirm. The estimates hold what steps leave out,
+//! roundings, and a force that is off by a part at all times, as rounded constants make it: those of the law, and the
+//! headway `L/N`. Parameters count as exact.
 //!
 //! ```
 //! # use jam::laws::{Law, Model, Parameter, Range};

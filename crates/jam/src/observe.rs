@@ -2,9 +2,9 @@
 
 use math::simd::{Kernel, dispatch};
 
-/// The standard deviation over the pedestrians (at least one), in the unit of the values, divided by `N` (not `N - 1`): first
-/// the mean, then the squares of the differences from it; 0 for equal numbers. Sums run in eight lanes, `n` modulo 8, which are
-/// then added in pairs, so the order is the same for any vector width.
+/// The standard deviation over the pedestrians (at least one), in the unit of the values, divided by `N` (not `N - 1`):
+/// first the mean, then the squares of the differences from it; 0 for equal numbers. Sums run in eight lanes, `n`
+/// modulo 8, which are then added in pairs, so the order is the same for any vector width.
 pub fn speed_std(speeds: &[f64]) -> f64 {
     // the mean of equal numbers is rounded
     if speeds.iter().all(|speed| *speed == speeds[0]) {
@@ -73,8 +73,8 @@ impl<const SCALED: bool> Kernel for Std<'_, SCALED> {
     }
 }
 
-/// From its place `LANES - n` on, all bits for `n` lanes and none for the others. A sum that begins at 0 is never -0: to add
-/// 0 to it changes nothing.
+/// From its place `LANES - n` on, all bits for `n` lanes and none for the others. A sum that begins at 0 is never -0:
+/// to add 0 to it changes nothing.
 const COUNTS: [u64; 2 * LANES] = {
     let mut counts = [0; 2 * LANES];
     let mut lane = 0;

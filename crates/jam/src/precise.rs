@@ -19,11 +19,13 @@ pub struct Precise {
     speeds: Slopes,
 }
 
-/// A part of the size of a variable, for differences: its square is beyond double-double numbers, also on the scale of ramps.
+/// A part of the size of a variable, for differences: its square is beyond double-double numbers, also on the scale of
+/// ramps.
 const PART: f64 = 1e-13;
 
 impl Precise {
-    /// In the uniform flow with this headway (in units of `a_0`), whose speed is next to this one; found by Newton's method.
+    /// In the uniform flow with this headway (in units of `a_0`), whose speed is next to this one; found by Newton's
+    /// method.
     pub fn new(model: &Model, headway: f64, speed: f64) -> Precise {
         let at = |spacing: DoubleDouble, speed: DoubleDouble| accelerate(model, &|_| spacing, &|_| speed);
         let (spacing, mut v) = (DoubleDouble::from(headway) - model.contact(), DoubleDouble::from(speed));

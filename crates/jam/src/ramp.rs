@@ -14,8 +14,8 @@ pub fn smooth_ramp(x: f64, epsilon: f64) -> f64 {
     epsilon * lane::softplus(-x / epsilon)
 }
 
-/// Where a law's smooth ramp bends: its argument, in units of its width, as a linear function of a pedestrian's clearance,
-/// own speed and speed ahead.
+/// Where a law's smooth ramp bends: its argument, in units of its width, as a linear function of a pedestrian's
+/// clearance, own speed and speed ahead.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bend {
     /// Weight of the clearance, the net gap, per `a_0`.

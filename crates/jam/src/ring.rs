@@ -19,7 +19,7 @@ impl Ring {
 /// The initial state: equal distances, all speeds 0, pedestrian 0 moved forward by `shift` (`eps_1` of the paper).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Start {
-    /// In units of `a_0`, of either sign; smaller in size than the effective gap at rest, so that both gaps of pedestrian 0 are
-    /// open.
+    /// In units of `a_0`, of either sign; smaller in size than the effective gap at rest, so that both gaps of
+    /// pedestrian 0 are open.
     pub shift: f64,
 }

@@ -1,8 +1,8 @@
 //! Linear stability of the uniform flow, exactly and for every wave number.
 //!
-//! Each law linearises to `eps_n'' = kappa (eps_{n+1}' - eps_n') + phi (eps_{n+1} - eps_n) - beta (eps_n' + eps_{n+1}') -
-//! eps_n'`. A wave `exp(z t + i k n)` then obeys `z^2 + (1 + beta (1 + e^{ik}) + kappa (1 - e^{ik})) z + phi (1 - e^{ik})
-//! = 0` (eq:stabN, eq:stab_neu_av).
+//! Each law linearises to `eps_n'' = kappa (eps_{n+1}' - eps_n') + phi (eps_{n+1} - eps_n) - beta (eps_n' + eps_{n+1}')
+//! - eps_n'`. A wave `exp(z t + i k n)` then obeys `z^2 + (1 + beta (1 + e^{ik}) + kappa (1 - e^{ik})) z + phi (1 -
+//! e^{ik}) = 0` (eq:stabN, eq:stab_neu_av).
 
 use math::complex_sqrt;
 use math::double_double::DoubleDouble;
@@ -15,13 +15,13 @@ pub struct Linear {
     pub phi: f64,
     /// `-(1 + 2 beta)` is its slope in a speed that all share, in units of `1 / tau`; 0 without widening.
     pub beta: f64,
-    /// `1 + 2 kappa` is the slope in the speed ahead less that in the own speed, in units of `1 / tau`; 0 where relative speeds
-    /// have no influence.
+    /// `1 + 2 kappa` is the slope in the speed ahead less that in the own speed, in units of `1 / tau`; 0 where
+    /// relative speeds have no influence.
     pub kappa: f64,
 }
 
-/// How the acceleration of pedestrian n answers to the spacings and speeds of n + j: the derivatives `f_{s_j}`, `f_{v_j}`
-/// in the uniform flow, for any neighbours j.
+/// How the acceleration of pedestrian n answers to the spacings and speeds of n + j: the derivatives `f_{s_j}`,
+/// `f_{v_j}` in the uniform flow, for any neighbours j.
 ///
 /// A wave `exp(z t + i k n)` of positions obeys `z^2 + b z + c = 0` with `b(k) = -sum_j f_{v_j} e^{ijk}` and
 /// `c(k) = sum_j f_{s_j} e^{ijk} (1 - e^{ik})`. Both roots decay if and only if `Re b > 0` and
@@ -49,7 +49,8 @@ impl Response {
         self.polynomial_with(k, math::sin(0.5 * k))
     }
 
-    /// The same, given `sin(k / 2)`. Sines and cosines are most of the work for the waves of a ring: none is taken twice.
+    /// The same, given `sin(k / 2)`. Sines and cosines are most of the work for the waves of a ring: none is taken
+    /// twice.
     fn polynomial_with(&self, k: f64, half: f64) -> (Complex, Complex) {
         let sin_k = math::sin(k);
         let turn = |j: i32| match j {
@@ -72,8 +73,8 @@ impl Response {
         (b, c)
     }
 
-    /// The root `z^+` with the larger real part, in units of `1 / tau`, for `k` in (0, pi]; minus its imaginary part is the
-    /// frequency of the wave.
+    /// The root `z^+` with the larger real part, in units of `1 / tau`, for `k` in (0, pi]; minus its imaginary part is
+    /// the frequency of the wave.
     pub fn root(&self, k: f64) -> Complex {
         Response::root_of(self.polynomial(k))
     }
@@ -98,22 +99,22 @@ impl Response {
         self.root(k).0
     }
 
-    /// `Re z^+` after one step of Newton's method from [`Response::root`]: its difference from [`Response::growth_rate`] is
-    /// the error of the latter.
+    /// `Re z^+` after one step of Newton's method from [`Response::root`]: its difference from
+    /// [`Response::growth_rate`] is the error of the latter.
     pub fn refined_growth_rate(&self, k: f64) -> f64 {
         refined_rate(self.root(k), self.polynomial(k))
     }
 
-    /// The wave with the largest margin by a finer grid of waves than that of [`Response::margin`] (0: the limit of long
-    /// waves).
+    /// The wave with the largest margin by a finer grid of waves than that of [`Response::margin`] (0: the limit of
+    /// long waves).
     pub fn largest_by_finer_grid(&self) -> f64 {
         const FINER: usize = 7;
         self.over_all(FINER).1
     }
 
-    /// How far a wave `k` in (0, pi] is from stability, in units of `1 / tau^2`, negative when it decays: `-D / ((1 - cos
-    /// k) sum_j f_{s_j})`, or `-D` where that sum is not positive. Where `Re b <= 0`, which no relaxation outweighs, at
-    /// least `-Re b`.
+    /// How far a wave `k` in (0, pi] is from stability, in units of `1 / tau^2`, negative when it decays: `-D / ((1 -
+    /// cos k) sum_j f_{s_j})`, or `-D` where that sum is not positive. Where `Re b <= 0`, which no relaxation
+    /// outweighs, at least `-Re b`.
     pub fn margin_of(&self, k: f64) -> f64 {
         let half = math::sin(0.5 * k);
         self.margin_with(k, half, self.polynomial_with(k, half))
@@ -126,8 +127,8 @@ impl Response {
         self.damped(-d / (2.0 * half * half * self.stiffness()), b.0)
     }
 
-    /// As large an error as the rounding of `b(k)` and `c(k)` can leave in `D`; 0 with one neighbour, whose terms do not
-    /// cancel.
+    /// As large an error as the rounding of `b(k)` and `c(k)` can leave in `D`; 0 with one neighbour, whose terms do
+    /// not cancel.
     fn rounding(&self, half: f64, k: f64, b: Complex, c: Complex) -> f64 {
         if self.spacings.len() < 2 {
             return 0.0;
@@ -176,8 +177,8 @@ impl Response {
         }
     }
 
-    /// The largest margin over the waves of a ring, as [`Response::margin`] gives it, and the largest growth rate of them, as
-    /// [`Response::fastest`] does: each wave is worked out once for both.
+    /// The largest margin over the waves of a ring, as [`Response::margin`] gives it, and the largest growth rate of
+    /// them, as [`Response::fastest`] does: each wave is worked out once for both.
     pub fn of_ring(&self, pedestrians: usize) -> (f64, f64) {
         let waves = (1..=pedestrians / 2).map(|l| wave_number(l, pedestrians));
         waves.fold((f64::NAN, f64::NAN), |(margin, rate), k| {
@@ -198,8 +199,8 @@ impl Response {
     }
 
     /// The largest margin over all waves: the best of a grid, `fineness` points for each wave length of the stencil's
-    /// widest pair, and what lies next to it. With one predecessor the margin and `Re b` are linear in `cos k`, so that one
-    /// end or the other is the largest.
+    /// widest pair, and what lies next to it. With one predecessor the margin and `Re b` are linear in `cos k`, so that
+    /// one end or the other is the largest.
     fn over_all(&self, fineness: usize) -> (f64, f64) {
         let long = (self.long_wave_margin(), 0.0);
         if self.looks_at_one() {
@@ -216,15 +217,15 @@ impl Response {
         self.spacings.iter().all(|(j, _)| *j == 0) && self.speeds.iter().all(|(j, _)| *j == 0 || *j == 1)
     }
 
-    /// The least and the largest wave number that grows, of all `k` in (0, pi] (0: the limit of long waves). `None` where none
-    /// does. Between the two, a wide stencil may have waves that decay: see [`Response::growing_bands`].
+    /// The least and the largest wave number that grows, of all `k` in (0, pi] (0: the limit of long waves). `None`
+    /// where none does. Between the two, a wide stencil may have waves that decay: see [`Response::growing_bands`].
     pub fn growing(&self) -> Option<(f64, f64)> {
         let bands = self.growing_bands();
         Some((bands.first()?.0, bands.last()?.1))
     }
 
-    /// The bands of wave numbers that grow, in ascending order: the least and the largest `k` of each (0: the limit of long
-    /// waves). A stencil of several neighbours may have more than one.
+    /// The bands of wave numbers that grow, in ascending order: the least and the largest `k` of each (0: the limit of
+    /// long waves). A stencil of several neighbours may have more than one.
     pub fn growing_bands(&self) -> Vec<(f64, f64)> {
         let count = self.grid(4);
         let step = PI / count as f64;
@@ -261,8 +262,8 @@ impl Response {
         growing
     }
 
-    /// The largest growth rate, in units of `1 / tau`, among the waves of a ring of `N >= 2`, `k = 2 pi l / N` for `l = 1
-    /// .. N/2`, and its `l`.
+    /// The largest growth rate, in units of `1 / tau`, among the waves of a ring of `N >= 2`, `k = 2 pi l / N` for `l =
+    /// 1 .. N/2`, and its `l`.
     pub fn fastest(&self, pedestrians: usize) -> (f64, usize) {
         fastest(pedestrians, |k| self.growth_rate(k))
     }
@@ -296,7 +297,8 @@ impl Response {
 /// A complex number, real and imaginary part.
 pub type Complex = (f64, f64);
 
-/// The real part of a root of `z^2 + b z + c` after one step of Newton's method, with the residual in double-double precision.
+/// The real part of a root of `z^2 + b z + c` after one step of Newton's method, with the residual in double-double
+/// precision.
 fn refined_rate((re, im): Complex, (b, c): (Complex, Complex)) -> f64 {
     let product = |x: f64, y: f64| DoubleDouble::product(x, y);
     let residual_re = product(re, re) - product(im, im) + product(b.0, re) - product(b.1, im) + DoubleDouble::from(c.0);
@@ -349,8 +351,8 @@ impl Linear {
         self.root(k).0
     }
 
-    /// `Re z^+` after one step of Newton's method from [`Linear::root`], with the residual in double-double precision: its
-    /// difference from [`Linear::growth_rate`] is the error of the latter.
+    /// `Re z^+` after one step of Newton's method from [`Linear::root`], with the residual in double-double precision:
+    /// its difference from [`Linear::growth_rate`] is the error of the latter.
     pub fn refined_growth_rate(&self, k: f64) -> f64 {
         refined_rate(self.root(k), self.polynomial(k))
     }
@@ -382,8 +384,8 @@ impl Linear {
         2.0 * self.phi - (1.0 + 2.0 * self.kappa) * (1.0 + 2.0 * self.beta)
     }
 
-    /// The largest margin over all waves. It is linear in `cos k`: that of long waves or that of the shortest, `k = pi`, which
-    /// always decays but may do so more slowly.
+    /// The largest margin over all waves. It is linear in `cos k`: that of long waves or that of the shortest, `k =
+    /// pi`, which always decays but may do so more slowly.
     pub fn largest_margin(&self) -> f64 {
         math::larger(self.long_wave_margin(), self.margin(PI))
     }

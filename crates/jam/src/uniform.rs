@@ -36,7 +36,8 @@ impl std::error::Error for NoUniformFlow {}
 /// with the speed.
 ///
 /// # Errors
-/// [`NoUniformFlow`] when at no speed from -1e12 times the desired one up to it the drive balances the force with room left.
+/// [`NoUniformFlow`] when at no speed from -1e12 times the desired one up to it the drive balances the force with room
+/// left.
 pub fn steady_speed(model: &Model, headway: f64) -> Result<f64, NoUniformFlow> {
     if !model.is_of_paper() {
         return nearest(model, headway, None);

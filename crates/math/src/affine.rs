@@ -1,7 +1,7 @@
 //! Whether a formula is linear in some of its variables, and with which constant slopes.
 //!
-//! [`Affine`] carries no value. The variables that are not counted stand for anything, so what it says holds for all values
-//! of all variables: it is read off the formula, not off samples of it.
+//! [`Affine`] carries no value. The variables that are not counted stand for anything, so what it says holds for all
+//! values of all variables: it is read off the formula, not off samples of it.
 
 use crate::number::Number;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -9,8 +9,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// The slopes of a number with respect to `N` variables, where they are the same everywhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Affine<const N: usize> {
-    /// The slopes, one for each of the `N` variables, in the unit of the number over that of the variable; `None` where one
-    /// of them depends on a variable.
+    /// The slopes, one for each of the `N` variables, in the unit of the number over that of the variable; `None` where
+    /// one of them depends on a variable.
     pub slopes: Option<[f64; N]>,
 }
 

@@ -14,7 +14,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// The number `hi + lo`, where `hi` is the double nearest to that sum.
 ///
 /// Results have a relative error of a few 2^-104, with any unit, and are meaningful while all intermediate values stay
-/// between about 1e-290 and 1e300 in size (the errors of products must not underflow, their splitting must not overflow).
+/// between about 1e-290 and 1e300 in size (the errors of products must not underflow, their splitting must not
+/// overflow).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DoubleDouble {
     /// The double nearest to the number.

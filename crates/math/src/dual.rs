@@ -9,8 +9,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 pub struct Dual<S = f64> {
     /// The value, in any unit.
     pub value: f64,
-    /// Its derivative, in the unit of the value over that of the variable: at a kink that of one side, NaN beyond the range
-    /// of a function.
+    /// Its derivative, in the unit of the value over that of the variable: at a kink that of one side, NaN beyond the
+    /// range of a function.
     pub slope: S,
 }
 

@@ -14,19 +14,19 @@
 //! | [`lane`] | the body of a loop that the compiler vectorises | at most 3 units in the last place, powers more |
 //! | [`row`] | a row of values in place, as short loops | as its lane: the same bits |
 //! | [`simd`] | runs a loop with the widest registers the processor has | none: the same bits |
-//! | [`double_double`] | numbers of 106 bits as pairs of doubles; functions in [`double_double::full`] | about 2^-104; 2^-100 |
+//! | [`double_double`] | 106 bits as pairs of doubles; functions in [`double_double::full`] | about 2^-104; 2^-100 |
 //!
 //! [`number`] lists the kinds of numbers in which a formula can be evaluated, [`random`] draws some.
 //!
 //! # Units, ranges, NaN
 //!
-//! Arguments of transcendental functions, and their results, are dimensionless; angles are in radians. Sums, products and
-//! roots carry whatever unit the caller gives them: the crate knows none. A derivative has the unit of the value over that of
-//! the variable, a difference the unit of the value.
+//! Arguments of transcendental functions, and their results, are dimensionless; angles are in radians. Sums, products
+//! and roots carry whatever unit the caller gives them: the crate knows none. A derivative has the unit of the value
+//! over that of the variable, a difference the unit of the value.
 //!
 //! Each function states its range. Outside of it the result is NaN, or infinite where this is said; nothing panics and
-//! nothing returns an error because of the value of a number. NaN goes in and NaN comes out, except for [`pow`] (`x^0 = 1`,
-//! `1^y = 1`, as in C) and [`number::Number::powi`] with the exponent 0. Which NaN, and its sign, has no meaning.
+//! nothing returns an error because of the value of a number. NaN goes in and NaN comes out, except for [`pow`] (`x^0 =
+//! 1`, `1^y = 1`, as in C) and [`number::Number::powi`] with the exponent 0. Which NaN, and its sign, has no meaning.
 //!
 //! Slices have any length unless one is stated.
 
@@ -47,8 +47,8 @@ pub mod simd;
 pub use complex::complex_sqrt;
 pub use scalar::{cos, exp, exp_m1, ln, ln_1p, log10, pow, sin};
 
-/// The larger of two numbers, the first in a tie; NaN if either is: `f64::max` would lose it, and may differ in the sign of a
-/// zero.
+/// The larger of two numbers, the first in a tie; NaN if either is: `f64::max` would lose it, and may differ in the
+/// sign of a zero.
 #[inline]
 pub fn larger(a: f64, b: f64) -> f64 {
     if a >= b || a.is_nan() { a } else { b }

@@ -21,8 +21,8 @@ use crate::lane;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// What a formula is made of. Operations have the range of the real function, and no value beyond it: NaN in doubles,
-/// which every further operation keeps but `powi` with the exponent 0. Arguments of `exp`, `ln`, `tanh` and their kin are
-/// dimensionless.
+/// which every further operation keeps but `powi` with the exponent 0. Arguments of `exp`, `ln`, `tanh` and their kin
+/// are dimensionless.
 ///
 /// Constants enter as the right-hand side of an operation, so a number may belong to
 /// something (a tape, a series) that a constant alone does not know.
@@ -41,7 +41,8 @@ pub trait Number:
     /// 1 / x; infinite at 0.
     fn recip(self) -> Self;
 
-    /// x^n by repeated multiplication, `((x x) x) ...`; of a negative n the reciprocal of that. For any x; 1 where n = 0.
+    /// x^n by repeated multiplication, `((x x) x) ...`; of a negative n the reciprocal of that. For any x; 1 where n =
+    /// 0.
     fn powi(self, n: i32) -> Self;
 
     /// x^q = e^(q ln x) for x > 0; else NaN, for q = 0 too.

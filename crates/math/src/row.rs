@@ -5,8 +5,8 @@
 //! stand idle. Loops over a third or half of a function show it many more; what passes from one to the next stays in
 //! the first-level cache. Every function gives the bits of the [`lane`](crate::lane) of its name.
 //!
-//! Range, error and NaN are those of the lane functions, number by number. The scratch is overwritten, and can be used for any
-//! other row.
+//! Range, error and NaN are those of the lane functions, number by number. The scratch is overwritten, and can be used
+//! for any other row.
 //!
 //! For the body of a [`Kernel`](crate::simd::Kernel), as lanes are. Best for rows whose length is a multiple of
 //! [`LANES`], so that nothing remains for single numbers; any length will do.

@@ -69,7 +69,8 @@ impl Measured {
         Some(self.instructions? / self.against_instructions?)
     }
 
-    /// Whether this tree is slower by more than the part `allowed`, by its instructions or, for certain, by its seconds.
+    /// Whether this tree is slower by more than the part `allowed`, by its instructions or, for certain, by its
+    /// seconds.
     pub fn is_slower(&self, allowed: f64) -> bool {
         let limit = 1.0 + allowed;
         self.ratio().is_some_and(|ratio| ratio.low > limit)
@@ -159,7 +160,8 @@ impl Tree {
         Ok((text.trim().parse().map_err(|_| fail(&text))?, None))
     }
 
-    /// How often the work is done in a sample, so that it takes about [`SAMPLE`]; and the right-hand sides if it is a run.
+    /// How often the work is done in a sample, so that it takes about [`SAMPLE`]; and the right-hand sides if it is a
+    /// run.
     fn calibrate(&self, name: &str) -> Result<(u64, Option<u64>), Failure> {
         let mut count = if is_run(name) { 1 } else { TRIAL };
         loop {

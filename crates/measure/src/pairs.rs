@@ -12,8 +12,8 @@ pub struct Ratio {
     pub high: f64,
 }
 
-/// The fewest pairs that give an interval: of five, the least and the largest hold the median between them only 15 times
-/// of 16.
+/// The fewest pairs that give an interval: of five, the least and the largest hold the median between them only 15
+/// times of 16.
 pub const FEWEST: usize = 6;
 
 /// The ratios `after / before` of pairs of seconds; `None` for fewer pairs than [`FEWEST`].

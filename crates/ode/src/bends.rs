@@ -40,8 +40,8 @@ impl Bends {
         (count > 0).then_some(bends)
     }
 
-    /// The part of a step of length `h` after which it has to end, less than 1, if it is too long for a bend; its end is at
-    /// this state with these rates.
+    /// The part of a step of length `h` after which it has to end, less than 1, if it is too long for a bend; its end
+    /// is at this state with these rates.
     pub(crate) fn shortened(&mut self, system: &dyn System, state: &[f64], rates: &[f64], h: f64) -> Option<f64> {
         self.after.read(system, state, rates);
         let (before, after) = (&self.before, &self.after);

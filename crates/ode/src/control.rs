@@ -7,15 +7,16 @@ use math::lane;
 /// The rule for the length of the steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Control {
-    /// Every step has this length, except a shorter last one where the end is no multiple of it. The error is not looked at.
+    /// Every step has this length, except a shorter last one where the end is no multiple of it. The error is not
+    /// looked at.
     Fixed {
         /// Length of a step, above 0 and finite, in the unit of time.
         step: f64,
     },
     /// Steps as long as the estimated local error allows.
     Adaptive {
-        /// Largest error of one step, relative to the size of a group of components (see [`Group`]): above 0, dimensionless.
-        /// Below about 1e-15 it asks for more than doubles have, and steps become ever shorter.
+        /// Largest error of one step, relative to the size of a group of components (see [`Group`]): above 0,
+        /// dimensionless. Below about 1e-15 it asks for more than doubles have, and steps become ever shorter.
         tolerance: f64,
     },
 }

@@ -50,8 +50,8 @@ pub(crate) trait Stepper {
         None
     }
 
-    /// How much the law's rates at the end of the step differ from the slope of its solution there, times the length of the
-    /// step and in units of the tolerance; 0 where the method has no such slope.
+    /// How much the law's rates at the end of the step differ from the slope of its solution there, times the length of
+    /// the step and in units of the tolerance; 0 where the method has no such slope.
     fn defect(&mut self, _ends: &Ends<'_>, _norm: &Norm) -> f64 {
         0.0
     }
@@ -63,8 +63,8 @@ pub(crate) trait Stepper {
     }
 
     /// Writes by how much the series about a state near the start of the step differ from those of the step, for the
-    /// orders from 1 to `order` or the method's own, after a row of no meaning, and returns their unit of time. Only for
-    /// methods with [`Stepper::own_error`].
+    /// orders from 1 to `order` or the method's own, after a row of no meaning, and returns their unit of time. Only
+    /// for methods with [`Stepper::own_error`].
     fn difference(&mut self, _system: &dyn System, _near: &[f64], _order: usize, _rows: &mut Vec<f64>) -> f64 {
         1.0
     }
@@ -77,7 +77,8 @@ pub(crate) trait Stepper {
     /// The power of the step with which the estimated error falls.
     fn error_power(&self) -> usize;
 
-    /// Writes components of the solution at the fraction `theta` of the accepted step; returns the evaluations this took.
+    /// Writes components of the solution at the fraction `theta` of the accepted step; returns the evaluations this
+    /// took.
     fn interpolate(&mut self, system: &dyn System, ends: &Ends<'_>, theta: f64, part: Part<'_>) -> u64;
 
     /// Does so at two fractions inside the step, for the components from `from` on, and returns the evaluations this
@@ -108,8 +109,8 @@ impl Part<'_> {
     }
 }
 
-/// An accepted step. States and rates have one number for each component of the system. Inside the step the solution is the
-/// method's interpolant, whose error is not looked at by the control of the steps.
+/// An accepted step. States and rates have one number for each component of the system. Inside the step the solution is
+/// the method's interpolant, whose error is not looked at by the control of the steps.
 pub struct Step<'a> {
     pub(crate) system: &'a dyn System,
     pub(crate) stepper: &'a mut dyn Stepper,
@@ -129,8 +130,8 @@ fn is_same(theta: f64, end: f64) -> bool {
     (theta - end).abs() < SAME
 }
 
-/// How near to an end of a step of this length a time is taken for that end: a few roundings of it, but a small part of a
-/// step that is hardly longer than these.
+/// How near to an end of a step of this length a time is taken for that end: a few roundings of it, but a small part of
+/// a step that is hardly longer than these.
 pub(crate) fn nearby(end: f64, length: f64) -> f64 {
     let (rounding, part) = (4.0 * f64::EPSILON * end.abs(), 1e-9 * length);
     if rounding < part { rounding } else { part }
@@ -217,8 +218,8 @@ impl Step<'_> {
         }
     }
 
-    /// Writes the rates of any state, one for each component. They are not counted, since an observer does not change the
-    /// statistics of a run.
+    /// Writes the rates of any state, one for each component. They are not counted, since an observer does not change
+    /// the statistics of a run.
     pub fn rates_of(&self, state: &[f64], rates: &mut [f64]) {
         self.system.rates(state, rates);
     }

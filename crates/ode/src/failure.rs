@@ -26,8 +26,8 @@ pub enum Failure {
         /// Its length.
         step: f64,
     },
-    /// A second solution, by other steps, ends early or differs by as much as the numbers are large. No integration finds that
-    /// by itself: it is for those who make the second one.
+    /// A second solution, by other steps, ends early or differs by as much as the numbers are large. No integration
+    /// finds that by itself: it is for those who make the second one.
     NotConfirmed {
         /// The time up to which both agree.
         time: f64,

@@ -4,8 +4,8 @@ use crate::dense::{Ends, Part, mend};
 use crate::rows::Rows;
 use math::simd::{Kernel, dispatch};
 
-/// The interpolant at some fractions of a step, `c + theta^2 (1 - theta)^2 (r_0 + theta (r_1 + (1 - theta) (r_2 + theta r_3
-/// ...)))` with the Hermite polynomial `c` through states and rates at both ends.
+/// The interpolant at some fractions of a step, `c + theta^2 (1 - theta)^2 (r_0 + theta (r_1 + (1 - theta) (r_2 + theta
+/// r_3 ...)))` with the Hermite polynomial `c` through states and rates at both ends.
 #[derive(Clone, Copy)]
 pub(crate) struct Inside<'a, const COUNT: usize> {
     pub(crate) ends: &'a Ends<'a>,

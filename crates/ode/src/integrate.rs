@@ -52,8 +52,8 @@ pub struct Statistics {
 /// [`Failure::StepTooSmall`] in the first step.
 ///
 /// # Panics
-/// The state at the start has another number of components than the system; a step or a tolerance that is not above 0 and
-/// finite; a time that is NaN.
+/// The state at the start has another number of components than the system; a step or a tolerance that is not above 0
+/// and finite; a time that is NaN.
 pub fn integrate(problem: &Problem<'_>, observer: &mut dyn Observer) -> Result<Statistics, Failure> {
     if !problem.method.suits(problem.system) {
         return Err(Failure::NoSeries);
@@ -307,8 +307,8 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// The part of a step that its error allows after which it has to end all the same, less than 1: for a bend that it may
-    /// not have seen, or since the law says otherwise at its end than its solution.
+    /// The part of a step that its error allows after which it has to end all the same, less than 1: for a bend that it
+    /// may not have seen, or since the law says otherwise at its end than its solution.
     fn too_long(&mut self, h: f64, norm: &Norm, bends: Option<&mut Bends>) -> Option<f64> {
         let shortened = bends.and_then(|bends| bends.shortened(self.system, &self.next, &self.next_rates, h));
         if shortened.is_some_and(|part| part > LEAST_PART) {
@@ -385,14 +385,16 @@ const LONGEST_BURST: u64 = 4096;
 const WORK_BETWEEN_MARKS: u64 = 1 << 18;
 
 /// Lower limit of adaptive steps. The equations are autonomous and the time is summed with compensation, so a step may
-/// be far below the rounding of the time: near a wall of the force it is as short as the gap is small. In the unit of time.
+/// be far below the rounding of the time: near a wall of the force it is as short as the gap is small. In the unit of
+/// time.
 pub const SHORTEST: f64 = 1e-290;
 
 /// So many steps in a row that had to be shortened and changed no component end a run: at the end of the domain the
 /// compensation of the sums takes in ever shorter ones.
 const MOST_IN_PLACE: u32 = 256;
 
-/// A path that touches a bend in an earlier part of a step than this is doubted: it may be that of an end that means nothing.
+/// A path that touches a bend in an earlier part of a step than this is doubted: it may be that of an end that means
+/// nothing.
 const LEAST_PART: f64 = 1e-4;
 
 /// A larger defect is taken for a sign that the law is another one at the end of the step than at its start.

@@ -30,12 +30,12 @@ impl Kinks {
         (count > 0).then(|| Kinks { count, order, rows: zeros(count * order), low: zeros(count), high: zeros(count) })
     }
 
-    /// The time after which a step of `length` has to end because an argument has changed its sign, in the series written
-    /// last, with this unit of time.
+    /// The time after which a step of `length` has to end because an argument has changed its sign, in the series
+    /// written last, with this unit of time.
     ///
-    /// An argument that is `x` beyond 0 after the time `t` makes the rates wrong by about `x` and the state by less than
-    /// `x t`. It ends the step where that reaches `slack`. So an argument beside 0 that is all rounding ends no step, and
-    /// kinks closer to each other than a short step of no consequence share one.
+    /// An argument that is `x` beyond 0 after the time `t` makes the rates wrong by about `x` and the state by less
+    /// than `x t`. It ends the step where that reaches `slack`. So an argument beside 0 that is all rounding ends no
+    /// step, and kinks closer to each other than a short step of no consequence share one.
     pub(crate) fn end(&mut self, system: &dyn System, length: f64, unit: f64, slack: f64) -> f64 {
         let Kinks { count, order, rows, low, high } = self;
         system.kink_arguments(*order, rows);
@@ -180,8 +180,8 @@ struct Part {
 
 impl Polynomial {
     /// The first zero of a polynomial that is positive at 0. A part of the interval has no more zeros than its control
-    /// points change their sign, and is halved until that is once or never (Descartes' rule; G. E. Collins, A. G. Akritas,
-    /// *Polynomial real root isolation using Descarte's rule of signs*, SYMSAC 1976).
+    /// points change their sign, and is halved until that is once or never (Descartes' rule; G. E. Collins, A. G.
+    /// Akritas, *Polynomial real root isolation using Descarte's rule of signs*, SYMSAC 1976).
     fn first_zero(&self) -> Option<f64> {
         let mut parts = vec![Part { from: 0.0, width: 1.0, points: self.control_points() }];
         while let Some(part) = parts.pop() {

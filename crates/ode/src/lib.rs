@@ -52,12 +52,13 @@
 //! dimensionless: an error is compared with the size of a [`Group`], whose components and whose floor share a unit.
 //! Fractions of a step (`theta`) are dimensionless, 0 to 1. Times may have either sign; they go up.
 //!
-//! Slices are as long as is said; with another length a call panics, or its result has no meaning. A component that becomes NaN
-//! or infinite makes a step of adaptive length shorter until the integration ends as [`Failure::StepTooSmall`], and ends one of
-//! fixed length as [`Failure::NotFinite`]: no observer is shown such a state.
+//! Slices are as long as is said; with another length a call panics, or its result has no meaning. A component that
+//! becomes NaN or infinite makes a step of adaptive length shorter until the integration ends as
+//! [`Failure::StepTooSmall`], and ends one of fixed length as [`Failure::NotFinite`]: no observer is shown such a
+//! state.
 //!
-//! The error of a result is not stated by [`integrate`]: compare two methods or tolerances, or carry the error along with a
-//! [`Shadow`] (Taylor's method).
+//! The error of a result is not stated by [`integrate`]: compare two methods or tolerances, or carry the error along
+//! with a [`Shadow`] (Taylor's method).
 
 mod ballistic;
 mod bends;

@@ -17,16 +17,16 @@ pub(crate) struct Linear {
     /// How fast differences move at most: at the end of the step, and in the whole of it.
     fastest_at_end: f64,
     fastest: f64,
-    /// Whether `end` is known from the step before, whether it is a mean over the step rather than what holds at its end, and for
-    /// how many more steps it may stand for theirs.
+    /// Whether `end` is known from the step before, whether it is a mean over the step rather than what holds at its
+    /// end, and for how many more steps it may stand for theirs.
     is_known: bool,
     is_mean: bool,
     is_steady: bool,
     steady_for: u32,
     /// Whether they change so much over the step that a shift in time is carried apart.
     is_thrown: bool,
-    /// How late the solution is: this part of the difference, a shift along the solution, is carried exactly. Of a motion
-    /// that is thrown back by a wall all but a small rest is of this kind.
+    /// How late the solution is: this part of the difference, a shift along the solution, is carried exactly. Of a
+    /// motion that is thrown back by a wall all but a small rest is of this kind.
     late: f64,
     /// The components concerned.
     forced: Vec<Range<usize>>,
@@ -128,8 +128,8 @@ impl Linear {
         if change == 0.0 { 0.0 } else { change / size }
     }
 
-    /// Writes the difference at the fraction `theta` of the step, less what the solution is late, of what was there at its
-    /// start.
+    /// Writes the difference at the fraction `theta` of the step, less what the solution is late, of what was there at
+    /// its start.
     fn over(&self, step: &Step<'_>, theta: f64, error: &[f64], result: &mut [f64]) {
         if self.late == 0.0 {
             result.copy_from_slice(error);
@@ -150,8 +150,8 @@ impl Linear {
         step.system.carry(Tangent { start, end, length, fastest: self.fastest, room }, result);
     }
 
-    /// Adds to the difference that was carried over the step what the solution is late, and what the step has added: its own
-    /// error, and this part of its change with the sign of the error at its start.
+    /// Adds to the difference that was carried over the step what the solution is late, and what the step has added:
+    /// its own error, and this part of its change with the sign of the error at its start.
     pub(crate) fn end(&self, step: &Step<'_>, own: &[f64], rounding: f64, error: &[f64], after: &mut [f64]) {
         let (states, rates) = ([step.before(), step.after()], step.rates_after());
         if self.late == 0.0 {
@@ -175,8 +175,8 @@ impl Linear {
     }
 }
 
-/// What a shift in time carries is at most so many times the difference: what remains would be the difference of two far
-/// larger numbers, of which the series has two digits.
+/// What a shift in time carries is at most so many times the difference: what remains would be the difference of two
+/// far larger numbers, of which the series has two digits.
 const MOST_LATE: f64 = 10.0;
 
 /// The shift in time that makes most of a difference.

@@ -88,7 +88,8 @@ pub struct Sampler {
 }
 
 impl Sampler {
-    /// Samples every `interval` (above 0, in the unit of time), the first after time 0, of a system of `dimension` components.
+    /// Samples every `interval` (above 0, in the unit of time), the first after time 0, of a system of `dimension`
+    /// components.
     pub fn new(interval: f64, dimension: usize) -> Sampler {
         Sampler { interval, next: 1, states: [(); 2].map(|()| vec![0.0; dimension]) }
     }
@@ -167,9 +168,9 @@ fn last_moment(step: &Step<'_>, until: f64) -> f64 {
 }
 
 /// The fraction of the step, 0 to 1, at which `value` of the state, in any unit, first is negative, to the last bit of
-/// the fraction. Looked for in `parts` parts of the step and about every minimum that they show; of two crossings within
-/// one part the first may go unseen only where `value` has several minima there. `None` when it does not get there; NaN
-/// is not negative.
+/// the fraction. Looked for in `parts` parts of the step and about every minimum that they show; of two crossings
+/// within one part the first may go unseen only where `value` has several minima there. `None` when it does not get
+/// there; NaN is not negative.
 pub fn first_crossing(step: &mut Step<'_>, parts: u32, value: &mut dyn FnMut(&[f64]) -> f64) -> Option<f64> {
     let mut state = vec![0.0; step.before().len()];
     let mut at = |theta: f64| {
@@ -203,8 +204,8 @@ pub fn first_crossing(step: &mut Step<'_>, parts: u32, value: &mut dyn FnMut(&[f
     negative_about_minimum(from, 1.0, &mut at).map(|past| bisect(from, past, &mut at))
 }
 
-/// The first fraction of the step, between `before`, where `value` is not negative, and `past`, where it is, at which it
-/// is negative; one of them if there are several.
+/// The first fraction of the step, between `before`, where `value` is not negative, and `past`, where it is, at which
+/// it is negative; one of them if there are several.
 pub fn crossing_between(step: &mut Step<'_>, before: f64, past: f64, value: &mut dyn FnMut(&[f64]) -> f64) -> f64 {
     let mut state = vec![0.0; step.before().len()];
     bisect(before, past, &mut |theta| {

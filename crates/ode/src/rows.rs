@@ -1,7 +1,7 @@
 //! Rows of numbers that begin where a line of the cache does.
 
-/// Rows of equal length, one after another. Reading across two lines of the cache takes two accesses, so a chosen number of
-/// the first row begins one; that of every row does if the rows are whole lines apart.
+/// Rows of equal length, one after another. Reading across two lines of the cache takes two accesses, so a chosen
+/// number of the first row begins one; that of every row does if the rows are whole lines apart.
 pub(crate) struct Rows {
     memory: Vec<f64>,
     begin: usize,
@@ -19,7 +19,8 @@ impl Rows {
         Rows::apart(count, n, n.max(1).next_multiple_of(LINE), 0)
     }
 
-    /// `count` rows of `n` zeros, each `stride` numbers behind the one before. Number `first` of the first row begins a line.
+    /// `count` rows of `n` zeros, each `stride` numbers behind the one before. Number `first` of the first row begins a
+    /// line.
     pub(crate) fn apart(count: usize, n: usize, stride: usize, first: usize) -> Rows {
         let mut memory = vec![0.0; count * stride + LINE - 1];
         let begin = memory[first % LINE..].as_ptr().align_offset(LINE * size_of::<f64>());

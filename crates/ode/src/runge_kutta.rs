@@ -136,8 +136,8 @@ impl Stepper for RungeKutta {
         self.end_is_known.then(|| self.stages.row(self.tableau.stages()))
     }
 
-    /// An embedded solution of order `q` errs by `step^(q + 1)` in one step. All pairs here have `q + 1 = order`, and the
-    /// two estimates of DOP853 together behave like one of order 7.
+    /// An embedded solution of order `q` errs by `step^(q + 1)` in one step. All pairs here have `q + 1 = order`, and
+    /// the two estimates of DOP853 together behave like one of order 7.
     fn error_power(&self) -> usize {
         self.tableau.order
     }

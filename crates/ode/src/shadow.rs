@@ -22,7 +22,8 @@ pub struct Shadow {
     added: Vec<f64>,
     /// What the last step has added.
     own: Vec<f64>,
-    /// The orders of the shadow's difference from the solution, as series in time since then, after a row of no meaning.
+    /// The orders of the shadow's difference from the solution, as series in time since then, after a row of no
+    /// meaning.
     rows: Vec<f64>,
     /// Whether there is an error that they follow.
     has_rows: bool,
@@ -113,9 +114,9 @@ impl Shadow {
         }
     }
 
-    /// Follows a step in which the rates have the given rounding errors (one for each component with a force), and all forces are
-    /// off by the same part of themselves, as they are by rounded constants; false for a method whose steps give no error
-    /// estimate.
+    /// Follows a step in which the rates have the given rounding errors (one for each component with a force), and all
+    /// forces are off by the same part of themselves, as they are by rounded constants; false for a method whose steps
+    /// give no error estimate.
     pub fn follow(&mut self, step: &mut Step<'_>, rounding: f64, part: f64) -> bool {
         if !step.stepper.own_error(step.system, &step.ends, &mut self.own) {
             return false;
@@ -156,8 +157,8 @@ impl Shadow {
         }
     }
 
-    /// Whether the series of the error have reached over every step so far. Where motion is much stiffer for an error than
-    /// for the solution, they do not, and the error says nothing.
+    /// Whether the series of the error have reached over every step so far. Where motion is much stiffer for an error
+    /// than for the solution, they do not, and the error says nothing.
     pub fn is_sure(&self) -> bool {
         self.is_sure
     }
@@ -244,8 +245,8 @@ impl Shadow {
         }
     }
 
-    /// The orders of the next expansion: one more where these do not reach over [`MARGIN`] steps, one less where one less
-    /// does.
+    /// The orders of the next expansion: one more where these do not reach over [`MARGIN`] steps, one less where one
+    /// less does.
     fn adapt(&mut self, step: &Step<'_>, made: usize, reach: f64) {
         let enough = MARGIN * step.length();
         self.orders = made;

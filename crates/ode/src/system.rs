@@ -5,9 +5,9 @@ use std::ops::Range;
 /// An autonomous system `dy/dt = f(y)` whose state splits into position-like components, the rates of which depend on
 /// the speed-like components alone, and the rest. A system without such a split has no position-like components.
 ///
-/// States and rates are slices of [`System::dimension`] numbers; a rate has the unit of its component over that of time. The first
-/// five functions have to be written; the others serve methods and checks that not every system has. A rate that does not exist
-/// is NaN: the step that asks for it is not accepted.
+/// States and rates are slices of [`System::dimension`] numbers; a rate has the unit of its component over that of
+/// time. The first five functions have to be written; the others serve methods and checks that not every system has. A
+/// rate that does not exist is NaN: the step that asks for it is not accepted.
 pub trait System {
     /// The number of components.
     fn dimension(&self) -> usize;
@@ -29,8 +29,8 @@ pub trait System {
         true
     }
 
-    /// Makes `count` steps of length `h` (above 0, in the unit of time) of Heun's scheme in place, with the same bits as one by one, if the system has a
-    /// faster way to do so.
+    /// Makes `count` steps of length `h` (above 0, in the unit of time) of Heun's scheme in place, with the same bits
+    /// as one by one, if the system has a faster way to do so.
     fn heun(&self, _state: &mut [f64], _h: f64, _count: u64) -> Batch {
         Batch::Unsupported
     }
@@ -65,8 +65,8 @@ pub trait System {
         0.0
     }
 
-    /// Writes coefficients that hold on average over a step; `earlier` are those of the step before, or of its start. `None`
-    /// where they do not follow from the ends of the step.
+    /// Writes coefficients that hold on average over a step; `earlier` are those of the step before, or of its start.
+    /// `None` where they do not follow from the ends of the step.
     fn mean_tangent(&self, _ends: TangentEnds<'_>, _earlier: &[f64], _tangent: &mut [f64]) -> Option<MeanTangent> {
         None
     }
@@ -75,8 +75,8 @@ pub trait System {
     /// component.
     fn carry(&self, _tangent: Tangent<'_>, _difference: &mut [f64]) {}
 
-    /// How fast speed-like components relax if no force acts: the force on one is its rate plus this times it. A rounded constant of
-    /// the equations makes all forces too strong or too weak by about the same part, at all times.
+    /// How fast speed-like components relax if no force acts: the force on one is its rate plus this times it. A
+    /// rounded constant of the equations makes all forces too strong or too weak by about the same part, at all times.
     fn relaxation_rate(&self) -> f64 {
         0.0
     }
@@ -86,9 +86,9 @@ pub trait System {
         0
     }
 
-    /// Writes how far a state is from each bend, in units of its width, 0 in its middle; and how fast that changes. Steps of
-    /// adaptive length are short on this scale where they touch a bend, since their error estimates may not see what they
-    /// step over.
+    /// Writes how far a state is from each bend, in units of its width, 0 in its middle; and how fast that changes.
+    /// Steps of adaptive length are short on this scale where they touch a bend, since their error estimates may not
+    /// see what they step over.
     fn bend_arguments(&self, _state: &[f64], _rates: &[f64], _arguments: &mut [f64], _slopes: &mut [f64]) {}
 
     /// How many arguments with kinks at 0 the rates have, as those of `abs`, and what `min` and `max` compare.

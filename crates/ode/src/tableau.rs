@@ -1,5 +1,5 @@
-//! Runge-Kutta methods as data. Weights are dimensionless; a stage is a rate, and the change of a step is `h` times the sum of
-//! weights times stages.
+//! Runge-Kutta methods as data. Weights are dimensionless; a stage is a rate, and the change of a step is `h` times the
+//! sum of weights times stages.
 
 /// Weights of the stages that count, as pairs (stage, weight); stage 0 is the rate at the start of the step.
 pub type Row = &'static [(usize, f64)];
@@ -15,8 +15,8 @@ pub struct Tableau {
     pub rows: &'static [Row],
     /// Weights of the solution.
     pub weights: Row,
-    /// Solution minus an embedded one, as weights: none (no step control), one, or the two of DOP853. The rate at the end
-    /// of the step may count as the stage after the last one ("first same as last").
+    /// Solution minus an embedded one, as weights: none (no step control), one, or the two of DOP853. The rate at the
+    /// end of the step may count as the stage after the last one ("first same as last").
     pub errors: &'static [Row],
     /// How the solution is continued inside the step.
     pub interpolant: Interpolant,

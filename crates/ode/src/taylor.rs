@@ -25,8 +25,8 @@ pub(crate) use sums::Change;
 pub(crate) struct Taylor {
     order: usize,
     dimension: usize,
-    /// Unit of time of the coefficients, a power of 2 near the length of the steps: in units far from it the coefficients
-    /// of high orders would overflow near a blow-up.
+    /// Unit of time of the coefficients, a power of 2 near the length of the steps: in units far from it the
+    /// coefficients of high orders would overflow near a blow-up.
     unit: f64,
     /// That of the next expansion.
     next_unit: f64,
@@ -34,8 +34,8 @@ pub(crate) struct Taylor {
     proposed: f64,
     /// The kinks on which steps end, if the system has any.
     kinks: Option<Kinks>,
-    /// Rows of coefficients, that of order 0 first. The components with a force, of which samples and defects are computed,
-    /// begin with a line of the cache.
+    /// Rows of coefficients, that of order 0 first. The components with a force, of which samples and defects are
+    /// computed, begin with a line of the cache.
     coefficients: Rows,
     /// The sizes of the rows of the last two orders, in units of the tolerance.
     before_size: f64,
@@ -108,8 +108,8 @@ impl Stepper for Taylor {
         if norm.is_none() {
             self.expand(system, from.state, from.rates);
         }
-        // a step may end far earlier than its series allows, which of a polynomial is never: in that unit the coefficients of
-        // the next expansion would overflow
+        // a step may end far earlier than its series allows, which of a polynomial is never: in that unit the
+        // coefficients of the next expansion would overflow
         if from.h < self.proposed {
             self.next_unit = power_of_two(from.h);
         }
@@ -174,8 +174,8 @@ impl Stepper for Taylor {
 
     /// What follows the last order. For components with a force it follows from the defect, which was computed when the
     /// step was accepted. For position-like ones two orders are known: the first follows from the last order of speeds,
-    /// the second from what the speeds lack. The first alone may vanish by chance, or by symmetry. What a defect leaves of
-    /// itself at the end of the step fades as speeds do: else positions would keep what speeds lack by then.
+    /// the second from what the speeds lack. The first alone may vanish by chance, or by symmetry. What a defect leaves
+    /// of itself at the end of the step fades as speeds do: else positions would keep what speeds lack by then.
     fn own_error(&mut self, system: &dyn System, ends: &Ends<'_>, error: &mut [f64]) -> bool {
         if !self.has_defect {
             return false;

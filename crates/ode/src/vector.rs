@@ -224,8 +224,8 @@ struct Largest<'a>(&'a [f64]);
 impl Kernel for Largest<'_> {
     type Output = f64;
 
-    /// Sizes are compared as whole numbers, which their bits are in the same order, NaN above infinity: no other pass looks
-    /// for NaN, and the compiler may compare in any order.
+    /// Sizes are compared as whole numbers, which their bits are in the same order, NaN above infinity: no other pass
+    /// looks for NaN, and the compiler may compare in any order.
     #[inline(always)]
     fn run(self) -> f64 {
         let mut most = 0;

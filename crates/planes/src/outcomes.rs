@@ -11,7 +11,8 @@ use sweep::Sweep;
 /// A panel with its title.
 pub type Titled<'a> = (&'a str, &'a str);
 
-/// The sweep of a panel, and its cells as committed: a plane takes minutes. The table is taken over under the panel's name.
+/// The sweep of a panel, and its cells as committed: a plane takes minutes. The table is taken over under the panel's
+/// name.
 ///
 /// # Errors
 /// It is missing, or not one of this sweep.
@@ -29,7 +30,8 @@ fn plane(job: &Job, panel: &str) -> Result<(Sweep, Vec<sweep::CellOutcome>), Fai
     Ok((sweep, cells))
 }
 
-/// Takes the planes over, and writes which part of their unstable and of their stable cells has which outcome: `shares`.
+/// Takes the planes over, and writes which part of their unstable and of their stable cells has which outcome:
+/// `shares`.
 ///
 /// # Errors
 /// A committed plane is missing, or not that of its panel.
@@ -55,7 +57,8 @@ pub fn tables(job: &Job, planes: &[Titled<'_>]) -> Result<(), Failure> {
     job.write_rows("shares", &shares)
 }
 
-/// Whether the uniform flow of each cell is unstable against waves of any length, column by column; false where there is none.
+/// Whether the uniform flow of each cell is unstable against waves of any length, column by column; false where there
+/// is none.
 fn unstable(sweep: &Sweep) -> Result<Vec<bool>, Failure> {
     let at = |index: usize| [(index / sweep.y.cells) as f64 + 0.5, (index % sweep.y.cells) as f64 + 0.5];
     let exact = (0..sweep.cells()).map(|index| sweep.exact(at(index)).map(|exact| exact.margin > 0.0));
@@ -120,7 +123,8 @@ fn band(sweep: &Sweep, column: usize, cells: &[sweep::CellOutcome]) -> Result<[O
     ])
 }
 
-/// The lowest desired speed of a column from which on the uniform flow is unstable, if it becomes so in the plane: bisection.
+/// The lowest desired speed of a column from which on the uniform flow is unstable, if it becomes so in the plane:
+/// bisection.
 fn threshold(sweep: &Sweep, place: f64) -> Result<Option<f64>, Failure> {
     let is_unstable = |row: f64| sweep.exact([place, row]).map(|exact| exact.margin > 0.0);
     let rows = (0..sweep.y.cells).map(|row| is_unstable(row as f64 + 0.5)).collect::<Result<Vec<bool>, String>>()?;
@@ -134,8 +138,8 @@ fn threshold(sweep: &Sweep, place: f64) -> Result<Option<f64>, Failure> {
     Ok(Some(sweep.y.at(high)))
 }
 
-/// Takes over how many cells of a plane change with the numerics, the time and the start (`how_sure`), and says so beside
-/// each plane in the manifest.
+/// Takes over how many cells of a plane change with the numerics, the time and the start (`how_sure`), and says so
+/// beside each plane in the manifest.
 ///
 /// # Errors
 /// The committed table is missing or lacks a column.

@@ -36,8 +36,8 @@ pub fn picture(sweep: &Sweep, cells: &[CellOutcome]) -> Result<Picture, Failure>
     grid(&[("", sweep, cells)], 1, [COLUMN_WIDTH, HEIGHT])
 }
 
-/// Planes in rows of `columns`, each under its title, with one key below; width and height are millimetres. Of neighbours
-/// that share an axis, the one at the left, or below, labels it.
+/// Planes in rows of `columns`, each under its title, with one key below; width and height are millimetres. Of
+/// neighbours that share an axis, the one at the left, or below, labels it.
 ///
 /// # Errors
 /// The cells of a plane are not those of the plane.

@@ -53,8 +53,8 @@ impl Fill {
         self.rising || self.falling
     }
 
-    /// Draws the hatching over those of `columns` x `rows` cells of a box on the page (millimetres) that have this fill;
-    /// columns count from the left, rows from below.
+    /// Draws the hatching over those of `columns` x `rows` cells of a box on the page (millimetres) that have this
+    /// fill; columns count from the left, rows from below.
     pub(crate) fn hatch(
         self,
         page: &Area,

@@ -1,7 +1,7 @@
 //! Labels: plain text with mathematics between dollar signs, set glyph by glyph while it is read.
 //!
-//! Inside dollars: letters and small Greek are italic, digits, capital Greek and signs upright; blanks do not count; `_`
-//! and `^` take one item or a `{group}`; `'` is a prime. Commands: Greek letters by name, `\tilde \hat \bar \dot`,
+//! Inside dollars: letters and small Greek are italic, digits, capital Greek and signs upright; blanks do not count;
+//! `_` and `^` take one item or a `{group}`; `'` is a prime. Commands: Greek letters by name, `\tilde \hat \bar \dot`,
 //! `\mathrm{} \text{}`, `\langle \rangle \times \le \ge \infty \Vert`, and the spaces `\,` `\;`.
 
 use crate::error::PlotError;

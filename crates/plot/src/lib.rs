@@ -1,8 +1,8 @@
 //! House style and pictures: data in, the bytes of a PNG and an SVG out.
 //!
-//! A [`Picture`] is a page in millimetres with panels in a grid: [`Lines`], [`Map`], [`Plane`],
-//! [`SpaceTime`], a free [`Drawing`], or a [`Key`] to what the others show. Panels take numbers and labels; this crate knows no physics, opens no file and asks the host for no
-//! font. The same data give the same bytes on every machine.
+//! A [`Picture`] is a page in millimetres with panels in a grid: [`Lines`], [`Map`], [`Plane`], [`SpaceTime`], a free
+//! [`Drawing`], or a [`Key`] to what the others show. Panels take numbers and labels; this crate knows no physics,
+//! opens no file and asks the host for no font. The same data give the same bytes on every machine.
 //!
 //! Panels are charts of plotters, drawn once for both files: on a page whose surfaces write SVG and paint pixels.
 //!

@@ -75,8 +75,8 @@ impl Plane {
         self
     }
 
-    /// Draws the zero contour of values at `columns` x `rows` points (each at least 2), equally far apart on paper and the
-    /// outermost on the edges: `values[row * columns + column]`, the first row lowest; NaN where there is none.
+    /// Draws the zero contour of values at `columns` x `rows` points (each at least 2), equally far apart on paper and
+    /// the outermost on the edges: `values[row * columns + column]`, the first row lowest; NaN where there is none.
     pub fn contour(self, columns: usize, rows: usize, values: Vec<f64>) -> Self {
         self.line(Line::Contour, columns, rows, values)
     }

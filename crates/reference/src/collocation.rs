@@ -52,8 +52,8 @@ impl<T: Real> Collocation<T> {
         self.nodes[i].value()
     }
 
-    /// Writes what the state at node `i` differs by from that at the start of a step of length `h`, from the rates at all
-    /// nodes.
+    /// Writes what the state at node `i` differs by from that at the start of a step of length `h`, from the rates at
+    /// all nodes.
     pub fn change_at_node(&self, i: usize, h: T, rates: &[Vec<T>], change: &mut [T]) {
         combine(h, &self.integral[i * self.count()..][..self.count()], rates, change);
     }
@@ -97,7 +97,8 @@ fn legendre<T: Real>(count: usize, x: T) -> Vec<T> {
     values
 }
 
-/// The integrals of `P_0 .. P_{count - 1}` over the step, from -1 to `x` in the variable of which a unit is half the step.
+/// The integrals of `P_0 .. P_{count - 1}` over the step, from -1 to `x` in the variable of which a unit is half the
+/// step.
 fn integrals<T: Real>(count: usize, x: T) -> Vec<T> {
     let values = legendre(count, x);
     let half = T::from(0.5);

@@ -1,4 +1,5 @@
-//! Extrapolated midpoint rule in double-double numbers (W. B. Gragg 1965; Hairer, Norsett & Wanner, *Solving ODEs I*, II.9).
+//! Extrapolated midpoint rule in double-double numbers (W. B. Gragg 1965; Hairer, Norsett & Wanner, *Solving ODEs I*,
+//! II.9).
 //!
 //! The error of the midpoint rule with `m` substeps is a series in `1 / m^2`. So the sum of the results for `m` = 2, 4,
 //! .., 2K with weights `w_i = prod_{j != i} m_i^2 / (m_i^2 - m_j^2)` has order 2K. The weights are rational; the

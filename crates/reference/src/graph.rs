@@ -1,8 +1,8 @@
 //! A second evaluation of laws that a scene gives as formulas.
 //!
-//! What is shared with the first: the reader of formulas and the graph that it gives, with numbers for the parameters and
-//! folded (`crates/formula`). Of how an operation is carried out nothing is: each is written anew here, for the numbers of
-//! [`crate::number`].
+//! What is shared with the first: the reader of formulas and the graph that it gives, with numbers for the parameters
+//! and folded (`crates/formula`). Of how an operation is carried out nothing is: each is written anew here, for the
+//! numbers of [`crate::number`].
 
 use crate::number::Number;
 use formula::{Binary, Bound, Id, Operation, Unary, Variable};

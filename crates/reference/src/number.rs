@@ -1,8 +1,8 @@
 //! The kinds of numbers in which a formula can be evaluated: doubles, double-double numbers, a number with a difference
 //! from it ([`Difference`]), and an unevaluated sum of two parts ([`Parted`]).
 //!
-//! A law is written once ([`crate::formula`]). In [`Difference`]s it gives what it gives in a uniform flow and by how much
-//! a perturbed pedestrian differs from that, with all digits of the difference, be it 1e-200.
+//! A law is written once ([`crate::formula`]). In [`Difference`]s it gives what it gives in a uniform flow and by how
+//! much a perturbed pedestrian differs from that, with all digits of the difference, be it 1e-200.
 
 // the platform's functions, not those of `math`: a fault there must not appear on both sides of a comparison
 #![allow(clippy::disallowed_methods)]
@@ -189,8 +189,8 @@ impl<T: Real> Difference<T> {
         self.base + self.change
     }
 
-    /// A function of which the difference over a small change is known in closed form. Where the change is large nothing
-    /// is lost by subtracting.
+    /// A function of which the difference over a small change is known in closed form. Where the change is large
+    /// nothing is lost by subtracting.
     fn map(self, is_small: bool, f: impl Fn(T) -> T, small: impl Fn(T, T) -> T) -> Difference<T> {
         let base = f(self.base);
         let change = if is_small { small(base, self.change) } else { f(self.whole()) - base };
@@ -255,8 +255,8 @@ impl<T: Real> Number for Difference<T> {
         self.map(self.is_below_1(), T::exp, |base, change| base * change.exp_m1())
     }
 
-    /// Over a small change `c` it grows by `ln(1 + s (e^c - 1))`, where `s = 1 / (1 + e^-x)`; beyond 0 by `c` and what is
-    /// left of `ln(1 + e^-x)`.
+    /// Over a small change `c` it grows by `ln(1 + s (e^c - 1))`, where `s = 1 / (1 + e^-x)`; beyond 0 by `c` and what
+    /// is left of `ln(1 + e^-x)`.
     fn softplus(self) -> Difference<T> {
         let (base, whole) = (self.base, self.whole());
         let tail = |x: T| (-x).exp().ln_1p();
@@ -298,8 +298,8 @@ impl<T: Real> Number for Difference<T> {
         Difference { base: self.base.root(), change: self.change / (whole + self.base.root()) }
     }
 
-    /// By the theorem of addition: `t (1 - tanh^2 x) / (1 + t tanh x)`, where `t` is the tangent of the change; `1 - tanh^2`
-    /// from `e^-2|x|`.
+    /// By the theorem of addition: `t (1 - tanh^2 x) / (1 + t tanh x)`, where `t` is the tangent of the change; `1 -
+    /// tanh^2` from `e^-2|x|`.
     fn tanh(self) -> Difference<T> {
         let (one, size) = (T::from(1.0), self.base.size());
         let decay = (size * T::from(-2.0)).exp();
@@ -334,8 +334,8 @@ impl<T: Real> Number for Difference<T> {
     }
 }
 
-/// The sum `base + rest`, added and subtracted part by part: `(2 + rest) - 2` is `rest`, however small. Everything else is
-/// done to the sum.
+/// The sum `base + rest`, added and subtracted part by part: `(2 + rest) - 2` is `rest`, however small. Everything else
+/// is done to the sum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parted<T> {
     /// The constant part.

@@ -130,8 +130,8 @@ pub struct Solution {
     pub work: u64,
 }
 
-/// A room is near a singular force below this part of that in the uniform flow: differences have lost three digits of it.
-/// Where the flow itself is near, they have not.
+/// A room is near a singular force below this part of that in the uniform flow: differences have lost three digits of
+/// it. Where the flow itself is near, they have not.
 const NEAR: f64 = 1e-3;
 /// Where the room is smaller, products underflow.
 const LEAST_ROOM: f64 = 1e-280;

@@ -179,8 +179,8 @@ impl<T: Real> Solver<T> {
         if error <= self.care.tolerance { factor.clamp(1.0, 3.0) } else { factor.clamp(0.1, 0.9) }
     }
 
-    /// What errors are compared with, component by component: spacings and speeds with the largest of both, spacings near a
-    /// singular force with their own room, the uniform flow with the desired speed.
+    /// What errors are compared with, component by component: spacings and speeds with the largest of both, spacings
+    /// near a singular force with their own room, the uniform flow with the desired speed.
     fn scales(&self) -> Vec<f64> {
         let (n, flow, state) = (self.flow.pedestrians, &self.flow, &self.state);
         let size = larger(flow.size(state), f64::MIN_POSITIVE);
@@ -263,8 +263,9 @@ impl<T: Real> Solver<T> {
         self.flow.rates(&self.end.state, &mut self.end_rates, &mut self.end.kinks);
     }
 
-    /// How far the rates are from their polynomial at both ends, as an error of the solution. The polynomial's defect is a
-    /// multiple of the next Legendre polynomial, largest at the ends; its integral is at most about a tenth of that.
+    /// How far the rates are from their polynomial at both ends, as an error of the solution. The polynomial's defect
+    /// is a multiple of the next Legendre polynomial, largest at the ends; its integral is at most about a tenth of
+    /// that.
     fn error(&self, h: f64, scales: &[f64]) -> f64 {
         let defect = |rates: &[T], sign: f64| {
             let differences = (0..rates.len()).map(|i| {

@@ -1,6 +1,6 @@
 //! From a scene file to tables: validated scenes ([`law`], [`run`], [`map`], [`curve`]), their numbers in memory, and
-//! their summaries ([`summary`]). A time-dependent scene is a [`jam::run::Run`]. This crate opens no files, so tables can
-//! be computed wherever Rust runs.
+//! their summaries ([`summary`]). A time-dependent scene is a [`jam::run::Run`]. This crate opens no files, so tables
+//! can be computed wherever Rust runs.
 
 pub mod axis;
 pub mod curve;

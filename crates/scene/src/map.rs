@@ -13,8 +13,8 @@ use jam::uniform::{self, steady_speed};
 /// Which number a map shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Value {
-    /// How far the uniform flow is from stability, exactly, for the waves of all lengths: negative where it is stable (see
-    /// [`Linear::largest_margin`]).
+    /// How far the uniform flow is from stability, exactly, for the waves of all lengths: negative where it is stable
+    /// (see [`Linear::largest_margin`]).
     Margin,
     /// The paper's criterion, negative where the uniform flow is stable; only where the assumptions hold that it was
     /// derived with.
@@ -206,8 +206,8 @@ fn axis(file: &str, name: &'static str, section: &Section) -> Result<Axis, Scene
     Ok(axis)
 }
 
-/// Which key of this axis does not fit the law, and why, if one does not. Of a formula every name is a parameter, if the
-/// formulas use it.
+/// Which key of this axis does not fit the law, and why, if one does not. Of a formula every name is a parameter, if
+/// the formulas use it.
 fn unfit(law: &Section, axis: &Axis) -> Option<(&'static str, String)> {
     let law = law::built_in(law)?;
     let (kind, own) = (law.name(), law.parameters());
@@ -443,7 +443,8 @@ fn stability(model: &Model, point: &Point) -> Result<(f64, Linear), String> {
     })
 }
 
-/// The exact criterion, normalised like the paper's, through the coefficients of the linearised law: `phi / (1 + 2 beta)
+/// The exact criterion, normalised like the paper's, through the coefficients of the linearised law: `phi / (1 + 2
+/// beta)
 /// - kappa - 1/2`, which for the logarithmic law the paper divides once more by `1 + 2 beta`.
 fn criterion_of(model: &Model, linear: &Linear) -> f64 {
     let Linear { phi, beta, kappa } = *linear;

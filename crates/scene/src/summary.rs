@@ -25,8 +25,9 @@ pub struct FinishedRun {
 }
 
 impl FinishedRun {
-    /// The errors of its numbers. Samples that the check does not confirm are left out, and the run then counts as one that
-    /// broke there. `onlooker` sees a second run, if there is one, and `again` the run up to where it is confirmed.
+    /// The errors of its numbers. Samples that the check does not confirm are left out, and the run then counts as one
+    /// that broke there. `onlooker` sees a second run, if there is one, and `again` the run up to where it is
+    /// confirmed.
     pub fn checked(&mut self, scene: &Scene, onlooker: &mut dyn RunObserver, again: &mut dyn RunObserver) -> Errors {
         let propagated = self.propagated.as_ref();
         let (errors, refused) = errors::checked(scene, &self.outcome, propagated, onlooker, again);

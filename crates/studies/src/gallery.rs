@@ -20,8 +20,8 @@ pub struct Arguments {
     folder: PathBuf,
 }
 
-/// File, panel, a title short enough for a third of the page, and the part of the run after which it is drawn: waves that
-/// grow from very little are seen late.
+/// File, panel, a title short enough for a third of the page, and the part of the run after which it is drawn: waves
+/// that grow from very little are seen late.
 pub const RUNS: [(&str, &str, &str, f64); 12] = [
     ("optimal-velocity", "two-phases", "Optimal velocity", 0.0),
     ("full-velocity-difference", "main", "Full velocity difference", 0.0),
@@ -65,8 +65,8 @@ fn space_time(file: &Path, panel: &str, part: f64) -> Result<SpaceTime, Failure>
     Ok(SpaceTime::new(times, places, scene.ring.length, &shaded).field())
 }
 
-/// The trajectories with speeds from 0 to 1: nearly the least and nearly the largest that are drawn, but for the start, when
-/// all stand.
+/// The trajectories with speeds from 0 to 1: nearly the least and nearly the largest that are drawn, but for the start,
+/// when all stand.
 fn shaded(outcome: &Outcome, begin: f64, end: f64) -> Result<Vec<Trajectory>, Failure> {
     const START: f64 = 0.2;
     const RARE: f64 = 0.01;

@@ -2,8 +2,8 @@
 //! rounding and growth ([`studies`]), hard cases ([`hard`]). Evidence for claims: what the jams depend on
 //! ([`parameters`]), where stability ends ([`thresholds`]), published curves beside fixed-step runs ([`overlay`]), the
 //! laws as optimal-velocity models ([`optimal_velocity`]), travelling waves computed without runs ([`travelling`]),
-//! irregular waves ([`irregular`]), the contact sheet of published laws ([`gallery`]). No figure of the paper depends on
-//! this crate.
+//! irregular waves ([`irregular`]), the contact sheet of published laws ([`gallery`]). No figure of the paper depends
+//! on this crate.
 
 pub mod draw;
 pub mod gallery;

@@ -39,8 +39,8 @@ fn logarithmic(desired_speed: f64, widening: f64) -> Model {
     Model::Logarithmic(Logarithmic { v0: desired_speed, a_v: widening, epsilon: 0.01 })
 }
 
-/// The optimal velocity `V(s)` of each law and its slope, over headways from contact of the bodies (of the centres for the
-/// logarithmic law) on.
+/// The optimal velocity `V(s)` of each law and its slope, over headways from contact of the bodies (of the centres for
+/// the logarithmic law) on.
 ///
 /// # Errors
 /// There is no uniform flow at a headway.
@@ -57,8 +57,8 @@ pub fn velocities() -> Result<Rows, Failure> {
     Ok(rows)
 }
 
-/// How the runs of [`events`] are made: the second by another method and at a tenth of the tolerance of the first, so that
-/// the difference of the two is about the error of the first and many times that of the second, which is tabled.
+/// How the runs of [`events`] are made: the second by another method and at a tenth of the tolerance of the first, so
+/// that the difference of the two is about the error of the first and many times that of the second, which is tabled.
 const CONTROLS: [(Method, Control); 2] = [
     (Method::Dop853, Control::Adaptive { tolerance: 1e-12 }),
     (Method::Extrapolation, Control::Adaptive { tolerance: 1e-13 }),

@@ -115,8 +115,9 @@ pub fn scheme(name: &str, step: Option<f64>, run: &Sampled, published: &Publishe
     Ok(row![name, step, std_largest, std_rms, std_median, speed_largest, speed_rms, speed_median])
 }
 
-/// What else than Euler's scheme may explain the distance of the published standard deviations from the accurate run: other
-/// parameters, or axes that were read off wrongly. Each number is that of the run of the figures unless it is named.
+/// What else than Euler's scheme may explain the distance of the published standard deviations from the accurate run:
+/// other parameters, or axes that were read off wrongly. Each number is that of the run of the figures unless it is
+/// named.
 ///
 /// # Errors
 /// A run failed or lacks a sample.

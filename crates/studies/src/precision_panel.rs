@@ -44,9 +44,9 @@ const IN_FIRST: usize = 7;
 /// The methods beside whose curves the slope of their order is drawn.
 const SLOPES: [Method; 4] = [Method::Euler, Method::Heun, Method::Rk4, Method::Dop853];
 
-/// Writes the tables `work` and `time` of a scene from the report of accuracy and from the archived timings. `method` is
-/// the place in [`Method::ALL`], from 0; `error` the larger of those of gaps and speeds. Runs that stopped early have
-/// no error and no row.
+/// Writes the tables `work` and `time` of a scene from the report of accuracy and from the archived timings. `method`
+/// is the place in [`Method::ALL`], from 0; `error` the larger of those of gaps and speeds. Runs that stopped early
+/// have no error and no row.
 ///
 /// # Errors
 /// A table is missing or damaged, or cannot be written.

@@ -1,6 +1,6 @@
-//! Many short runs in one process, for `bench/cells.py`: `cells HOW METHOD TOLERANCE COUNT`. The ring is that of figure 4,
-//! stable (67 pedestrians, t = 500); run `i` has the shift `1e-4 (1 + i / COUNT)`. Prints seconds of CPU for all runs, and
-//! how many right-hand sides the last one took.
+//! Many short runs in one process, for `bench/cells.py`: `cells HOW METHOD TOLERANCE COUNT`. The ring is that of figure
+//! 4, stable (67 pedestrians, t = 500); run `i` has the shift `1e-4 (1 + i / COUNT)`. Prints seconds of CPU for all
+//! runs, and how many right-hand sides the last one took.
 //!
 //! | `HOW` | a run is |
 //! |---|---|

@@ -16,12 +16,13 @@ pub struct Precheck {
     pub class: Option<Class>,
     /// Whether the uniform flow walks backwards.
     pub backward_flow: bool,
-    /// Whether the uniform flow is unstable: against waves of all lengths, and against those of the ring. `None` where it
-    /// has no linearised law.
+    /// Whether the uniform flow is unstable: against waves of all lengths, and against those of the ring. `None` where
+    /// it has no linearised law.
     pub unstable: Option<[bool; 2]>,
 }
 
-/// What is known exactly of a point of the plane; NaN where there is no uniform flow, or where it has no linearised law.
+/// What is known exactly of a point of the plane; NaN where there is no uniform flow, or where it has no linearised
+/// law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exact {
     /// The margin against waves of all lengths: negative where the uniform flow is stable.
@@ -67,8 +68,8 @@ pub struct CellOutcome {
     pub backward_flow: bool,
     /// What decided.
     pub decided_by: DecidedBy,
-    /// `t_decided, least_gap, least_speed, std, wave_speed, error`, NaN where there is none (see [`Verdict`]); `error` is that
-    /// of the least gap and the least speed.
+    /// `t_decided, least_gap, least_speed, std, wave_speed, error`, NaN where there is none (see [`Verdict`]); `error`
+    /// is that of the least gap and the least speed.
     pub numbers: [f64; 6],
 }
 
@@ -182,8 +183,8 @@ impl Sweep {
         Ok(Precheck { class: None, backward_flow: speed < 0.0, unstable })
     }
 
-    /// What is known exactly of a point of the plane, counted in cells from the lower left corner: cell `[i, j]` has its
-    /// centre at `[i + 0.5, j + 0.5]`.
+    /// What is known exactly of a point of the plane, counted in cells from the lower left corner: cell `[i, j]` has
+    /// its centre at `[i + 0.5, j + 0.5]`.
     ///
     /// # Errors
     /// As [`Sweep::place`].

@@ -33,8 +33,8 @@ pub struct Sweep {
     pub model: Model,
     /// The ring; as the law.
     pub ring: Ring,
-    /// The effective gap of the uniform flow, where it is given in place of the length: the ring of each cell is as long as
-    /// this gap asks for.
+    /// The effective gap of the uniform flow, where it is given in place of the length: the ring of each cell is as
+    /// long as this gap asks for.
     pub gap: Option<f64>,
     /// The start; as the law.
     pub start: Start,

@@ -97,8 +97,8 @@ pub fn read(file: &str, tables: &Section) -> Result<Sweep, SceneError> {
     Ok(Sweep { x, y, refine, model, ring, gap, start, speed, settings })
 }
 
-/// Axes that are no parameters of a law: the shift of pedestrian 0; headway and effective gap of the uniform flow, with the
-/// number of pedestrians kept; that number, with the headway kept.
+/// Axes that are no parameters of a law: the shift of pedestrian 0; headway and effective gap of the uniform flow, with
+/// the number of pedestrians kept; that number, with the headway kept.
 pub(super) const OF_THE_RUN: [&str; 4] = ["shift", "headway", "d_gap", "pedestrians"];
 
 fn axis(file: &str, name: &'static str, section: &Section) -> Result<Axis, SceneError> {

@@ -1,8 +1,8 @@
 //! Chooses the cells of a plane that are computed. The plane is divided into tiles that do not depend on each other.
 //!
 //! Tiles share their borders. Each computes its whole border, then cuts itself in two as long as the border of a piece
-//! shows several outcomes, or a cell within lies beside the line of stability (or beside another line that is known without
-//! a run). What lies within a border of one outcome gets it from there.
+//! shows several outcomes, or a cell within lies beside the line of stability (or beside another line that is known
+//! without a run). What lies within a border of one outcome gets it from there.
 
 use super::{CellOutcome, DecidedBy, Precheck, Sweep};
 use jam::outcome::Class;

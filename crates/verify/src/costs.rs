@@ -33,7 +33,8 @@ pub fn tell(paths: &Paths) -> Result<(), Failure> {
     print::out(&text)
 }
 
-/// The costs of each figure: its programs one after the other. A run that several figures share is counted at the first.
+/// The costs of each figure: its programs one after the other. A run that several figures share is counted at the
+/// first.
 pub fn of_figures<'a>(all: &'a [Figure], costs: &Costs) -> Vec<(&'a Figure, Cost)> {
     let mine = |figure: &Figure, node: &str| node == figure.slug || node.starts_with(&format!("{} ", figure.id));
     let sum = |figure: &'a Figure| {

@@ -13,8 +13,8 @@ use std::path::Path;
 /// The table of distances, by name.
 const DISTANCES: &str = "data/paper-scheme/distance.csv";
 
-/// Its columns: where the two schemes differ most, and by how much, absolute and as a part of the accurate value; how many
-/// published points there are, and how far they are at most from either scheme.
+/// Its columns: where the two schemes differ most, and by how much, absolute and as a part of the accurate value; how
+/// many published points there are, and how far they are at most from either scheme.
 pub const COLUMNS: [&str; 15] = [
     "figure",
     "table",
@@ -106,7 +106,8 @@ fn compare([verbatim, accurate]: &[Table; 2], (a, b): (usize, usize)) -> [CellVa
     ]
 }
 
-/// The number of published points that both schemes have a value at, and how far they are at most; nothing without points.
+/// The number of published points that both schemes have a value at, and how far they are at most; nothing without
+/// points.
 fn published(
     paths: &Paths,
     [figure, table, column]: [&str; 3],

@@ -51,8 +51,8 @@ impl Picture {
     }
 }
 
-/// Compares each picture of the figure whose bytes differ. With a `folder`, those of a PNG that shows something else are
-/// written there: `fig04-expected.png`, `fig04-actual.png`, `fig04-difference.png`.
+/// Compares each picture of the figure whose bytes differ. With a `folder`, those of a PNG that shows something else
+/// are written there: `fig04-expected.png`, `fig04-actual.png`, `fig04-difference.png`.
 ///
 /// # Errors
 /// A file cannot be read or written.

@@ -134,7 +134,8 @@ impl Scene {
     }
 
     /// The least and the largest ratio of the errors of gaps of two methods over the steps at which both have one;
-    /// nothing when there is none. (Where all is calm the largest error of a speed is that of the uniform flow at its start.)
+    /// nothing when there is none. (Where all is calm the largest error of a speed is that of the uniform flow at its
+    /// start.)
     pub fn ratios(&self, one: &str, other: &str) -> Option<(f64, f64)> {
         let error = |method: &str, control: &str| {
             self.rows.iter().find(|row| row.method == method && row.control == control).and_then(|row| row.gap_error)

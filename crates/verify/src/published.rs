@@ -85,7 +85,8 @@ impl Curve {
         Ok(points)
     }
 
-    /// The usual and the largest reading error: `3e-5`, or `median 4e-4, largest 2e-3 (...)` in the last column of a table.
+    /// The usual and the largest reading error: `3e-5`, or `median 4e-4, largest 2e-3 (...)` in the last column of a
+    /// table.
     ///
     /// # Errors
     /// Usage: none is stated.

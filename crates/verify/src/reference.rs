@@ -38,7 +38,8 @@ impl Reference {
         Reference::with_events(paths, request, &events)
     }
 
-    /// As [`Reference::read`], with the events of the last commit: those in the checkout are written as figures are made.
+    /// As [`Reference::read`], with the events of the last commit: those in the checkout are written as figures are
+    /// made.
     ///
     /// # Errors
     /// As [`Reference::read`].

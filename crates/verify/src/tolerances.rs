@@ -78,7 +78,8 @@ pub enum Rule {
     Condition,
     /// Ten times the tolerance of the run, times the growth of errors, times the perturbation.
     Growth,
-    /// Ten times the largest error that the table itself states, in a column `error` or `NAME_error` or one that is named.
+    /// Ten times the largest error that the table itself states, in a column `error` or `NAME_error` or one that is
+    /// named.
     Stated,
     /// The distance between the last two values tried.
     Bisection,

@@ -23,8 +23,8 @@ struct Script {
     command: &'static [&'static str],
 }
 
-/// Run by `test` where the tools exist; `ci` installs them. The scripts of a stage run at the same time, since most of them
-/// keep one processor busy. The page has a stage of its own because it is timed.
+/// Run by `test` where the tools exist; `ci` installs them. The scripts of a stage run at the same time, since most of
+/// them keep one processor busy. The page has a stage of its own because it is timed.
 const STAGES: [&[Script]; 3] = [
     &[Script { what: "values by NumPy", command: &["checks/spot.sh"] }],
     &[

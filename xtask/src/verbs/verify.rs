@@ -64,8 +64,8 @@ pub fn run(paths: &Paths, arguments: &VerifyArgs) -> Result<(), Failure> {
     disk::remove(&scratch.base)
 }
 
-/// Judges these figures and supplements, or all of them if none is named, where `ci` has just made them. The claims that
-/// read others are left out.
+/// Judges these figures and supplements, or all of them if none is named, where `ci` has just made them. The claims
+/// that read others are left out.
 ///
 /// # Errors
 /// Stale: something is older than what it is made from. Otherwise as [`run`].

@@ -3,8 +3,8 @@
 //!
 //! A scene whose title begins with `exit N` makes its figure end with that code. In the current folder, `full` names
 //! programs that end with code 4 after half their work (`killed`: a run that leaves its checkpoint), `report.json` is
-//! what figures without runs report, `spoil` holds lines `PROGRAM WHAT ROW` of what a program gets wrong (see [`spoilt`]),
-//! `slow` makes every program last long enough to be measured.
+//! what figures without runs report, `spoil` holds lines `PROGRAM WHAT ROW` of what a program gets wrong (see
+//! [`spoilt`]), `slow` makes every program last long enough to be measured.
 
 use std::env;
 use std::fs;
@@ -192,8 +192,8 @@ fn spoilt(program: &str, what: &str) -> Option<usize> {
     Some(row.unwrap_or(0))
 }
 
-/// Moves one cell of each table by an `ulp`, flips its `sign`, `cut`s the table off behind the row, loses it (`gone`), or
-/// puts a wrong word into it (`words`).
+/// Moves one cell of each table by an `ulp`, flips its `sign`, `cut`s the table off behind the row, loses it (`gone`),
+/// or puts a wrong word into it (`words`).
 fn spoil_tables(id: &str, tables: &Path) -> io::Result<()> {
     for file in fs::read_dir(tables)?.map(|entry| entry.map(|entry| entry.path())).collect::<io::Result<Vec<_>>>()? {
         let text = fs::read_to_string(&file)?;

@@ -76,8 +76,8 @@ fn it_holds_everything_with_its_sums() {
     );
 }
 
-/// The rules of CODECHECK that hold before a check: an explicit document, a version, the paper, a manifest of files that
-/// exist, each with a comment, and no placeholders.
+/// The rules of CODECHECK that hold before a check: an explicit document, a version, the paper, a manifest of files
+/// that exist, each with a comment, and no placeholders.
 fn codecheck(text: &str, sums: &str) {
     assert!(text.starts_with("---\n") && text.contains("version: https://codecheck.org.uk/spec/config/1.0/\n"));
     assert!(text.contains("  reference: https://doi.org/10.1103/PhysRevE.92.042809\n"));

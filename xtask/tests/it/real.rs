@@ -1,5 +1,5 @@
-//! The runner on a copy of this checkout with the real programs: what a wrong scene does to the verdict, and, with programs
-//! built from changed sources, what another colour map, a wrong bit and a wrong length of a step do.
+//! The runner on a copy of this checkout with the real programs: what a wrong scene does to the verdict, and, with
+//! programs built from changed sources, what another colour map, a wrong bit and a wrong length of a step do.
 
 use crate::shop::CommandOutput;
 use serde_json::Value;
@@ -36,7 +36,8 @@ struct Copy {
     _building: Option<MutexGuard<'static, ()>>,
 }
 
-/// Copies that build share a target folder, which is kept: the second time only the crates of the checkout are compiled.
+/// Copies that build share a target folder, which is kept: the second time only the crates of the checkout are
+/// compiled.
 static BUILDING: Mutex<()> = Mutex::new(());
 
 impl Copy {

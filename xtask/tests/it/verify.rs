@@ -8,7 +8,8 @@ use verify::attest;
 #[test]
 fn a_budget_takes_the_cheapest_figures_and_lists_the_others() {
     let shop = blessed("verify-budget");
-    // seconds of the last runs: 3 for each run of figure 4, half a second for figures 5 and 6, nothing known of the others
+    // seconds of the last runs: 3 for each run of figure 4, half a second for figures 5 and 6, nothing known of the
+    // others
     let times: BTreeMap<&str, f64> = [
         ("fig04 run stable", 3.0),
         ("fig04 run unstable", 3.0),

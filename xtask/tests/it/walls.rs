@@ -101,8 +101,8 @@ fn what_makes_numbers_and_pictures_reads_no_clock_and_no_environment() {
         for (name, text) in sources(&format!("crates/{folder}/src")) {
             looked_at += 1;
             let found: Vec<&str> = WORDS.into_iter().filter(|word| text.contains(word)).collect();
-            // a very large ring is cut into parts for threads, with the same bits for any cut; reference solutions are printed
-            // with the time that they took
+            // a very large ring is cut into parts for threads, with the same bits for any cut; reference solutions are
+            // printed with the time that they took
             let is_known = (found == ["available_parallelism"] && name.contains("/jam/"))
                 || (found.iter().all(|word| word.ends_with("now")) && name.ends_with("reference/src/main.rs"));
             assert!(found.is_empty() || is_known, "{name}: {found:?}");

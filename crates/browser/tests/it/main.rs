@@ -61,8 +61,8 @@ fn scene(kappa: &str, record: &str) -> String {
 #[test]
 fn a_flow_is_told_with_its_rates() {
     let told = flow::of(&scene("1.5", "std"), 50).expect("a flow");
-    // D = (Re b)^2 Re c + ... with b = kappa, c = kappa V' (1 - e^{ik}), over kappa V' (1 - cos k): 2 kappa V' - kappa^2
-    // at k = 0
+    // D = (Re b)^2 Re c + ... with b = kappa, c = kappa V' (1 - e^{ik}), over kappa V' (1 - cos k): 2 kappa V' -
+    // kappa^2 at k = 0
     let margin = told["uniform_flow"]["margin"].as_f64().expect("a margin");
     assert!((margin - (2.0 * 1.5 - 1.5 * 1.5)).abs() < 1e-12, "{margin}");
     assert_eq!(told["k"].as_array().map(Vec::len), Some(50));

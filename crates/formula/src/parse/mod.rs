@@ -171,7 +171,8 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// The arguments of a function: exactly `least`, or as many more as one likes, each of which is combined with those before.
+    /// The arguments of a function: exactly `least`, or as many more as one likes, each of which is combined with those
+    /// before.
     fn arguments(
         &mut self,
         name: &str,

@@ -7,8 +7,8 @@ use formula::{Bound, Definition, Error, Given, Graph, Location, Variable, law};
 
 pub use random::Random;
 
-/// A law from its lines: names and expressions, names and numbers. Line 1 is the header; keys stand in column 1, values in
-/// column 9.
+/// A law from its lines: names and expressions, names and numbers. Line 1 is the header; keys stand in column 1, values
+/// in column 9.
 pub fn lines<'a>(texts: &[(&'a str, &'a str)], numbers: &[(&'a str, f64)]) -> Vec<Definition<'a>> {
     let given = texts.iter().map(|(name, text)| (*name, Given::Text(text)));
     let given = given.chain(numbers.iter().map(|(name, number)| (*name, Given::Number(*number))));

@@ -317,8 +317,8 @@ fn summed_force() {
             assert!((k - wave).abs() < 0.006, "k* = {k}");
             assert_near(long, 0.8845, 1e-4);
             assert_near(critical, 0.827, 1e-3);
-            // what the comment of the scene says: its own ring's longest wave does not grow, the tenth does, and rings of
-            // up to 7 are stable
+            // what the comment of the scene says: its own ring's longest wave does not grow, the tenth does, and rings
+            // of up to 7 are stable
             let small = |n: i32| (1..n).all(|l| here.growth(2.0 * PI * f64::from(l) / f64::from(n)) <= 0.0);
             assert_eq!((2..60).filter(|n| small(*n)).collect::<Vec<_>>(), [2, 3, 4, 5, 6, 7]);
             assert!(here.growth(2.0 * PI * 10.0 / 116.0) > 0.0 && here.growth(2.0 * PI / 116.0) < 0.0);

@@ -1,5 +1,6 @@
-//! Scenes like those of other seeds, but each with something that they never have: rings of two or three hundred, samples
-//! denser than steps, runs shorter than a step, long ones, panels that differ in everything, everybody displaced.
+//! Scenes like those of other seeds, but each with something that they never have: rings of two or three hundred,
+//! samples denser than steps, runs shorter than a step, long ones, panels that differ in everything, everybody
+//! displaced.
 
 use super::{Law, law, push, shift, short};
 use crate::random::Random;

@@ -1,6 +1,6 @@
-//! Runs a scene as its user would, and judges the result by the second integration: the numbers of the tables and of the
-//! end ([`numbers`]), the events ([`events`]), and why a run was refused ([`refusals`]);
-//! and that a run which is broken off and resumed is the same ([`resumed`]).
+//! Runs a scene as its user would, and judges the result by the second integration: the numbers of the tables and of
+//! the end ([`numbers`]), the events ([`events`]), and why a run was refused ([`refusals`]); and that a run which is
+//! broken off and resumed is the same ([`resumed`]).
 
 mod events;
 pub mod numbers;
@@ -212,8 +212,8 @@ fn ended(
     }
 }
 
-/// A run goes to its end, or there is an event or a reason; and it has a row for every multiple of the sampling interval up to
-/// there.
+/// A run goes to its end, or there is an event or a reason; and it has a row for every multiple of the sampling
+/// interval up to there.
 pub fn is_whole(verdict: &mut Verdict, scene: &Scene, outcome: &Outcome, broken: Option<&Broken>) {
     let (time, stop) = (outcome.statistics.time, outcome.stop());
     if time < scene.t_end && stop.is_none() && broken.is_none() {

@@ -42,8 +42,8 @@ fn of(seed: u64) -> Vec<Verdict> {
     judge::scene(&draw::scene(seed))
 }
 
-/// Blow-ups of which the steps tell the time: the error is carried to three digits through all throws, so that no second run is
-/// needed.
+/// Blow-ups of which the steps tell the time: the error is carried to three digits through all throws, so that no
+/// second run is needed.
 #[test]
 fn steps_tell_the_error_of_a_blow_up() {
     for seed in [2_340_035, 2_340_046] {
@@ -77,7 +77,8 @@ fn errors_of_runs_that_were_found_are_stated() {
     assert!(events.into_iter().any(|ratio| ratio.error > 1e-13 && ratio.allowed.is_finite()), "an error is stated");
 }
 
-/// Samples further apart than steps, while errors fade: true errors of std were 1.6 and 2.7 times what the ends of steps tell.
+/// Samples further apart than steps, while errors fade: true errors of std were 1.6 and 2.7 times what the ends of
+/// steps tell.
 #[test]
 fn fading_errors_are_those_where_samples_are_taken() {
     let all = stated_of(&[2_000_183, 2_000_238]);
@@ -85,8 +86,8 @@ fn fading_errors_are_those_where_samples_are_taken() {
     assert!(of_std.len() > 1 && of_std.iter().all(|ratio| ratio.value() < 1.0), "{of_std:#?}");
 }
 
-/// Fixed steps: motion that has faded by some decades, by Euler's method, down to the rounding of speeds; a few steps of a
-/// high order; steps over bends too sharp for them; a force that underflows at the start alone.
+/// Fixed steps: motion that has faded by some decades, by Euler's method, down to the rounding of speeds; a few steps
+/// of a high order; steps over bends too sharp for them; a force that underflows at the start alone.
 #[test]
 fn errors_of_fixed_steps_are_stated() {
     let all = stated_of(&[331_563, 301_354, 1_331_083, 332_743, 310_130, 332_631]);
@@ -102,8 +103,8 @@ fn errors_of_a_few_adaptive_steps_are_stated() {
     assert!(all.iter().any(|ratio| ratio.what == "std" && ratio.value() > 0.1), "{all:#?}");
 }
 
-/// At a loose tolerance a run passes by a blow-up, at which the second run takes thousands of steps; roundings of positions grow
-/// into a blow-up that the ring does not have.
+/// At a loose tolerance a run passes by a blow-up, at which the second run takes thousands of steps; roundings of
+/// positions grow into a blow-up that the ring does not have.
 #[test]
 fn rows_beyond_a_blow_up_and_before_a_false_one_are_left_out() {
     for seed in [1_330_169, 352_451, 363_680] {
@@ -114,8 +115,8 @@ fn rows_beyond_a_blow_up_and_before_a_false_one_are_left_out() {
     }
 }
 
-/// Two methods that agree in the one sample by chance; an event in a run in positions that the second run has a little earlier; a
-/// second run of which one step lands by chance where the force exceeds all bounds.
+/// Two methods that agree in the one sample by chance; an event in a run in positions that the second run has a little
+/// earlier; a second run of which one step lands by chance where the force exceeds all bounds.
 #[test]
 fn errors_are_stated_where_second_runs_mislead() {
     let all = stated_of(&[375_436, 1_372_133, 375_971]);
@@ -146,7 +147,8 @@ fn errors_of_lost_shifts_are_stated() {
     assert!(all.len() > 10 && all.iter().all(|ratio| ratio.allowed.is_finite()), "{all:#?}");
 }
 
-/// A step of Taylor's method proposed past a wall that its series does not see yet: from there no path to a bend follows.
+/// A step of Taylor's method proposed past a wall that its series does not see yet: from there no path to a bend
+/// follows.
 #[test]
 fn steps_are_not_cut_by_an_end_that_means_nothing() {
     for verdict in of(2_375_971) {

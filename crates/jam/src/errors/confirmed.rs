@@ -29,8 +29,8 @@ pub(super) fn refused(
     Some((Broken { advice: advice(&failure, run), failure, narrowest: None, outcome }, errors))
 }
 
-/// The run made again up to this time, with its errors, which are those of its rows alone: in the last step, which is another one,
-/// the rows of the run differ.
+/// The run made again up to this time, with its errors, which are those of its rows alone: in the last step, which is
+/// another one, the rows of the run differ.
 fn shorter(run: &Run, outcome: &Outcome, time: f64, spent: f64, observer: &mut dyn RunObserver) -> (Outcome, Errors) {
     let shorter = Run { t_end: time, ..run.clone() };
     let (made, propagated) = run_propagated(&shorter, observer);
@@ -86,8 +86,8 @@ pub(super) fn until(run: &Run, outcome: &Outcome, second: &Second) -> Option<f64
     Some(last_before(outcome, first))
 }
 
-/// The time of the stop of a run that its own error alone led to: the other run, more exact, goes on well past that time, or to the
-/// end, and has no stop. One that breaks off soon behind it may have been about to stop.
+/// The time of the stop of a run that its own error alone led to: the other run, more exact, goes on well past that
+/// time, or to the end, and has no stop. One that breaks off soon behind it may have been about to stop.
 pub(super) fn refuted_at(run: &Run, outcome: &Outcome, other: &Outcome) -> Option<f64> {
     let stop = outcome.stop()?;
     let well_past = math::smaller(run.t_end, (1.0 + LARGE) * stop.time);

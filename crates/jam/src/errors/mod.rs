@@ -70,8 +70,9 @@ pub fn stated(run: &Run) -> Result<(Outcome, Errors), Broken> {
     }
 }
 
-/// The errors of a run; or, if the check does not confirm all of its samples, the run up to the last one that it confirms,
-/// with the errors of that. `onlooker` sees a second run, if one is made, and `again` the run up to that sample.
+/// The errors of a run; or, if the check does not confirm all of its samples, the run up to the last one that it
+/// confirms, with the errors of that. `onlooker` sees a second run, if one is made, and `again` the run up to that
+/// sample.
 pub fn checked(
     run: &Run,
     outcome: &Outcome,
@@ -115,10 +116,10 @@ pub fn errors(run: &Run, outcome: &Outcome) -> Errors {
     known(run, outcome, Second::new(run, outcome, None, &mut ()).errors(run, outcome))
 }
 
-/// The errors with what the steps do not show: fixed ones tell where a formula loses its value to a step. Without those that
-/// nobody knows: that of a state without a value; and at a wall, where a pedestrian is thrown back
-/// at a gap below every double, those of the speeds, which turn within a rounding of the time, and of the time of the
-/// singularity, but for what [remains](left_at_wall).
+/// The errors with what the steps do not show: fixed ones tell where a formula loses its value to a step. Without those
+/// that nobody knows: that of a state without a value; and at a wall, where a pedestrian is thrown back at a gap below
+/// every double, those of the speeds, which turn within a rounding of the time, and of the time of the singularity, but
+/// for what [remains](left_at_wall).
 fn known(run: &Run, outcome: &Outcome, errors: Errors) -> Errors {
     let number = |error: Option<f64>| error.filter(|error| !error.is_nan());
     let is_at_wall = outcome.events.iter().any(Event::is_at_wall);
@@ -140,9 +141,9 @@ fn known(run: &Run, outcome: &Outcome, errors: Errors) -> Errors {
     }
 }
 
-/// The time that remains from a wall to the singularity: speeds double at every throw, the next of which is at most a headway
-/// away, so that all of them together take less than a headway at the speed of the last. `None` before the first throw, since
-/// nothing is known yet of what follows.
+/// The time that remains from a wall to the singularity: speeds double at every throw, the next of which is at most a
+/// headway away, so that all of them together take less than a headway at the speed of the last. `None` before the
+/// first throw, since nothing is known yet of what follows.
 fn left_at_wall(run: &Run, outcome: &Outcome) -> Option<f64> {
     let fastest = largest(&outcome.speeds);
     (fastest >= THROWN * run.model.desired_speed().abs()).then(|| run.ring.headway() / fastest)
@@ -166,8 +167,8 @@ pub(crate) fn of_spacings(run: &Run) -> Vec<f64> {
 /// Fixed steps may be too long for their error to be that of their order.
 const CAUTION: f64 = 2.0;
 
-/// How much the headway, `L/N` to the nearest double, changes deviations that grow or fade by how the force answers to a
-/// spacing: much where that falls by a factor of `e` over a small part of the headway.
+/// How much the headway, `L/N` to the nearest double, changes deviations that grow or fade by how the force answers to
+/// a spacing: much where that falls by a factor of `e` over a small part of the headway.
 pub(crate) fn of_headway(run: &Run) -> f64 {
     const PART: f64 = 1e-9;
     let Some(speed) = run.steady_speed else { return 0.0 };
@@ -177,9 +178,9 @@ pub(crate) fn of_headway(run: &Run) -> f64 {
     if condition.is_finite() { 0.5 * f64::EPSILON * condition } else { 0.0 }
 }
 
-/// The part by which rounded constants change the force at all times: those a law is prepared with, as the square of a parameter
-/// or the inverse of one, by a rounding or two; and the headway by what its rounding changes the response to a spacing by.
-/// All methods have these errors in common.
+/// The part by which rounded constants change the force at all times: those a law is prepared with, as the square of a
+/// parameter or the inverse of one, by a rounding or two; and the headway by what its rounding changes the response to
+/// a spacing by. All methods have these errors in common.
 pub(crate) fn of_constants(run: &Run) -> f64 {
     f64::EPSILON + of_headway(run)
 }
@@ -213,8 +214,8 @@ pub(crate) fn largest_std(outcome: &Outcome) -> f64 {
     if largest.is_nan() { all.iter().copied().fold(0.0, math::larger) } else { largest }
 }
 
-/// The largest speed in the table, in size. Where a run goes on behind its stop, the speeds at its end may be far larger; they stand
-/// for those in the table only where that keeps no speeds.
+/// The largest speed in the table, in size. Where a run goes on behind its stop, the speeds at its end may be far
+/// larger; they stand for those in the table only where that keeps no speeds.
 pub(crate) fn largest_speed(outcome: &Outcome) -> f64 {
     let speeds = &outcome.samples.speeds;
     largest(if outcome.stop().is_some() && !speeds.is_empty() { speeds } else { &outcome.speeds })

@@ -2,9 +2,9 @@
 
 use math::simd::{Kernel, dispatch};
 
-/// By how much the standard deviation of speeds is off: the difference from that of the speeds less their errors, and what
-/// is not sure of these errors. They may all but cancel in the sum, what is not sure of them does not. Scaled: speeds of
-/// 1e-200 have squares. `most` is the largest of the errors.
+/// By how much the standard deviation of speeds is off: the difference from that of the speeds less their errors, and
+/// what is not sure of these errors. They may all but cancel in the sum, what is not sure of them does not. Scaled:
+/// speeds of 1e-200 have squares. `most` is the largest of the errors.
 pub(super) fn std_error(speeds: &[f64], errors: &[f64], most: f64) -> f64 {
     let (count, scale) = (speeds.len() as f64, math::larger(ode::largest(speeds), most));
     if scale < SMALLEST || !scale.is_finite() {
@@ -44,8 +44,8 @@ impl Kernel for Sums<'_> {
     }
 }
 
-/// The sums, in these units and over the deviations `d` from the mean and `e` of the errors from theirs, of `d^2`, of `d^2 -
-/// (d - e)^2` and of `e^2`.
+/// The sums, in these units and over the deviations `d` from the mean and `e` of the errors from theirs, of `d^2`, of
+/// `d^2 - (d - e)^2` and of `e^2`.
 struct Squares<'a> {
     speeds: &'a [f64],
     errors: &'a [f64],
@@ -87,8 +87,8 @@ const LANES: usize = 8;
 /// Shares of smaller numbers are no doubles.
 const SMALLEST: f64 = 1e-300;
 
-/// The part of the errors of steps that is not sure: orders that follow the first that is left out are smaller by about this
-/// factor each, since the steps are as long as the series allow.
+/// The part of the errors of steps that is not sure: orders that follow the first that is left out are smaller by about
+/// this factor each, since the steps are as long as the series allow.
 pub(super) const UNSURE: f64 = 0.2;
 
 #[cfg(test)]

@@ -47,8 +47,8 @@ pub struct Propagated {
     /// How large the errors of speeds were when that was looked at last, and how many steps ago.
     looked_at: f64,
     since: u32,
-    /// How large they are at both ends of the step, and when that was. Where they fade, samples within the step have larger ones
-    /// than its end.
+    /// How large they are at both ends of the step, and when that was. Where they fade, samples within the step have
+    /// larger ones than its end.
     sizes: [f64; 2],
     sized_at: f64,
     /// Whether they are larger at the start of the step than at its end and when that was looked at last.
@@ -171,8 +171,8 @@ impl Propagated {
         self.std = larger_std(self.std, &state[n..2 * n], errors, most);
     }
 
-    /// Looks at the error of the standard deviation in a step with samples: at its end, where the state and the error are
-    /// known, or at the last sample of one that an event ends.
+    /// Looks at the error of the standard deviation in a step with samples: at its end, where the state and the error
+    /// are known, or at the last sample of one that an event ends.
     fn look(&mut self, step: &mut Step<'_>, last: f64, is_whole: bool) {
         let n = self.pedestrians;
         let (mut state, mut error);
@@ -366,7 +366,8 @@ impl Propagated {
             // roundings of earlier steps are carried along
             _ => unseen.unwrap_or_else(|| f64::EPSILON * largest_speed(outcome)),
         };
-        // the steps take forces for too strong by this part; if they are too weak, that may have hidden as much of an error
+        // the steps take forces for too strong by this part; if they are too weak, that may have hidden as much of an
+        // error
         let hidden = CAUTION * self.constants;
         // at a blow-up a rounding of the time is a large part of the state
         let is_blow_up = outcome.events.iter().any(|event| event.kind == EventKind::BlowUp);

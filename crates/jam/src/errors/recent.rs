@@ -1,5 +1,5 @@
-//! Instants of a run at which a second one is compared with it: the ends of its last steps, since at the end of
-//! the run alone the errors of two methods may agree by chance; the starts of its first steps with samples, for the same
+//! Instants of a run at which a second one is compared with it: the ends of its last steps, since at the end of the run
+//! alone the errors of two methods may agree by chance; the starts of its first steps with samples, for the same
 //! reason; and its events.
 
 use super::largest;
@@ -49,8 +49,8 @@ impl Recent {
         self.states.push_back(oldest);
     }
 
-    /// Keeps what is found in a step: its start, if it has one of the first samples, and its events, all but blow-ups, whose
-    /// rate means nothing.
+    /// Keeps what is found in a step: its start, if it has one of the first samples, and its events, all but blow-ups,
+    /// whose rate means nothing.
     pub fn push_events(&mut self, step: &mut Step<'_>, sight: &mut Sight<'_, '_>) {
         // at the start of the run there is nothing to compare
         if sight.samples.is_some() && step.start > 0.0 && self.sampled.len() < KEPT {

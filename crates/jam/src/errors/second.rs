@@ -16,16 +16,16 @@ use ode::{Control, Method};
 /// chance; with a method of order 8 this costs little.
 const TIGHTER: f64 = 0.1;
 
-/// The same if the run's own method has such an order: `verner87` at 5.8e-11 and `dop853` at a fiftieth of that have the
-/// same error (seed 600874 of the hunt).
+/// The same if the run's own method has such an order: `verner87` at 5.8e-11 and `dop853` at a fiftieth of that have
+/// the same error (seed 600874 of the hunt).
 const TIGHTER_IF_HIGH: f64 = 0.005;
 const HIGH: usize = 8;
 
 /// The ratio of the tolerance of a third run to that of the second. A loose one might pass by a blow-up as the run did.
 const DECISIVE: f64 = 0.01;
 
-/// The tolerance that the second run of fixed steps starts from: it is made more exact than any of them, since fading motion
-/// may leave errors far below those of its beginning.
+/// The tolerance that the second run of fixed steps starts from: it is made more exact than any of them, since fading
+/// motion may leave errors far below those of its beginning.
 const ACCURATE: f64 = 1e-12;
 
 /// The tolerance of a run that tells the growth of a small difference alone.
@@ -40,23 +40,23 @@ pub(super) const SAME_TIME: f64 = 1e-9;
 /// In so many steps two runs differ: by Taylor's method at two tolerances, or by two other methods.
 const MANY: u64 = 50;
 
-/// Below this the force on a perturbation has all but underflowed: a series from where it is 0 shows nothing of what it is
-/// later.
+/// Below this the force on a perturbation has all but underflowed: a series from where it is 0 shows nothing of what it
+/// is later.
 const FAINT: f64 = 1e-200;
 
 /// Below this doubles lose digits to underflow.
 const UNDERFLOWN: f64 = 1e-290;
 
-/// Factor on the difference, since errors of two methods may have the same sign: it is right where that of the second run
-/// is a third as large, and too cautious by this factor where it is none.
+/// Factor on the difference, since errors of two methods may have the same sign: it is right where that of the second
+/// run is a third as large, and too cautious by this factor where it is none.
 const AGREEMENT: f64 = 1.5;
 
-/// The ratio of what makes the force of the second run too strong to what constants may: of twice that at least as much remains in
-/// the difference, whatever the sign of theirs.
+/// The ratio of what makes the force of the second run too strong to what constants may: of twice that at least as much
+/// remains in the difference, whatever the sign of theirs.
 const STRONGER: f64 = 2.0;
 
-/// The order that is seen in the error of fixed steps where an accurate run costs more than they do: they pass over kinks,
-/// or over bends as sharp.
+/// The order that is seen in the error of fixed steps where an accurate run costs more than they do: they pass over
+/// kinks, or over bends as sharp.
 const ORDER_SEEN: usize = 2;
 
 /// The second run, and its result.
@@ -78,8 +78,8 @@ pub(super) struct Second {
 }
 
 impl Second {
-    /// Makes the second run. That of fixed steps is an accurate one, which tells their error whatever their order; where it
-    /// costs too much, one by steps of half the length. The run can be observed.
+    /// Makes the second run. That of fixed steps is an accurate one, which tells their error whatever their order;
+    /// where it costs too much, one by steps of half the length. The run can be observed.
     pub fn new(run: &Run, outcome: &Outcome, seen: Option<&Recent>, onlooker: &mut dyn RunObserver) -> Second {
         let instants = seen.map_or(Vec::new(), |seen| seen.instants(run));
         let rates = outcome.events.iter().map(|event| seen.and_then(|seen| seen.rate(event))).collect();
@@ -131,7 +131,8 @@ impl Second {
         let acceleration = at_event.map_or(0.0, |one| one.acceleration);
         // the drive and the force may cancel
         let desired = ROUNDINGS * run.model.desired_speed().abs();
-        // an error of that size may be hidden by the stronger force, which makes as much of a motion that all have in common
+        // an error of that size may be hidden by the stronger force, which makes as much of a motion that all have in
+        // common
         let constants = of_constants(run);
         Errors {
             cost: self.evaluations as f64 / outcome.statistics.evaluations as f64 + lost.map_or(0.0, |lost| lost.cost),
@@ -178,8 +179,8 @@ impl Second {
 
     /// The error of the time of an event: the difference between both runs; what is not sure of it, since the errors of
     /// both may agree by chance in the one pedestrian at the one time, but not in all; and what the roundings of the
-    /// quantity that falls through 0 make of the time. `None` if the other run has no such event, or if the state at the
-    /// event is off by a visible part of itself: no estimate follows from such differences.
+    /// quantity that falls through 0 make of the time. `None` if the other run has no such event, or if the state at
+    /// the event is off by a visible part of itself: no estimate follows from such differences.
     fn time_error(&self, run: &Run, outcome: &Outcome, index: usize) -> Option<f64> {
         let event = &outcome.events[index];
         let difference = self.factor * time_difference(event, &self.outcome.events)?;
@@ -219,8 +220,8 @@ impl Second {
     }
 }
 
-/// What becomes of a shift that the second run loses as the run does: the steps of Taylor's method carry it along, however
-/// small. `None` where they do not, as over kinks, or where the onlooker ends them.
+/// What becomes of a shift that the second run loses as the run does: the steps of Taylor's method carry it along,
+/// however small. `None` where they do not, as over kinks, or where the onlooker ends them.
 fn of_lost_shift(run: &Run, outcome: &Outcome, onlooker: &mut dyn RunObserver) -> Option<Errors> {
     if run.model.has_kinks() {
         return None;
@@ -274,8 +275,8 @@ fn by_tolerance(
     }
 }
 
-/// Whether the second run ends where the run goes on to its end: in a blow-up, or where the formula has no value. A single step of
-/// either may land by chance where the force exceeds all bounds; a third run decides which.
+/// Whether the second run ends where the run goes on to its end: in a blow-up, or where the formula has no value. A
+/// single step of either may land by chance where the force exceeds all bounds; a third run decides which.
 fn is_doubtful(outcome: &Outcome, second: &Outcome) -> bool {
     let ends = |outcome: &Outcome| {
         outcome.stop().is_some_and(|stop| matches!(stop.kind, EventKind::BlowUp | EventKind::Undefined))
@@ -315,15 +316,16 @@ fn methods(run: &Run, outcome: &Outcome, tolerance: f64) -> (Option<(Method, f64
     (series, (usual, tighter))
 }
 
-/// Whether the deviations of a perturbed ring are too small for doubles: a series from where the force underflows is 0, and so
-/// is all that it leaves out.
+/// Whether the deviations of a perturbed ring are too small for doubles: a series from where the force underflows is 0,
+/// and so is all that it leaves out.
 pub(super) fn is_underflown(run: &Run, outcome: &Outcome) -> bool {
     let is_perturbed = run.start.shift != 0.0 || run.displacements.iter().any(|by| *by != 0.0);
     let is_moving = outcome.samples.len() > 1 && is_perturbed;
     is_moving && run.form == StateVariables::Deviations && largest_std(outcome) < UNDERFLOWN
 }
 
-/// Whether an accurate run tells the errors of fixed steps: it has come to its end, and to the same one if those stopped.
+/// Whether an accurate run tells the errors of fixed steps: it has come to its end, and to the same one if those
+/// stopped.
 fn is_sure(outcome: &Outcome, accurate: &Outcome, end: f64) -> bool {
     let [stop, other] = [outcome, accurate].map(|outcome| outcome.stop().map(|stop| stop.kind));
     let is_whole = other.is_some() || accurate.statistics.time >= end;
@@ -358,8 +360,8 @@ fn made(second: &Run, factor: f64, instants: &[Instant], onlooker: &mut dyn RunO
     Second { form, factor, gathered: 0.0, instants, rates: Vec::new(), lost: None, evaluations, outcome }
 }
 
-/// The same run up to the time that it reached: in deviations if possible, and not in positions, whose roundings at the start both
-/// would have in common.
+/// The same run up to the time that it reached: in deviations if possible, and not in positions, whose roundings at the
+/// start both would have in common.
 fn again(run: &Run, outcome: &Outcome) -> Run {
     let is_fixed_series = run.method.needs_series() && matches!(run.control, Control::Fixed { .. });
     let can_deviate = has_deviations(&run.model, run.ring, run.steady_speed) && !is_fixed_series;
@@ -371,8 +373,9 @@ fn again(run: &Run, outcome: &Outcome) -> Run {
     Run { t_end: end(run, outcome), form, ..run.clone() }
 }
 
-/// A run ends with the step in which it finds its last event, which the second one has to find as well: up to a little later, where
-/// its overlap may be. A blow-up is not a suitable end, and whether the formula has no value there only a run that goes on can tell.
+/// A run ends with the step in which it finds its last event, which the second one has to find as well: up to a little
+/// later, where its overlap may be. A blow-up is not a suitable end, and whether the formula has no value there only a
+/// run that goes on can tell.
 fn end(run: &Run, outcome: &Outcome) -> f64 {
     if is_singular_end(outcome) {
         return run.t_end;

@@ -91,7 +91,8 @@ fn singly<B: Block>(block: &B, first: &[f64], second: &[f64], closing: f64, resu
     result[last] = block.value(Lanes([first[last]]), Lanes([second[last]]), Lanes([closing])).0[0];
 }
 
-/// The last block of a row that is longer. It begins earlier rather than be cut, since what is written twice is the same.
+/// The last block of a row that is longer. It begins earlier rather than be cut, since what is written twice is the
+/// same.
 #[inline(always)]
 fn last_of_many<const W: usize, B: Block>(
     block: &B,
@@ -105,8 +106,8 @@ fn last_of_many<const W: usize, B: Block>(
     result[from..].copy_from_slice(&value.0);
 }
 
-/// The last block. It begins earlier rather than be cut, since what is written twice is the same; a row of fewer is filled
-/// up.
+/// The last block. It begins earlier rather than be cut, since what is written twice is the same; a row of fewer is
+/// filled up.
 #[inline(always)]
 fn last<const W: usize, B: Block>(block: &B, (first, second, closing): (&[f64], &[f64], f64), result: &mut [f64]) {
     let n = first.len();

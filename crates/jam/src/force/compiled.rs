@@ -20,7 +20,8 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct Compiled<L: Law> {
     law: L,
-    /// The slopes of the acceleration in the own speed and in that ahead, where the formula has the same ones everywhere.
+    /// The slopes of the acceleration in the own speed and in that ahead, where the formula has the same ones
+    /// everywhere.
     speed_slopes: Option<[f64; 2]>,
     /// The uniform flow asked for last: once it is steady it is asked for again and again.
     reference: RefCell<Reference>,
@@ -207,8 +208,9 @@ pub(super) struct Row<'a> {
 }
 
 /// Writes the accelerations of a row, with registers no wider than this limit. A function of its own, compiled once for
-/// whoever needs them. Laws with terms that the runs of the paper do not have are compiled for registers of one width, since
-/// copies would take longer to compile than they save; where there are none, pedestrians are done one after the other.
+/// whoever needs them. Laws with terms that the runs of the paper do not have are compiled for registers of one width,
+/// since copies would take longer to compile than they save; where there are none, pedestrians are done one after the
+/// other.
 pub(super) fn accelerations<L: Law>(law: &L, limit: Width, row: Row<'_>, accelerations: &mut [f64]) {
     if law.plain().is_some() {
         return dispatch_up_to(limit, Accelerations::<L, true> { law, row, accelerations });
@@ -254,8 +256,8 @@ impl<L: Law, const PLAIN: bool> Kernel for Accelerations<'_, L, PLAIN> {
     }
 }
 
-/// The accelerations of all pedestrians less that of the uniform flow; false if the law is another one: one in a plain form if
-/// `PLAIN`, else one with any terms.
+/// The accelerations of all pedestrians less that of the uniform flow; false if the law is another one: one in a plain
+/// form if `PLAIN`, else one with any terms.
 struct Deviations<'a, L, const PLAIN: bool> {
     law: &'a L,
     tape: &'a Tape,
@@ -414,8 +416,8 @@ struct IsOpen<'a, L> {
 }
 
 impl<L: Law> IsOpen<'_, L> {
-    /// Whether one of so many pedestrians, from this one on, has no gap. A block at a time, and each block to its end: the
-    /// compiler makes a comparison of registers of it.
+    /// Whether one of so many pedestrians, from this one on, has no gap. A block at a time, and each block to its end:
+    /// the compiler makes a comparison of registers of it.
     #[inline(always)]
     fn is_closed<const W: usize>(&self, open: f64, from: usize, ahead: Lanes<W>) -> bool {
         let (spacings, speeds) = (Lanes::of(&self.spacings[from..]), Lanes::of(&self.speeds[from..]));

@@ -28,8 +28,8 @@ pub trait Force: std::fmt::Debug + Send {
     /// Writes the accelerations at these net gaps and speeds.
     fn accelerations(&self, net_gaps: &[f64], speeds: &[f64], accelerations: &mut [f64]);
 
-    /// Writes the accelerations less that of the uniform flow, for deviations of spacings and speeds from it, and returns
-    /// that of the uniform flow. Their error is relative to the deviations, however small these are.
+    /// Writes the accelerations less that of the uniform flow, for deviations of spacings and speeds from it, and
+    /// returns that of the uniform flow. Their error is relative to the deviations, however small these are.
     fn deviations(&self, flow: Flow, spacings: &[f64], speeds: &[f64], accelerations: &mut [f64]) -> f64;
 
     /// Writes the effective gaps at these net gaps and speeds.
@@ -44,8 +44,8 @@ pub trait Force: std::fmt::Debug + Send {
     /// Whether the acceleration depends on speeds in another way than linearly, with the same slopes everywhere.
     fn uses_speeds(&self) -> bool;
 
-    /// How the acceleration of a uniform flow answers to its speed, in units of one over time: -1 for the laws of the paper.
-    /// Has a meaning only where [`Force::uses_speeds`] is false.
+    /// How the acceleration of a uniform flow answers to its speed, in units of one over time: -1 for the laws of the
+    /// paper. Has a meaning only where [`Force::uses_speeds`] is false.
     fn relaxation(&self, flow: Flow) -> f64;
 
     /// What the acceleration depends on.
@@ -53,9 +53,9 @@ pub trait Force: std::fmt::Debug + Send {
         Dependence::Unknown
     }
 
-    /// Writes how the accelerations answer to what they depend on, for deviations of spacings and speeds from this flow: one row
-    /// for the own spacings, for [`Dependence::Speeds`] two more for the own speeds and those ahead. Nothing for
-    /// [`Dependence::Unknown`].
+    /// Writes how the accelerations answer to what they depend on, for deviations of spacings and speeds from this
+    /// flow: one row for the own spacings, for [`Dependence::Speeds`] two more for the own speeds and those ahead.
+    /// Nothing for [`Dependence::Unknown`].
     fn slopes(&self, _flow: Flow, _now: Rows<'_>, _slopes: &mut [f64]) {}
 
     /// Where the force bends sharply, if it does.
@@ -77,12 +77,12 @@ pub trait Force: std::fmt::Debug + Send {
         false
     }
 
-    /// Writes the arguments of the kinks in the series written last: `order` rows of one number for each kink of each of so
-    /// many pedestrians.
+    /// Writes the arguments of the kinks in the series written last: `order` rows of one number for each kink of each
+    /// of so many pedestrians.
     fn kink_arguments(&self, _pedestrians: usize, _order: usize, _arguments: &mut [f64]) {}
 
-    /// Makes steps of Heun's scheme of the state `[x_0 .. x_{N-1}, v_0 .. v_{N-1}]`, in one piece or cut. A batch in which
-    /// something happens leaves the state untouched.
+    /// Makes steps of Heun's scheme of the state `[x_0 .. x_{N-1}, v_0 .. v_{N-1}]`, in one piece or cut. A batch in
+    /// which something happens leaves the state untouched.
     fn heun(&self, steps: Steps, cut: Option<Cut>, state: &mut [f64]) -> Batch;
 }
 

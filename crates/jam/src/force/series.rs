@@ -1,9 +1,9 @@
 //! Taylor coefficients of a motion.
 //!
-//! With spacings `s_n = sum u_k t^k` and speeds `v_n = sum w_k t^k`, the equations give `(k + 1) u_{k+1} = w_k(ahead) - w_k`
-//! and `(k + 1) w_{k+1} = a_k`, where `a_k` is the coefficient of the acceleration along the motion, which the formula
-//! gives from those of spacing and speeds up to the order `k` ([`math::series`]). An order costs a few sums of products;
-//! no stage is evaluated.
+//! With spacings `s_n = sum u_k t^k` and speeds `v_n = sum w_k t^k`, the equations give `(k + 1) u_{k+1} = w_k(ahead) -
+//! w_k` and `(k + 1) w_{k+1} = a_k`, where `a_k` is the coefficient of the acceleration along the motion, which the
+//! formula gives from those of spacing and speeds up to the order `k` ([`math::series`]). An order costs a few sums of
+//! products; no stage is evaluated.
 
 use super::{Flow, NOTHING};
 use crate::laws::Law;
@@ -16,8 +16,8 @@ use math::simd::{Kernel, dispatch_either, dispatch_wide};
 pub struct Motion<'a> {
     /// What is added to spacings and speeds of order 0: those of the uniform flow, if the rows hold deviations from it.
     pub flow: Flow,
-    /// Where in a row the speed of that flow stands, whose coefficients are then written, too, and those of the deviations
-    /// without cancellation. `None` where the flow is steady, or the force does not depend on speeds.
+    /// Where in a row the speed of that flow stands, whose coefficients are then written, too, and those of the
+    /// deviations without cancellation. `None` where the flow is steady, or the force does not depend on speeds.
     pub along: Option<usize>,
     /// How many pedestrians.
     pub pedestrians: usize,
@@ -37,8 +37,8 @@ const WIDE: usize = 24;
 /// Where they hold fewer.
 const NARROW: usize = 16;
 
-/// Memory that is kept from step to step. Behind the last pedestrian the first follows, as the neighbour ahead; in a ring
-/// of less than a block, then numbers without meaning that nothing reads but others of their kind.
+/// Memory that is kept from step to step. Behind the last pedestrian the first follows, as the neighbour ahead; in a
+/// ring of less than a block, then numbers without meaning that nothing reads but others of their kind.
 #[derive(Clone, Debug, Default)]
 pub struct Memory {
     narrow: InBlocks<NARROW>,
@@ -152,7 +152,8 @@ impl<const W: usize> InBlocks<W> {
     }
 }
 
-/// The first pedestrian of a block. The last block begins earlier instead of being cut short: values computed twice are equal.
+/// The first pedestrian of a block. The last block begins earlier instead of being cut short: values computed twice are
+/// equal.
 #[inline(always)]
 fn begin<const W: usize>(block: usize, n: usize) -> usize {
     let (from, last) = (block * W, n.saturating_sub(W));
@@ -167,9 +168,9 @@ fn write<const W: usize>(row: &mut [f64], from: usize, block: Lanes<W>) {
     }
 }
 
-/// The coefficients under a law, with the number of operations that store values. False, and nothing is done, where they
-/// are not compiled: along a uniform flow that changes, and for laws with terms that the runs of the paper do not have on a
-/// processor without wide registers.
+/// The coefficients under a law, with the number of operations that store values. False, and nothing is done, where
+/// they are not compiled: along a uniform flow that changes, and for laws with terms that the runs of the paper do not
+/// have on a processor without wide registers.
 pub(super) fn compiled<L: Law>(law: L, operations: usize, motion: &mut Motion<'_>, memory: &mut Memory) -> bool {
     if motion.along.is_some() {
         return false;
@@ -235,7 +236,8 @@ impl<L: Law, const PLAIN: bool, const W: usize> Coefficients<'_, '_, L, PLAIN, W
             let InBlocks { histories, now, next } = &mut *memory;
             let (now, next, mut left) = (now.numbers(), next.numbers_mut(), &histories[..]);
             for index in 0..blocks {
-                // else the compiler keeps a pointer for each sum, and advances a dozen of them in memory for every block
+                // else the compiler keeps a pointer for each sum, and advances a dozen of them in memory for every
+                // block
                 let (own, others) = std::hint::black_box(left).split_at(size);
                 left = others;
                 let (from, place) = (begin::<W>(index, n), OrderMemory::new(own, order, k));

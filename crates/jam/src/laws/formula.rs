@@ -109,8 +109,8 @@ impl Formula {
         self.graph.parameter(name).map(|index| self.values[index])
     }
 
-    /// The size of speeds, in the law's unit of them: that of the parameter `v0` if there is one, else `scale`. A `v0` of
-    /// 0 is none.
+    /// The size of speeds, in the law's unit of them: that of the parameter `v0` if there is one, else `scale`. A `v0`
+    /// of 0 is none.
     pub fn speed_scale(&self) -> Option<f64> {
         size_of_speeds(|name| self.parameter(name))
     }

@@ -49,8 +49,8 @@ pub struct Parameter<L> {
 const RAMP_WIDTH: f64 = 0.1;
 
 /// A law of motion as a formula in Rust: `dv_n/dt` from the net gap to the pedestrian ahead, the own speed and that of
-/// the pedestrian ahead. [`Model::own`] makes a [`Model`] of it. Only [`Law::CONTACT`] and [`Law::acceleration`] have to
-/// be written.
+/// the pedestrian ahead. [`Model::own`] makes a [`Model`] of it. Only [`Law::CONTACT`] and [`Law::acceleration`] have
+/// to be written.
 ///
 /// ```
 /// use jam::laws::{Law, Model, Parameter, Range};
@@ -89,8 +89,8 @@ const RAMP_WIDTH: f64 = 0.1;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Law: Copy + Default + Send + Sync + std::fmt::Debug + 'static {
-    /// Its parameters. `v0`, else `scale`, is the size of speeds, which tolerances and thresholds refer to; 1 if neither is
-    /// there.
+    /// Its parameters. `v0`, else `scale`, is the size of speeds, which tolerances and thresholds refer to; 1 if
+    /// neither is there.
     const PARAMETERS: &'static [Parameter<Self>] = &[];
 
     /// The spacing at which two standing pedestrians touch; the *net gap* is the spacing less this.
@@ -99,8 +99,8 @@ pub trait Law: Copy + Default + Send + Sync + std::fmt::Debug + 'static {
     /// Whether the force is infinite where the effective gap closes.
     const SINGULAR: bool = false;
 
-    /// `dv/dt` of a pedestrian with this net gap and speed, and the speed ahead. Branches may depend on parameters only.
-    /// To be marked `#[inline(always)]`, or it runs without vector registers.
+    /// `dv/dt` of a pedestrian with this net gap and speed, and the speed ahead. Branches may depend on parameters
+    /// only. To be marked `#[inline(always)]`, or it runs without vector registers.
     fn acceleration<X: Number>(&self, net_gap: X, speed: X, ahead: X) -> X;
 
     /// The quantity that must stay positive for the run to continue: `d_n` of eq:effDistn, for the logarithmic law the
@@ -111,15 +111,16 @@ pub trait Law: Copy + Default + Send + Sync + std::fmt::Debug + 'static {
         net_gap
     }
 
-    /// Whether the formula is so long, with several functions or a logarithm in it, that the operations of many pedestrians
-    /// have to overlap; the bits do not depend on it. By default it is.
+    /// Whether the formula is so long, with several functions or a logarithm in it, that the operations of many
+    /// pedestrians have to overlap; the bits do not depend on it. By default it is.
     #[inline(always)]
     fn is_long(&self) -> bool {
         true
     }
 
     /// The law with the terms of the paper's runs and no others, if these are all that it has: the same law, with the
-    /// parameters that leave a term out as constants, so that the compiler leaves it out as well. By default there is none.
+    /// parameters that leave a term out as constants, so that the compiler leaves it out as well. By default there is
+    /// none.
     #[inline(always)]
     fn plain(&self) -> Option<Self> {
         None
@@ -135,8 +136,8 @@ pub trait Law: Copy + Default + Send + Sync + std::fmt::Debug + 'static {
         }
     }
 
-    /// Where the smooth ramp bends, if the law has one; where its argument is a quotient, its numerator. Steps of adaptive
-    /// length are short there. By default there is none.
+    /// Where the smooth ramp bends, if the law has one; where its argument is a quotient, its numerator. Steps of
+    /// adaptive length are short there. By default there is none.
     fn bend(&self) -> Option<Bend> {
         None
     }
@@ -226,8 +227,8 @@ impl Model {
     /// outcome, stability, maps and jams.
     ///
     /// # Errors
-    /// A parameter out of its range; an effective gap that is not linear with constant slopes, or not 0 where two touch at
-    /// rest; an acceleration there that is finite though [`Law::SINGULAR`] says otherwise, or the other way round.
+    /// A parameter out of its range; an effective gap that is not linear with constant slopes, or not 0 where two touch
+    /// at rest; an acceleration there that is finite though [`Law::SINGULAR`] says otherwise, or the other way round.
     pub fn own<L: Law>(law: L) -> Result<Model, String> {
         Own::new(law).map(Model::Own)
     }
@@ -308,8 +309,8 @@ impl Model {
         }
     }
 
-    /// Whether the spacing is what the law measures contact by, so that there is no effective gap `d'` of the uniform flow
-    /// to start from.
+    /// Whether the spacing is what the law measures contact by, so that there is no effective gap `d'` of the uniform
+    /// flow to start from.
     pub fn has_effective_gap(&self) -> bool {
         matches!(self, Model::Algebraic(_) | Model::Exponential(_))
     }
@@ -319,8 +320,8 @@ impl Model {
         each!(self, law => Box::new(Compiled::new(*law)), formula => formula.force(), own => own.force())
     }
 
-    /// The acceleration as the paper prints it, in units of `a_0 / tau^2`, at this spacing (not net gap), own speed and speed
-    /// ahead; of a formula, that of the uniform flow with this own speed.
+    /// The acceleration as the paper prints it, in units of `a_0 / tau^2`, at this spacing (not net gap), own speed and
+    /// speed ahead; of a formula, that of the uniform flow with this own speed.
     pub fn acceleration(&self, spacing: f64, speed: f64, ahead: f64) -> f64 {
         let net_gap = spacing - self.contact();
         each!(
@@ -353,8 +354,8 @@ impl Model {
         )
     }
 
-    /// How much of the effective gap a unit of speed, own or ahead, takes away: `a_v` of the paper, in units of `tau`; 0 for a
-    /// formula.
+    /// How much of the effective gap a unit of speed, own or ahead, takes away: `a_v` of the paper, in units of `tau`;
+    /// 0 for a formula.
     pub fn gap_per_speed(&self) -> f64 {
         -each!(self, law => law.effective_gap(0.0, 1.0, 0.0), _formula => 0.0, own => own.effective_gap(0.0, 1.0, 0.0))
     }
@@ -396,8 +397,8 @@ impl Model {
         each!(self, law => Some(law.response(headway, speed)), formula => formula.response(headway, speed), own => own.response(headway, speed))
     }
 
-    /// The coefficients of the linearised law about the uniform flow with this headway and speed; of a formula too, if it
-    /// looks at one predecessor and has derivatives there, else NaN ([`Model::response`] is for all).
+    /// The coefficients of the linearised law about the uniform flow with this headway and speed; of a formula too, if
+    /// it looks at one predecessor and has derivatives there, else NaN ([`Model::response`] is for all).
     pub fn linearise(&self, headway: f64, speed: f64) -> Linear {
         match self {
             Model::Algebraic(law) => law.linearise(law.gap(headway, speed)),
@@ -410,7 +411,8 @@ impl Model {
     }
 }
 
-/// The size of speeds of a law with these parameters: thresholds refer to it, which a speed of 0 or below would turn around.
+/// The size of speeds of a law with these parameters: thresholds refer to it, which a speed of 0 or below would turn
+/// around.
 fn size_of_speeds(parameter: impl Fn(&str) -> Option<f64>) -> Option<f64> {
     let size = |name: &str| parameter(name).map(f64::abs).filter(|size| *size > 0.0);
     size("v0").or_else(|| size("scale"))

@@ -8,8 +8,8 @@ use math::double_double::DoubleDouble;
 use std::fmt::Debug;
 use std::sync::Arc;
 
-/// A law that is a Rust type (see [`Law`]), whichever it is. Made by [`Model::own`](super::Model::own). Clones of one value are
-/// equal, others are not.
+/// A law that is a Rust type (see [`Law`]), whichever it is. Made by [`Model::own`](super::Model::own). Clones of one
+/// value are equal, others are not.
 #[derive(Clone, Debug)]
 pub struct Own(Arc<dyn AnyLaw>);
 

@@ -53,8 +53,8 @@ const SHORTEST_WINDOW: f64 = 200.0;
 /// Irregular waves, whose least gap is another one in each short window, are judged by windows of this part of the run.
 const THIRD: f64 = 1.0 / 3.0;
 
-/// Windows are looked at first at this time, then whenever it has doubled. The jams of a logarithmic ring stand long before
-/// they touch: at `v0 = 1.256` by t = 300, and touch at t = 1300.
+/// Windows are looked at first at this time, then whenever it has doubled. The jams of a logarithmic ring stand long
+/// before they touch: at `v0 = 1.256` by t = 300, and touch at t = 1300.
 const FIRST_JUDGED: f64 = 6000.0;
 
 /// And so long that waves go around the ring so often, seen by those who walk in it: as seen from the ground a wave can
@@ -253,8 +253,9 @@ impl Judge {
         Some([late, early])
     }
 
-    /// The margin of stability, if every wave of the ring decays, speeds differ too little for waves, and less and less. Where
-    /// neighbours hardly answer to each other, a perturbation takes longer than any run to fall below [`NEAR_FLOW`].
+    /// The margin of stability, if every wave of the ring decays, speeds differ too little for waves, and less and
+    /// less. Where neighbours hardly answer to each other, a perturbation takes longer than any run to fall below
+    /// [`NEAR_FLOW`].
     fn is_falling(&self) -> Option<f64> {
         let flow = self.flow.filter(Flow::decays)?;
         let [late, early] = self.windows(THIRD * self.seen)?;

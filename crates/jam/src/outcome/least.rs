@@ -69,8 +69,8 @@ impl Kernel for Highest<'_> {
 }
 
 impl Ends<'_> {
-    /// The fraction of the step at which the cubic through both ends of one of the numbers has a minimum below `record`:
-    /// the deepest of all. Numbers that dip within fall at the start and rise at the end.
+    /// The fraction of the step at which the cubic through both ends of one of the numbers has a minimum below
+    /// `record`: the deepest of all. Numbers that dip within fall at the start and rise at the end.
     pub(super) fn dip(&self, record: f64) -> Option<f64> {
         let starts = self.before.0.iter().zip(self.before.1);
         let ends = self.after.0.iter().zip(self.after.1);

@@ -1,7 +1,8 @@
 //! The outcome of a run: return to the uniform flow, lasting waves, contact or blow-up; or undecided, with the reason.
 //!
-//! The paper leaves the question to simulations ("it has to be verified by simulations whether this instability corresponds
-//! to realistic behavior"). [`Judge`] answers it for one run, step by step; the classes are [`Class`], in order of precedence.
+//! The paper leaves the question to simulations ("it has to be verified by simulations whether this instability
+//! corresponds to realistic behavior"). [`Judge`] answers it for one run, step by step; the classes are [`Class`], in
+//! order of precedence.
 
 mod judge;
 mod least;
@@ -144,9 +145,9 @@ pub struct Verdict {
     /// The speed at which waves travel along the ring, on the ground, in units of `a_0 / tau`, against the direction of
     /// walking if negative; only of waves.
     pub wave_speed: Option<f64>,
-    /// How far the deciding numbers are from another verdict, in the unit of each: of waves the least of the contrast above
-    /// its threshold, the least gap (both relative) and the distance of the least speed from 0; of a decay the margin of
-    /// stability; of a contact the speed at which the gap closes. 0 if undecided.
+    /// How far the deciding numbers are from another verdict, in the unit of each: of waves the least of the contrast
+    /// above its threshold, the least gap (both relative) and the distance of the least speed from 0; of a decay the
+    /// margin of stability; of a contact the speed at which the gap closes. 0 if undecided.
     pub distance: f64,
 }
 
@@ -171,8 +172,8 @@ impl Verdict {
 /// How long the start from rest lasts, in units of `tau`: `e^-20` of it is left, 2e-9, after 20 relaxation times.
 pub const START: f64 = 20.0;
 
-/// A state is back at the uniform flow where deviations are below this part of headway, effective gap and desired speed. The
-/// linearised law is then exact to about as much, and so are its growth rates.
+/// A state is back at the uniform flow where deviations are below this part of headway, effective gap and desired
+/// speed. The linearised law is then exact to about as much, and so are its growth rates.
 pub const NEAR_FLOW: f64 = 1e-3;
 
 /// Closer to the line of stability than this, the linearised law does not distinguish decay from waves of small

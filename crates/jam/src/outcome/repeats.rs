@@ -3,7 +3,8 @@
 use crate::events::Watch;
 use ode::Step;
 
-/// A state is compared with one at least so much earlier, in units of `tau`: what changes at a rate of 1e-4 differs by 1 %.
+/// A state is compared with one at least so much earlier, in units of `tau`: what changes at a rate of 1e-4 differs by
+/// 1 %.
 const APART: f64 = 100.0;
 
 /// Repetitions in a row.
@@ -12,10 +13,12 @@ const TIMES: u32 = 2;
 /// States that differ by no more than this part of the desired speed are the same.
 const SAME: f64 = 1e-6;
 
-/// And by no more than this part of the contrast of speeds, so that weak waves that still change are not taken for lasting.
+/// And by no more than this part of the contrast of speeds, so that weak waves that still change are not taken for
+/// lasting.
 const SAME_OF_CONTRAST: f64 = 1e-4;
 
-/// A shifted state whose speeds differ by more than this part of the contrast, on the average, is not looked at closely.
+/// A shifted state whose speeds differ by more than this part of the contrast, on the average, is not looked at
+/// closely.
 const ALIKE: f64 = 0.05;
 
 /// Looks for repetitions.
@@ -108,8 +111,8 @@ impl Reference {
     }
 }
 
-/// The fraction of the step at which a pedestrian's rising speed goes through a level: regula falsi, the stale end halved
-/// (Illinois).
+/// The fraction of the step at which a pedestrian's rising speed goes through a level: regula falsi, the stale end
+/// halved (Illinois).
 fn crossing(watch: &mut Watch<'_>, step: &mut Step<'_>, pedestrian: usize, level: f64) -> f64 {
     const ROUNDS: u32 = 12;
     let (mut low, mut high) = (0.0, 1.0);

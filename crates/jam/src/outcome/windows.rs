@@ -103,7 +103,8 @@ pub(super) fn drift(speeds: &[f64], accelerations: &[f64]) -> (f64, f64) {
     (product, square)
 }
 
-/// The last stretch of at least this duration, skipping as much as `skip` before the end; `None` if the run was shorter.
+/// The last stretch of at least this duration, skipping as much as `skip` before the end; `None` if the run was
+/// shorter.
 pub(super) fn last(blocks: &[Stretch], skip: f64, duration: f64) -> Option<(Stretch, f64)> {
     let mut skipped = 0.0;
     let mut rest = blocks.iter().rev();

@@ -1,9 +1,9 @@
 //! A checkpoint of a run, serialised so that the run can be resumed bit-identically. The module opens no file: the
 //! caller decides where and how often to write one.
 //!
-//! The bytes are 64-bit words, low byte first, numbers by their bits: place, counts, state, pace, events, samples, jams,
-//! what the judge has seen. What follows from the run and the rest is left out: the times of the trajectories, and
-//! whether the run has come to a stop. Nothing guards them against damage; a file should hold their hash.
+//! The bytes are 64-bit words, low byte first, numbers by their bits: place, counts, state, pace, events, samples,
+//! jams, what the judge has seen. What follows from the run and the rest is left out: the times of the trajectories,
+//! and whether the run has come to a stop. Nothing guards them against damage; a file should hold their hash.
 
 use super::{Run, Sample, Samples, Statistics};
 use crate::events::{Event, EventKind};

@@ -8,8 +8,8 @@ use ode::Method;
 /// Below this response of the uniform flow to a gap, its force has lost digits to underflow.
 const LEAST_RESPONSE: f64 = 1e-280;
 
-/// The form of the state: deviations from the uniform flow of this speed if none is `wanted` and they can hold the run, else
-/// spacings.
+/// The form of the state: deviations from the uniform flow of this speed if none is `wanted` and they can hold the run,
+/// else spacings.
 pub fn fitting(wanted: Option<StateVariables>, model: &Model, ring: Ring, speed: Option<f64>) -> StateVariables {
     let form = wanted.unwrap_or(StateVariables::Deviations);
     if form == StateVariables::Deviations && !has_deviations(model, ring, speed) {
@@ -19,8 +19,9 @@ pub fn fitting(wanted: Option<StateVariables>, model: &Model, ring: Ring, speed:
     }
 }
 
-/// The default method of a run: Taylor's, the steps of which end on [kinks](Model::has_kinks); or `dop853` in positions,
-/// which have no series, and for laws with [kinks that do not suit Taylor's method](Model::has_unsuited_kinks).
+/// The default method of a run: Taylor's, the steps of which end on [kinks](Model::has_kinks); or `dop853` in
+/// positions, which have no series, and for laws with [kinks that do not suit Taylor's
+/// method](Model::has_unsuited_kinks).
 pub fn usual_method(form: StateVariables, model: &Model) -> Method {
     if form == StateVariables::Positions || model.has_unsuited_kinks() { Method::Dop853 } else { Method::Taylor }
 }

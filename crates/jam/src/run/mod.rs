@@ -30,8 +30,8 @@ use crate::states::{RingSystem, StateVariables};
 use crate::uniform::{self, NoUniformFlow};
 use ode::{Control, Method};
 
-/// What is integrated, how, and what is kept of it. Times are in the unit of the law (`tau` for those of the paper), lengths
-/// too (`a_0`).
+/// What is integrated, how, and what is kept of it. Times are in the unit of the law (`tau` for those of the paper),
+/// lengths too (`a_0`).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
     /// The law of motion.
@@ -76,13 +76,13 @@ pub enum AtOverlap {
 pub const TOLERANCE: f64 = 1e-10;
 
 impl Run {
-    /// A run up to `t_end` by the [usual method](usual_method) with a tolerance of [`TOLERANCE`], in deviations from the
-    /// uniform flow where there is one, that keeps a sample at every unit of time and the trajectories. Other choices
-    /// replace its fields.
+    /// A run up to `t_end` by the [usual method](usual_method) with a tolerance of [`TOLERANCE`], in deviations from
+    /// the uniform flow where there is one, that keeps a sample at every unit of time and the trajectories. Other
+    /// choices replace its fields.
     ///
     /// # Errors
-    /// Fewer than two pedestrians, or fewer than the law looks at; a length or time that is not above 0; gaps that are closed
-    /// at the start; an acceleration that has no value there; several steady speeds.
+    /// Fewer than two pedestrians, or fewer than the law looks at; a length or time that is not above 0; gaps that are
+    /// closed at the start; an acceleration that has no value there; several steady speeds.
     pub fn new(model: Model, ring: Ring, start: Start, t_end: f64) -> Result<Run, String> {
         let Ring { pedestrians, length } = ring;
         let is_size = |number: f64| number > 0.0 && number.is_finite();
@@ -143,8 +143,8 @@ fn stops(kind: EventKind, at_overlap: AtOverlap) -> bool {
     kind.is_stop() && (kind != EventKind::Overlap || at_overlap == AtOverlap::Stop)
 }
 
-/// The speed of the uniform flow of a ring; of a formula or a law of your own the one next to `wanted`, `None` if it has
-/// none.
+/// The speed of the uniform flow of a ring; of a formula or a law of your own the one next to `wanted`, `None` if it
+/// has none.
 ///
 /// # Errors
 /// A law of the paper has none; or any other several, and none is wanted.

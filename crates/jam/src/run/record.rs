@@ -5,8 +5,8 @@ use crate::jams;
 use crate::states::RingSystem;
 use ode::Step;
 
-/// The jams are followed at the first step that ends no sooner than this after the one before, in units of `tau`: they go a
-/// small part of a headway in that time. The times do not depend on the samples.
+/// The jams are followed at the first step that ends no sooner than this after the one before, in units of `tau`: they
+/// go a small part of a headway in that time. The times do not depend on the samples.
 pub(super) const FOLLOWED_EVERY: f64 = 1.0;
 
 /// The samples under way.

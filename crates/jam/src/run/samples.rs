@@ -26,8 +26,8 @@ pub struct Sample<'a> {
     pub positions: &'a [f64],
     /// Speeds. Empty where they are not kept.
     pub speeds: &'a [f64],
-    /// Spacings to the pedestrians ahead, with all their digits. Empty where trajectories are not kept, and in samples read
-    /// from [`Samples`], where they are differences of positions.
+    /// Spacings to the pedestrians ahead, with all their digits. Empty where trajectories are not kept, and in samples
+    /// read from [`Samples`], where they are differences of positions.
     pub spacings: &'a [f64],
 }
 

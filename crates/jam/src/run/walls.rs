@@ -7,9 +7,9 @@ use crate::events::{Event, EventKind};
 use crate::states::StateVariables;
 use ode::Control;
 
-/// Where the smallest effective gap falls below this part of that in the uniform flow, spacings become the state: they keep all
-/// digits however small they are; deviations from the uniform flow have lost three of them there. They do, too, where
-/// deviations lead no further.
+/// Where the smallest effective gap falls below this part of that in the uniform flow, spacings become the state: they
+/// keep all digits however small they are; deviations from the uniform flow have lost three of them there. They do,
+/// too, where deviations lead no further.
 const NEAR_WALLS: f64 = 1e-3;
 
 /// Where the law is steep, roundings of the state keep steps from ever meeting a tolerance below this.

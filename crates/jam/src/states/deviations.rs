@@ -42,7 +42,8 @@ impl Deviations {
         Flow { net_gap: self.net_gap, speed: state[speed] }
     }
 
-    /// Whether the flow changes so little in a unit of time that it counts for less than rounding: beside a gap or a speed.
+    /// Whether the flow changes so little in a unit of time that it counts for less than rounding: beside a gap or a
+    /// speed.
     fn is_steady(&self, flow: Flow, change: f64) -> bool {
         change.abs() <= f64::EPSILON * math::larger(flow.net_gap, flow.speed.abs())
     }
@@ -54,8 +55,9 @@ impl Deviations {
         slopes[1] + slopes[2]
     }
 
-    /// Writes how the accelerations of the deviations answer to the speed of the uniform flow, from the `slopes` by speeds here
-    /// and the `rate` of the flow. They do not to one that is steady, or where the force is linear in speeds.
+    /// Writes how the accelerations of the deviations answer to the speed of the uniform flow, from the `slopes` by
+    /// speeds here and the `rate` of the flow. They do not to one that is steady, or where the force is linear in
+    /// speeds.
     fn write_answers(&self, flow: Flow, now: Rows<'_>, [slopes, rate]: [&[f64]; 2], answers: &mut [f64]) {
         let mut acceleration = [0.0];
         self.force.accelerations(&[flow.net_gap], &[flow.speed], &mut acceleration);
@@ -158,8 +160,8 @@ impl System for Deviations {
         self.dimension().next_multiple_of(8)
     }
 
-    /// If the force depends on speeds, those of the ring, how the deviations from the uniform flow answer to its speed, and how
-    /// that flow itself does.
+    /// If the force depends on speeds, those of the ring, how the deviations from the uniform flow answer to its speed,
+    /// and how that flow itself does.
     fn tangent_size(&self) -> usize {
         let (n, size) = (self.pedestrians, tangent::size(&*self.force, self.pedestrians));
         if self.force.dependence() == Dependence::Speeds { size + n + 1 } else { size }

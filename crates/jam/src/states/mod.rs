@@ -2,7 +2,7 @@
 //!
 //! | form | state | for |
 //! |---|---|---|
-//! | [`Deviations`] | gaps and speeds minus those of the uniform flow | the default: errors are relative to the perturbation |
+//! | [`Deviations`] | gaps and speeds minus those of the uniform flow | default: errors relative to the perturbation |
 //! | [`Spacings`] | gaps and speeds | the textbook form |
 //! | [`Positions`] | unwrapped positions and speeds | the scheme of the paper, literally |
 
@@ -24,8 +24,9 @@ use crate::ring::{Ring, Start};
 use math::simd::{Kernel, dispatch};
 use std::ops::Range;
 
-/// A ring in one of the forms. Pedestrian `n` follows `n + 1`, the last follows the first. Positions and gaps are in units of
-/// `a_0`, times in units of `tau`; rows of pedestrians have `N` numbers, states and their rates [`ode::System::dimension`].
+/// A ring in one of the forms. Pedestrian `n` follows `n + 1`, the last follows the first. Positions and gaps are in
+/// units of `a_0`, times in units of `tau`; rows of pedestrians have `N` numbers, states and their rates
+/// [`ode::System::dimension`].
 pub trait RingSystem: ode::System {
     /// The state at the start.
     fn start(&self, start: Start) -> Vec<f64>;
@@ -45,8 +46,8 @@ pub trait RingSystem: ode::System {
     /// The range of the speeds in a state, or of their deviations from one speed.
     fn speeds(&self) -> Range<usize>;
 
-    /// For states of deviations from a uniform flow, which stand first, those of gaps before those of speeds: that flow.
-    /// `None` for others.
+    /// For states of deviations from a uniform flow, which stand first, those of gaps before those of speeds: that
+    /// flow. `None` for others.
     fn flow_along(&self, _state: &[f64], _rates: &[f64]) -> Option<FlowAlong> {
         None
     }
@@ -89,7 +90,8 @@ impl StateVariables {
         self.build_off(model, ring, 0.0)
     }
 
-    /// The same with a force that rates, but not series, have too strong by this part of itself; in positions it is right.
+    /// The same with a force that rates, but not series, have too strong by this part of itself; in positions it is
+    /// right.
     pub(crate) fn build_off(self, model: &Model, ring: Ring, off: f64) -> Box<dyn RingSystem> {
         let force = model.force();
         match self {

@@ -1,8 +1,8 @@
-//! The series in time by which a small difference from a solution is carried ([`super::tangent`]), in single precision: two
-//! digits are asked for.
+//! The series in time by which a small difference from a solution is carried ([`super::tangent`]), in single precision:
+//! two digits are asked for.
 //!
-//! Two terms of the series are made in one pass along the ring. A pass costs about as much as its loads and stores, and those
-//! of one term wait for those of the term before.
+//! Two terms of the series are made in one pass along the ring. A pass costs about as much as its loads and stores, and
+//! those of one term wait for those of the term before.
 
 use super::tangent::FADING;
 use math::lane;
@@ -13,8 +13,8 @@ use std::cell::Cell;
 /// A series reaches at most so far, in units of the time in which differences move: terms of a longer one would cancel.
 const LONGEST: f64 = 10.0;
 
-/// A term that is smaller than this part of the sum ends a series over a unit of that time and more: an error is asked to a
-/// factor of 3.
+/// A term that is smaller than this part of the sum ends a series over a unit of that time and more: an error is asked
+/// to a factor of 3.
 const REST: f32 = 1e-2;
 
 /// The same where slopes change: who is thrown back by a wall goes on with a small difference of what came.
@@ -35,8 +35,8 @@ const LANES: usize = 16;
 /// Bytes of a line of the cache, where rows begin: what lies across two lines is read and written in two goes.
 const LINE: usize = 64;
 
-/// One number for each pedestrian, the first two of the ring once more behind the last, and zeros. Cells, since what is behind a
-/// block is read while the blocks before are written.
+/// One number for each pedestrian, the first two of the ring once more behind the last, and zeros. Cells, since what is
+/// behind a block is read while the blocks before are written.
 type Row<'a> = &'a [Cell<f32>];
 
 /// How many of the first are there again behind the last.
@@ -205,8 +205,8 @@ fn sum<const LOOKS: bool, const GROWS: bool>(rows: &Rows<'_>, half: f32, turns: 
     way
 }
 
-/// Makes the next two terms of the series and adds them to the sums; returns the speed of the first one in the first of them.
-/// The second one needs the first one of the pedestrian ahead, and that the speed ahead of it: [`WRAPPED`].
+/// Makes the next two terms of the series and adds them to the sums; returns the speed of the first one in the first of
+/// them. The second one needs the first one of the pedestrian ahead, and that the speed ahead of it: [`WRAPPED`].
 #[inline(always)]
 fn two_terms<const LOOKS: bool, const GROWS: bool>(rows: &Rows<'_>, half: f32, shares: [f32; 2]) -> f32 {
     let count = rows.n.div_ceil(LANES);
@@ -288,7 +288,8 @@ impl Place {
         [rows[0][block][i].get(), rows[1][block][i].get(), rows[2][block][i].get()]
     }
 
-    /// How a speed moves, besides fading, by a term (spacing, speed and speed ahead) and, where slopes grow, by the one before.
+    /// How a speed moves, besides fading, by a term (spacing, speed and speed ahead) and, where slopes grow, by the one
+    /// before.
     #[inline(always)]
     fn rate<const LOOKS: bool, const GROWS: bool>(
         self,
@@ -417,8 +418,8 @@ fn spill(row: Row<'_>, numbers: &mut [f64], factor: f64) {
     }
 }
 
-/// The largest spacing and speed together, by absolute value, of the sums and of the term made last. In the end half against
-/// half: one after the other each comparison would wait for the last.
+/// The largest spacing and speed together, by absolute value, of the sums and of the term made last. In the end half
+/// against half: one after the other each comparison would wait for the last.
 #[inline(always)]
 fn sizes(rows: &Rows<'_>) -> [f32; 2] {
     let count = rows.n.div_ceil(LANES);

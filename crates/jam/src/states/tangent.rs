@@ -1,25 +1,26 @@
-//! The linearised equations of a ring: `du_n/dt = w_{n+1} - w_n`, `dw_n/dt = phi_n u_n - a_n w_n + c_n w_{n+1}`, with the
-//! slopes of the acceleration by the own spacing, the own speed and that ahead, along the solution. Where the force depends on
-//! the own spacing alone, `a_n = 1` and `c_n = 0`, and only the first ones are kept.
+//! The linearised equations of a ring: `du_n/dt = w_{n+1} - w_n`, `dw_n/dt = phi_n u_n - a_n w_n + c_n w_{n+1}`, with
+//! the slopes of the acceleration by the own spacing, the own speed and that ahead, along the solution. Where the force
+//! depends on the own spacing alone, `a_n = 1` and `c_n = 0`, and only the first ones are kept.
 
 use super::series::Carry;
 use crate::force::{Dependence, Flow, Force, Rows};
 use math::simd::{Kernel, dispatch};
 use ode::{MeanTangent, Tangent, TangentEnds};
 
-/// The middle of the eigenvalues where the force depends on the spacing alone: for equal slopes, those of a wave add up to -1.
-/// Without the fading that all have in common series need fewer orders.
+/// The middle of the eigenvalues where the force depends on the spacing alone: for equal slopes, those of a wave add up
+/// to -1. Without the fading that all have in common series need fewer orders.
 pub(super) const FADING: f64 = -0.5;
 
-/// About how far from their middle eigenvalues `z` lie at most: that of the relaxation, or, for the steepest slope `phi`,
-/// those of its shortest waves, for which `(z + 1/2)^2 = 1/4 - 2 phi`. Slopes are not equal; a tenth is added for that.
+/// About how far from their middle eigenvalues `z` lie at most: that of the relaxation, or, for the steepest slope
+/// `phi`, those of its shortest waves, for which `(z + 1/2)^2 = 1/4 - 2 phi`. Slopes are not equal; a tenth is added
+/// for that.
 fn fastest(steepest: f64) -> f64 {
     let shortest = 2.0 * steepest - FADING * FADING;
     1.1 * math::larger(shortest, FADING * FADING).sqrt()
 }
 
-/// How many coefficients the linearised equations of so many pedestrians have: the rows of slopes, and behind three rows the
-/// middle of the eigenvalues.
+/// How many coefficients the linearised equations of so many pedestrians have: the rows of slopes, and behind three
+/// rows the middle of the eigenvalues.
 pub(super) fn size(force: &dyn Force, pedestrians: usize) -> usize {
     match force.dependence() {
         Dependence::Spacing => pedestrians,
@@ -28,8 +29,8 @@ pub(super) fn size(force: &dyn Force, pedestrians: usize) -> usize {
     }
 }
 
-/// Writes them, and returns how fast the fastest difference moves: the largest distance of an eigenvalue from the middle, and
-/// NaN where a slope has no value.
+/// Writes them, and returns how fast the fastest difference moves: the largest distance of an eigenvalue from the
+/// middle, and NaN where a slope has no value.
 pub(super) fn write(force: &dyn Force, flow: Flow, now: Rows<'_>, tangent: &mut [f64]) -> f64 {
     let n = now.spacings.len();
     if tangent.len() == n {
@@ -45,9 +46,9 @@ pub(super) fn write(force: &dyn Force, flow: Flow, now: Rows<'_>, tangent: &mut 
     dispatch(Farthest { by_spacing, own, ahead, fading })
 }
 
-/// As [`write`], of means over a step: where the force depends on the spacing alone, what it changes by over what the spacing
-/// changes by. Of a slope that changes within the step, this is the mean along the way, without a function of the law.
-/// `least` is a size of which forces are rounded parts.
+/// As [`write`], of means over a step: where the force depends on the spacing alone, what it changes by over what the
+/// spacing changes by. Of a slope that changes within the step, this is the mean along the way, without a function of
+/// the law. `least` is a size of which forces are rounded parts.
 pub(super) fn write_mean(
     force: &dyn Force,
     n: usize,
@@ -62,8 +63,8 @@ pub(super) fn write_mean(
     })
 }
 
-/// A change of a force has two digits and more where it is this part of the force: else the slope is that of an earlier step, in
-/// which the spacing was about the same.
+/// A change of a force has two digits and more where it is this part of the force: else the slope is that of an earlier
+/// step, in which the spacing was about the same.
 const VISIBLE: f64 = 1e-10;
 
 /// Writes the slopes; returns the steepest and by how much one differs most from the earlier one, NaN where one is.
@@ -135,8 +136,9 @@ impl Kernel for Middle<'_> {
 ///     | P    G |
 /// ```
 ///
-/// and their squares those of `B^2`. In the norm of the largest component, speeds in units of any `1/sigma`, the rows of `B^2`
-/// are at most `m^2 + 2 p + 2 sigma g` and `q^2 + 2 p + p g / sigma`, with the largest `p` of `|phi_n|`, `q` of `|m - a_n| +
+/// and their squares those of `B^2`. In the norm of the largest component, speeds in units of any `1/sigma`, the rows
+/// of `B^2` are at most `m^2 + 2 p + 2 sigma g` and `q^2 + 2 p + p g / sigma`, with the largest `p` of `|phi_n|`, `q`
+/// of `|m - a_n| +
 /// |c_n|` and `g` of `|2 m - a_n| + |c_n|`. The bound is least for the `sigma` that makes both equal.
 struct Farthest<'a> {
     by_spacing: &'a [f64],

@@ -95,8 +95,8 @@ fn steps_over_a_wall_say_nothing_of_the_time() {
     }
 }
 
-/// Steps so long that they overshoot into an overlap, of a pedestrian who never overlaps; and roundings of positions that do so at
-/// the wall of a singular law at a loose tolerance (seeds 380254 and 375959 of the hunt).
+/// Steps so long that they overshoot into an overlap, of a pedestrian who never overlaps; and roundings of positions
+/// that do so at the wall of a singular law at a loose tolerance (seeds 380254 and 375959 of the hunt).
 #[test]
 fn a_stop_that_the_second_run_does_not_have_is_not_confirmed() {
     let law = Exponential { a: 47.0, b: 0.0626, c: 0.0, a_v: 0.0212, v0: 0.354, epsilon: 0.01 };

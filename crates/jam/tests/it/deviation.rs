@@ -131,7 +131,8 @@ fn whole_powers_agree_with_twofold_numbers() {
             let (u, w) = (d * random.magnitude(-15.0, -0.1) * random.uniform(-1.0, 1.0), random.uniform(-1e-3, 1e-3));
             let power = |x: DoubleDouble| (1..q).fold(x, |power, _| power * x);
             let (before, after) = (power(DoubleDouble::from(d)), power(DoubleDouble::sum(d, u)));
-            // 1 / after - 1 / before, over one denominator; double-double numbers keep 16 digits of it down to u = 1e-15 d
+            // 1 / after - 1 / before, over one denominator; double-double numbers keep 16 digits of it down to u =
+            // 1e-15 d
             let difference = (before - after) / (before * after);
             let force = DoubleDouble::product(law.mu, law.mu) * difference;
             let exact = DoubleDouble::from(-w) - force;

@@ -8,7 +8,8 @@ use jam::states::StateVariables;
 use math::number::Number;
 use ode::{Control, Failure, Method};
 
-/// A law, its ring, and what SciPy finds at the end: the standard deviation of speeds, position and speed of pedestrian 0.
+/// A law, its ring, and what SciPy finds at the end: the standard deviation of speeds, position and speed of pedestrian
+/// 0.
 struct Case {
     law: &'static str,
     pedestrians: usize,
@@ -18,8 +19,8 @@ struct Case {
     right: [f64; 3],
 }
 
-/// By `solve_ivp` (DOP853, tolerance 3e-14, steps of at most 0.007, of the fourth law 0.001), from the laws written anew;
-/// three integrations agree to 3e-12, of the fourth law to 3e-11.
+/// By `solve_ivp` (DOP853, tolerance 3e-14, steps of at most 0.007, of the fourth law 0.001), from the laws written
+/// anew; three integrations agree to 3e-12, of the fourth law to 3e-11.
 const CASES: [Case; 5] = [
     // a largest acceleration
     Case {
@@ -176,8 +177,8 @@ fn laws_with_soft_kinks_or_roots_of_kinks_are_left_to_dop853() {
     }
 }
 
-/// Relative speeds fall to a steep part of the force between two kinks and stay there, as with dry friction. The steps are
-/// as short as those of any explicit method, not shorter, and there is an end of them.
+/// Relative speeds fall to a steep part of the force between two kinks and stay there, as with dry friction. The steps
+/// are as short as those of any explicit method, not shorter, and there is an end of them.
 #[test]
 fn sliding_along_kinks_ends_no_later_than_by_dop853() {
     for steepness in [1e2, 1e4, 1e6] {
@@ -211,8 +212,8 @@ fn a_root_of_a_kink_is_passed_by_the_usual_method() {
     assert_eq!(run(&set).expect("it runs").statistics.time, 20.0);
 }
 
-/// Steps of two methods that pass over kinks err alike there: by `verner87`, the error was stated to be up to 40 times too
-/// small. The kink of the force lies on the uniform flow: many steps meet one.
+/// Steps of two methods that pass over kinks err alike there: by `verner87`, the error was stated to be up to 40 times
+/// too small. The kink of the force lies on the uniform flow: many steps meet one.
 #[test]
 fn errors_of_methods_that_pass_over_kinks_are_stated_by_one_that_does_not() {
     let law = [("acceleration", "1.2 - v - 2*exp(-(s - 0.6)/0.3) - 3*ramp(s - 0.95, 0)".into()), ("body", 0.0.into())];

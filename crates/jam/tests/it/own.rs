@@ -11,8 +11,8 @@ use math::number::Number;
 use ode::{Control, Method, Problem, Step, integrate};
 use std::ops::ControlFlow;
 
-/// The optimal-velocity law of Bando et al. (1995) with a rate of relaxation, `kappa (tanh(s - 2) + tanh 2 - v)`, and faults
-/// that can be switched on.
+/// The optimal-velocity law of Bando et al. (1995) with a rate of relaxation, `kappa (tanh(s - 2) + tanh 2 - v)`, and
+/// faults that can be switched on.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OptimalVelocity {
     pub kappa: f64,

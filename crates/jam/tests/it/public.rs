@@ -22,8 +22,8 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
     paths.into_iter().flat_map(below).filter(|path| path.extension().is_some_and(|end| end == "rs")).collect()
 }
 
-/// The declarations of a source that begin with `pub`, and the functions of traits that are public, each in a line without its
-/// body. Tests at the end of a file are left out.
+/// The declarations of a source that begin with `pub`, and the functions of traits that are public, each in a line
+/// without its body. Tests at the end of a file are left out.
 fn declarations(text: &str) -> Vec<String> {
     let text = text.split("#[cfg(test)]\nmod tests").next().unwrap_or(text);
     let (mut found, mut under_way, mut in_trait) = (Vec::new(), String::new(), false);

@@ -52,8 +52,8 @@ fn labels_do_not_matter() {
 
 #[test]
 fn gaps_sum_to_the_length() {
-    // Every gap is a sum of steps, each rounded to half a unit of the gap or less, and the rates of the gaps sum to 0 up
-    // to their rounding: after n steps the sum is off by less than n N eps s, s the largest gap
+    // Every gap is a sum of steps, each rounded to half a unit of the gap or less, and the rates of the gaps sum to 0
+    // up to their rounding: after n steps the sum is off by less than n N eps s, s the largest gap
     for (model, headway) in paper_laws().into_iter().zip(HEADWAYS) {
         let ring = Ring { pedestrians: COUNT, length: COUNT as f64 * headway };
         for kind in [StateVariables::Deviations, StateVariables::Spacings] {

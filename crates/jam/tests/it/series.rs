@@ -26,7 +26,8 @@ fn models() -> Vec<Model> {
     models
 }
 
-/// Spacings and speeds moved at random by up to `size`; the uniform flow, if there is one in the state, with this speed.
+/// Spacings and speeds moved at random by up to `size`; the uniform flow, if there is one in the state, with this
+/// speed.
 fn state(form: &dyn RingSystem, pedestrians: usize, size: f64, speed: f64, random: &mut Random) -> Vec<f64> {
     let mut state = form.start(Start { shift: 0.0 });
     for component in &mut state[..2 * pedestrians] {

@@ -119,9 +119,9 @@ fn eigenvalues_are_no_farther_from_their_middle_than_told() {
     assert!(told > 50 && nearest < 1.1, "{told} {nearest}");
 }
 
-/// `du_n/dt = w_{n+1} - w_n`, `dw_n/dt = phi_n(t) u_n - a_n(t) w_n + c_n(t) w_{n+1}` with slopes that change linearly, and the
-/// way by the first one's speed, by the classical scheme of Runge and Kutta. Slopes by speeds that are not given are those of a
-/// relaxation.
+/// `du_n/dt = w_{n+1} - w_n`, `dw_n/dt = phi_n(t) u_n - a_n(t) w_n + c_n(t) w_{n+1}` with slopes that change linearly,
+/// and the way by the first one's speed, by the classical scheme of Runge and Kutta. Slopes by speeds that are not
+/// given are those of a relaxation.
 fn solved([start, end]: [&[f64]; 2], n: usize, length: f64, difference: &[f64]) -> Vec<f64> {
     const STEPS: usize = 20_000;
     let h = length / STEPS as f64;
@@ -171,8 +171,8 @@ fn carried(
     carried
 }
 
-/// Of rings shorter than a vector register, longer, and a multiple of it; over short times and over several pieces; also where
-/// slopes do not change; of any size.
+/// Of rings shorter than a vector register, longer, and a multiple of it; over short times and over several pieces;
+/// also where slopes do not change; of any size.
 #[test]
 fn a_difference_is_carried_as_the_linearised_equations_say() {
     let model = Model::Logarithmic(jam::laws::Logarithmic { a_v: 0.0, v0: 1.0, epsilon: 0.01 });

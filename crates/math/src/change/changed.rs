@@ -1,9 +1,9 @@
 //! A number at a reference together with its changes: it carries with it what [`Change`](super::Change) reads from a
 //! tape.
 //!
-//! Sums and products of such numbers are numbers of their kind, so they serve as coefficients of power series: the series
-//! of a formula and of its difference from the reference come from the same recurrences, and no two nearly equal numbers
-//! are subtracted.
+//! Sums and products of such numbers are numbers of their kind, so they serve as coefficients of power series: the
+//! series of a formula and of its difference from the reference come from the same recurrences, and no two nearly equal
+//! numbers are subtracted.
 
 use super::rules::{self, Kept};
 use crate::lanes::{Lanes, lane_by_lane};
@@ -88,8 +88,8 @@ impl<const W: usize> Div for Changed<W> {
     }
 }
 
-/// A function of a number: its value, the values it stores of the reference, and its rule for changes. It is not part of
-/// a kernel: functions are needed only at order 0, so they are compiled once.
+/// A function of a number: its value, the values it stores of the reference, and its rule for changes. It is not part
+/// of a kernel: functions are needed only at order 0, so they are compiled once.
 #[inline(never)]
 fn apply(
     number: f64,

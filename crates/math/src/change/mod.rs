@@ -1,10 +1,10 @@
 //! The difference of a formula from its value at a reference state, without cancellation.
 //!
-//! A formula is carried out twice. First at the reference, with [`Reference`] numbers: every operation that is not linear
-//! leaves on a [`Tape`] what it needs of the reference. Then with [`Change`]s, as often as wanted: the operations take
-//! what they find on the tape, in the same order, and give the difference to a relative error of the order of rounding,
-//! however small it is (see [`rules`]). A difference has the unit of the value; where the reference or the changed
-//! argument lies beyond the range of a function it is NaN.
+//! A formula is carried out twice. First at the reference, with [`Reference`] numbers: every operation that is not
+//! linear leaves on a [`Tape`] what it needs of the reference. Then with [`Change`]s, as often as wanted: the
+//! operations take what they find on the tape, in the same order, and give the difference to a relative error of the
+//! order of rounding, however small it is (see [`rules`]). A difference has the unit of the value; where the reference
+//! or the changed argument lies beyond the range of a function it is NaN.
 
 mod changed;
 pub mod rules;
@@ -50,8 +50,8 @@ impl Tape {
         self.kinks > 0
     }
 
-    /// Whether an exponential of the reference is next to nothing, so that its factor e^da may overflow where the product does
-    /// not: then [`Change`]s give NaN or infinities there.
+    /// Whether an exponential of the reference is next to nothing, so that its factor e^da may overflow where the
+    /// product does not: then [`Change`]s give NaN or infinities there.
     pub fn is_faint(&self) -> bool {
         self.is_faint
     }

@@ -193,8 +193,8 @@ pub fn sqrt(kept: &Kept, da: f64) -> f64 {
     if sum == 0.0 { 0.0 } else { da / sum }
 }
 
-/// Of tanh a. With y = 2 a the logistic function changes by `(e^dy - 1) sigma(-y) sigma(y0)`, which for dy > 0 is written
-/// with e^-dy: nothing cancels and nothing overflows.
+/// Of tanh a. With y = 2 a the logistic function changes by `(e^dy - 1) sigma(-y) sigma(y0)`, which for dy > 0 is
+/// written with e^-dy: nothing cancels and nothing overflows.
 #[inline(always)]
 pub fn tanh(kept: &Kept, da: f64) -> f64 {
     let dy = 2.0 * da;

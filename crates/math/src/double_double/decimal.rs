@@ -30,8 +30,8 @@ pub fn format(value: DoubleDouble, digits: usize) -> String {
     format!("{}{first}{point}{others}{power}", if negative { "-" } else { "" })
 }
 
-/// The number that a decimal text means, with a relative error below 2^-98 (digits from the 39th on are not read); `None`
-/// if the text is no finite decimal number. For sizes between about 1e-250 and 1e250.
+/// The number that a decimal text means, with a relative error below 2^-98 (digits from the 39th on are not read);
+/// `None` if the text is no finite decimal number. For sizes between about 1e-250 and 1e250.
 pub fn parse(text: &str) -> Option<DoubleDouble> {
     let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
     let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));

@@ -1,9 +1,9 @@
 //! Elementary functions of double-double numbers to about 100 bits, for loops that vectorise.
 //!
-//! The methods of the same names ([`DoubleDouble::exp`] and its kin) are faster for one value and stop at 80 bits, enough
-//! for rounding once to a double. These are free of branches; what they call is inlined. NaN gives NaN. Between -700 and
-//! 700 (of the exponent) their relative error is below 2^-100, that of an argument known exactly; `tests/it/full.rs`
-//! measures it.
+//! The methods of the same names ([`DoubleDouble::exp`] and its kin) are faster for one value and stop at 80 bits,
+//! enough for rounding once to a double. These are free of branches; what they call is inlined. NaN gives NaN. Between
+//! -700 and 700 (of the exponent) their relative error is below 2^-100, that of an argument known exactly;
+//! `tests/it/full.rs` measures it.
 
 use super::DoubleDouble;
 use crate::lane;
@@ -30,7 +30,8 @@ pub fn exp_m1(x: DoubleDouble) -> DoubleDouble {
     both(x).1
 }
 
-/// ln x for x between 1e-300 and 1e300, NaN for x <= 0; relative error also near 1, where it refers to an x known exactly.
+/// ln x for x between 1e-300 and 1e300, NaN for x <= 0; relative error also near 1, where it refers to an x known
+/// exactly.
 #[inline(always)]
 pub fn ln(x: DoubleDouble) -> DoubleDouble {
     let first = lane::ln(x.hi);

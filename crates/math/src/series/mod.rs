@@ -4,8 +4,9 @@
 //! order, with [`Jet`]s that hold the coefficients of this order: linear operations act on these, the others read and
 //! write the earlier ones in a [`OrderMemory`].
 //!
-//! The coefficient of order `k` is that of `(t / u)^k`, with any unit of time `u` that all variables share: it has the unit of
-//! the value. At order 0 functions have the range of their [lanes](crate::lane); NaN there makes all later orders NaN.
+//! The coefficient of order `k` is that of `(t / u)^k`, with any unit of time `u` that all variables share: it has the
+//! unit of the value. At order 0 functions have the range of their [lanes](crate::lane); NaN there makes all later
+//! orders NaN.
 
 pub mod recurrences;
 
@@ -99,8 +100,8 @@ pub struct OrderMemory<'t, C: Copy> {
 }
 
 impl<'t, C: Coefficient> OrderMemory<'t, C> {
-    /// For the coefficients of this `order`, from 0, of series of `length` coefficients (`order < length`). The blocks are
-    /// [`memory(length)`](memory()) for each operation of the formula that is not linear
+    /// For the coefficients of this `order`, from 0, of series of `length` coefficients (`order < length`). The blocks
+    /// are [`memory(length)`](memory()) for each operation of the formula that is not linear
     /// ([`Tape::histories`](crate::change::Tape::histories)); with fewer it panics. Orders are computed one after the
     /// other, from 0.
     #[inline(always)]

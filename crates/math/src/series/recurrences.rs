@@ -56,8 +56,8 @@ impl<'t, C: Coefficient> History<'t, C> {
         self.row(ARGUMENT).iter().map(Block::get)
     }
 
-    /// `a_1 b_{k-1} + ... + a_{k-1} b_1`: the coefficient of this order of a product, less its ends. To be called before the
-    /// coefficient of this order is written to row `a`, where the sum of the next order waits meanwhile.
+    /// `a_1 b_{k-1} + ... + a_{k-1} b_1`: the coefficient of this order of a product, less its ends. To be called
+    /// before the coefficient of this order is written to row `a`, where the sum of the next order waits meanwhile.
     ///
     /// Every second order goes through the rows, and finds on its way all of the next sum but the ends, which have
     /// coefficients that do not exist yet: the numbers loaded serve for both.

@@ -54,8 +54,8 @@ fn steps_of_all_sizes_keep_their_precision() {
     }
 }
 
-/// The logarithm takes another way where u = (e^-|y| - a) / (1 + a), a = e^-|y0|, passes sqrt(2) - 1 or sqrt(1/2) - 1: for
-/// the doubles about these the two halves of it must change at the same one.
+/// The logarithm takes another way where u = (e^-|y| - a) / (1 + a), a = e^-|y0|, passes sqrt(2) - 1 or sqrt(1/2) - 1:
+/// for the doubles about these the two halves of it must change at the same one.
 #[test]
 fn steps_to_where_the_logarithm_takes_another_way_keep_their_precision() {
     let mut tried = 0;

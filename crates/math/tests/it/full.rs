@@ -189,7 +189,8 @@ fn beyond_700_the_exponential_stays_where_it_is() {
     assert!(full::exp(DoubleDouble::from(699.5)) != full::exp(DoubleDouble::from(700.0)));
 }
 
-/// A double with so many significant digits, by the standard library, which is exact, in the form of [`decimal::format`].
+/// A double with so many significant digits, by the standard library, which is exact, in the form of
+/// [`decimal::format`].
 fn by_std(value: f64, digits: usize) -> String {
     format!("{:.*e}", digits - 1, value).replace("e0", "")
 }

@@ -90,7 +90,8 @@ impl Method {
         }
     }
 
-    /// The order of convergence `p`: the error at a given time falls with `h^p`. Of Taylor's method the highest that it takes.
+    /// The order of convergence `p`: the error at a given time falls with `h^p`. Of Taylor's method the highest that it
+    /// takes.
     pub fn order(self) -> usize {
         match self {
             Method::Ballistic => 1,

@@ -6,9 +6,9 @@ use math::lane;
 /// The order at a fixed step: higher ones gain nothing in double precision.
 pub(crate) const HIGHEST: usize = 24;
 
-/// The order for a tolerance. The step grows as tolerance^(1 / order), the work for it with the order and its square: half
-/// the natural logarithm of the tolerance, and a few more for what a step costs besides. Constants from the times of the
-/// scenes of figures 4 and 11; the minimum is flat: two orders more or less cost 2 %.
+/// The order for a tolerance. The step grows as tolerance^(1 / order), the work for it with the order and its square:
+/// half the natural logarithm of the tolerance, and a few more for what a step costs besides. Constants from the times
+/// of the scenes of figures 4 and 11; the minimum is flat: two orders more or less cost 2 %.
 pub(super) fn order(control: Control) -> usize {
     match control {
         Control::Fixed { .. } => HIGHEST,
@@ -43,8 +43,9 @@ pub(super) fn power_of_two(number: f64) -> f64 {
     f64::from_bits(number.to_bits() & EXPONENT)
 }
 
-/// The logarithm of the step over which a term of order `k` with this coefficient, in units of the tolerance, grows to 1, with
-/// the other sign. `None` for a coefficient that is not finite; for one that vanishes, of a step beyond every run.
+/// The logarithm of the step over which a term of order `k` with this coefficient, in units of the tolerance, grows to
+/// 1, with the other sign. `None` for a coefficient that is not finite; for one that vanishes, of a step beyond every
+/// run.
 pub(super) fn growth(coefficient: f64, k: usize) -> Option<f64> {
     let clamped = math::smaller(math::larger(coefficient, LEAST), MOST);
     coefficient.is_finite().then(|| lane::ln(clamped) / k as f64)

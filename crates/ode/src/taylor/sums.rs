@@ -88,8 +88,8 @@ impl<const WHOLE: bool> Kernel for Change<'_, WHOLE> {
     }
 }
 
-/// Writes `c_0 + c_1 h + c_2 h^2 + ...`, as [`Change`] does, for two lengths: a coefficient is loaded once for both, and
-/// while one sum waits for itself the other goes on.
+/// Writes `c_0 + c_1 h + c_2 h^2 + ...`, as [`Change`] does, for two lengths: a coefficient is loaded once for both,
+/// and while one sum waits for itself the other goes on.
 pub(super) struct Both<'a> {
     pub(super) rows: &'a [f64],
     /// Length of a row.
@@ -139,8 +139,8 @@ impl Kernel for Both<'_> {
     }
 }
 
-/// Writes `c_1 h + 2 c_2 h^2 + 3 c_3 h^3 + ...`, the length of the step times the slope of the series, minus `length` times
-/// the rates.
+/// Writes `c_1 h + 2 c_2 h^2 + 3 c_3 h^3 + ...`, the length of the step times the slope of the series, minus `length`
+/// times the rates.
 pub(super) struct Defect<'a> {
     /// That of order 1 first.
     pub(super) rows: &'a [f64],

@@ -95,8 +95,8 @@ fn orders_on_a_planet() {
     }
 }
 
-/// `y_k' = y_{k + 1}`, the last constant: one step of length 1 from `y_k = 1` leaves in `y_0` the coefficient of `z^k` in
-/// the stability polynomial, which is `1 / k!` up to the order.
+/// `y_k' = y_{k + 1}`, the last constant: one step of length 1 from `y_k = 1` leaves in `y_0` the coefficient of `z^k`
+/// in the stability polynomial, which is `1 / k!` up to the order.
 fn chain() -> Equations {
     Equations {
         dimension: 18,
@@ -109,8 +109,8 @@ fn chain() -> Equations {
     }
 }
 
-/// `|w| |A|^(k - 1) (1, 1, ...)`, which bounds the terms of the coefficient of `z^k`, times the roundings in each: those of
-/// `k` coefficients, products and sums of a term a stage.
+/// `|w| |A|^(k - 1) (1, 1, ...)`, which bounds the terms of the coefficient of `z^k`, times the roundings in each:
+/// those of `k` coefficients, products and sums of a term a stage.
 fn tall_tree_size(tableau: &Tableau, k: usize) -> f64 {
     let stages = tableau.stages();
     let size = |row: Row, of: &[f64]| row.iter().map(|&(stage, weight)| weight.abs() * of[stage]).sum::<f64>();

@@ -133,8 +133,8 @@ fn has_cubic(method: Method) -> bool {
     method.tableau().map_or(method == Method::Ballistic, of_tableau)
 }
 
-/// Thrown straight up with speed 3, a unit of acceleration downwards: methods of order 2, and the ballistic scheme, have
-/// no error, and neither has a cubic through both ends, which costs no evaluation.
+/// Thrown straight up with speed 3, a unit of acceleration downwards: methods of order 2, and the ballistic scheme,
+/// have no error, and neither has a cubic through both ends, which costs no evaluation.
 #[test]
 fn inside_a_step_a_throw_is_a_parabola() {
     let throw = Equations { dynamics: |_, rates| rates[1] = -1.0, ..oscillator() };

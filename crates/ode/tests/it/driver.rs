@@ -155,8 +155,8 @@ fn the_ballistic_scheme_moves_with_the_mean_speed() {
     assert_eq!(statistics.state, [1.0 + 0.25 * 0.5 * (0.5 + 0.25), 0.25]);
 }
 
-/// Steps, those rejected, evaluations, and where the planet is in the end: what the control of the step has chosen. No law of
-/// nature, but any change of it is one that somebody should have meant.
+/// Steps, those rejected, evaluations, and where the planet is in the end: what the control of the step has chosen. No
+/// law of nature, but any change of it is one that somebody should have meant.
 #[test]
 fn so_many_steps_are_taken() {
     let mut taken = Vec::new();

@@ -117,8 +117,8 @@ fn solutions_have_their_orders() {
 
 #[test]
 fn stages_of_dop853_are_of_order_3() {
-    // sum_j a_ij c_j^(k - 1) = c_i^k / k holds for k = 2 from the third stage on, for k = 3 from the fourth on: sharper for
-    // a single coefficient than the conditions above, where it is one factor of many
+    // sum_j a_ij c_j^(k - 1) = c_i^k / k holds for k = 2 from the third stage on, for k = 3 from the fourth on: sharper
+    // for a single coefficient than the conditions above, where it is one factor of many
     let rows = coefficients(&DOP853);
     let nodes: Vec<f64> = rows.iter().map(|row| row.iter().sum()).collect();
     for (k, from) in [(2, 2), (3, 3)] {

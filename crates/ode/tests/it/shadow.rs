@@ -3,7 +3,8 @@
 use ode::{Control, Group, Measure, Method, Problem, Shadow, Step, System, Tangent, integrate};
 use std::ops::{ControlFlow, Range};
 
-/// `dx/dt = v`, `dv/dt = -x - 2 a v`, without or with friction, or driven if `a < 0`; the tolerance is relative to the state.
+/// `dx/dt = v`, `dv/dt = -x - 2 a v`, without or with friction, or driven if `a < 0`; the tolerance is relative to the
+/// state.
 struct Pendulum {
     friction: f64,
     /// Whether it tells its linearised equations.
@@ -238,8 +239,8 @@ impl System for Relaxing {
     }
 }
 
-/// `x + v - t` is constant for every series, so that the errors of `x` and `v` are opposite. Those of early steps fade in `v`, and
-/// must not stay in `x`.
+/// `x + v - t` is constant for every series, so that the errors of `x` and `v` are opposite. Those of early steps fade
+/// in `v`, and must not stay in `x`.
 #[test]
 fn what_fades_in_speeds_fades_in_positions() {
     let control = Control::Adaptive { tolerance: 1e-8 };

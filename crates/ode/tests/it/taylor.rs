@@ -85,8 +85,8 @@ fn errors_follow_the_tolerance_inside_steps_too() {
         for exponent in 4..=15 {
             let tolerance = math::pow(10.0, -f64::from(exponent));
             let (error, steps) = largest_error(dimension, Control::Adaptive { tolerance });
-            // each step adds an error of the size of its last term, which is the tolerance, times a factor of the series;
-            // and a rounding
+            // each step adds an error of the size of its last term, which is the tolerance, times a factor of the
+            // series; and a rounding
             let bound = 5.0 * steps as f64 * (tolerance + f64::EPSILON);
             assert!(error < bound, "tolerance {tolerance:e}: {error:e} above {bound:e}");
         }

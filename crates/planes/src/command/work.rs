@@ -12,8 +12,8 @@ use sweep::{Pool, Sweep};
 /// Between two words about progress.
 const SILENCE: Duration = Duration::from_secs(1);
 
-/// Computes what the journal of a shard, of these tiles, does not know, and writes the shard. Returns the number of its cells
-/// that were run, now or before.
+/// Computes what the journal of a shard, of these tiles, does not know, and writes the shard. Returns the number of its
+/// cells that were run, now or before.
 pub(super) fn run(task: &Task, tiles: Vec<Tile>, jobs: usize, shard: &Shard) -> Result<usize, Failure> {
     let (journal, known) = Journal::open(task, shard)?;
     let cells = known.len();

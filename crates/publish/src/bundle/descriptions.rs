@@ -1,6 +1,7 @@
-//! What describes the archive for repositories: `ro-crate-metadata.json` (the run of all figures as a Workflow Run RO-Crate,
-//! an action for each figure), `codecheck.yml` (which files a CODECHECK should make again) and `.zenodo.json`. Each is a
-//! template beside this file, whose slots `{name}` are filled in. Dates are the commit's: the runs know no clock.
+//! What describes the archive for repositories: `ro-crate-metadata.json` (the run of all figures as a Workflow Run
+//! RO-Crate, an action for each figure), `codecheck.yml` (which files a CODECHECK should make again) and
+//! `.zenodo.json`. Each is a template beside this file, whose slots `{name}` are filled in. Dates are the commit's: the
+//! runs know no clock.
 
 use super::Members;
 use super::git::Commit;

@@ -43,7 +43,8 @@ pub fn name(figure: &Figure) -> String {
     format!("{} {digits}", if figure.is_supplement() { "Supplement" } else { "Figure" })
 }
 
-/// The picture inline: as SVG, whose lines stay sharp; a supplement with thousands of marks as pixels where these take less.
+/// The picture inline: as SVG, whose lines stay sharp; a supplement with thousands of marks as pixels where these take
+/// less.
 fn picture(source: &Source<'_>, figure: &Figure) -> Result<Value, Failure> {
     let [png, svg] = outputs::pictures(source.paths, figure);
     let pixels = source.bytes(&png)?;

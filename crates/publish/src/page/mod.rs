@@ -1,17 +1,19 @@
 //! The page: one HTML file that carries text, pictures, numbers and script, and asks nothing of any network.
 //!
-//! `source` reads what it is made from, `figures` and `accuracy` say what is shown of it, `data` the numbers for the script;
-//! `parts` holds the templates, the style sheet and the script. Every measured number comes from a table, the manifest or
-//! the ledger.
+//! `source` reads what it is made from, `figures` and `accuracy` say what is shown of it, `data` the numbers for the
+//! script; `parts` holds the templates, the style sheet and the script. Every measured number comes from a table, the
+//! manifest or the ledger.
 //!
-//! The page computes: `crates/browser`, built with the profile `page` for `wasm32-unknown-unknown` by the runner, lies in it
-//! packed. Where no compiler has that target the page is written without, and says how to get it. Its committed sum is that of
-//! the page without the module, whose bytes belong to a compiler; `checks/browser` compares the sum of every table that the
-//! module computes.
+//! The page computes: `crates/browser`, built with the profile `page` for `wasm32-unknown-unknown` by the runner, lies
+//! in it packed. Where no compiler has that target the page is written without, and says how to get it. Its committed
+//! sum is that of the page without the module, whose bytes belong to a compiler; `checks/browser` compares the sum of
+//! every table that the module computes.
 //!
 //! ```text
-//! module -> worker (engine.js, worker.js) -> sums of a figure's tables -> verify.js, receipt.js -> cargo xtask verify --receipt FILE
-//! fields (own.js, dial.js) -> text of a scene file (scene-text.js) -> module: stability, at once -> worker: run -> run-view.js
+//! module -> worker (engine.js, worker.js) -> sums of a figure's tables -> verify.js, receipt.js
+//!   -> cargo xtask verify --receipt FILE
+//! fields (own.js, dial.js) -> text of a scene file (scene-text.js) -> module: stability, at once -> worker: run
+//!   -> run-view.js
 //! claims (rejudged) and the panel that the scene began from -> worker: judge, after the run -> rejudged.js
 //! ```
 //!

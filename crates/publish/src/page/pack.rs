@@ -78,7 +78,8 @@ fn differences(words: &[u32], row: usize) -> Vec<u32> {
     (0..words.len()).map(folded).collect()
 }
 
-/// What the neighbours before a number let expect: the one before in its row, the one of the row before, and the corner.
+/// What the neighbours before a number let expect: the one before in its row, the one of the row before, and the
+/// corner.
 fn expected(words: &[u32], i: usize, row: usize) -> u32 {
     match (!i.is_multiple_of(row), i >= row) {
         (true, true) => words[i - 1].wrapping_add(words[i - row]).wrapping_sub(words[i - row - 1]),

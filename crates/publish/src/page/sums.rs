@@ -8,7 +8,8 @@ use checkout::figure::Figure;
 use checkout::sums::Committed;
 use serde_json::{Value, json};
 
-/// For each figure of the paper that has tables its id, its name and the committed `sums` of its tables; the cheapest first.
+/// For each figure of the paper that has tables its id, its name and the committed `sums` of its tables; the cheapest
+/// first.
 ///
 /// # Errors
 /// The committed sums or costs are malformed, or there are none.

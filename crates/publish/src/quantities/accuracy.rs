@@ -19,7 +19,8 @@ pub fn collect(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure>
     fastest(source, all)
 }
 
-/// The cheapest run for an error, of all methods and of DOP853 and the fixed steps alone; the least error of each method.
+/// The cheapest run for an error, of all methods and of DOP853 and the fixed steps alone; the least error of each
+/// method.
 fn work(source: &Source<'_>, all: &mut Quantities, name: &str) -> Result<(), Failure> {
     let from = format!("{ACCURACY}/precision_{name}.csv");
     let scene = Scene::committed(source.paths, name)?;
@@ -53,9 +54,9 @@ fn work(source: &Source<'_>, all: &mut Quantities, name: &str) -> Result<(), Fai
     Ok(())
 }
 
-/// How much cheaper the classical Runge-Kutta method is than Heun's, over the runs with waves that grow and the errors that
-/// both reach; and in how many further cases Heun's scheme, and not the other, misses an error of 1e-2 or 1e-4. In the
-/// stable runs the largest error is that of the speed of the uniform flow as it starts.
+/// How much cheaper the classical Runge-Kutta method is than Heun's, over the runs with waves that grow and the errors
+/// that both reach; and in how many further cases Heun's scheme, and not the other, misses an error of 1e-2 or 1e-4. In
+/// the stable runs the largest error is that of the speed of the uniform flow as it starts.
 fn advantage(all: &mut Quantities) {
     let (mut ratios, mut missed) = (Vec::new(), 0);
     let growing = SCENES.iter().filter(|scene| !scene.ends_with("_stable"));

@@ -25,7 +25,8 @@ pub fn collect(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure>
         all.rounded(&format!("{start}.largest"), points.largest(), 2, &from);
         all.rounded(&format!("{start}.percent"), 100.0 * points.largest() / largest(&values), 1, &from);
         all.rounded(&format!("{start}.rms"), points.root_mean_square(), 2, &from);
-        // a curve is read the worse the steeper it is: from the usual error on, in proportion to the slope, to the largest
+        // a curve is read the worse the steeper it is: from the usual error on, in proportion to the slope, to the
+        // largest
         let slopes: Vec<f64> = points.x.iter().map(|&place| slope(&keys, &values, place)).collect();
         let steepest = largest(&slopes);
         let reading = slopes.iter().map(|slope| {

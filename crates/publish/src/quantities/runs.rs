@@ -48,8 +48,8 @@ const REFERENCE_EVENTS: &str = "data/reference/solutions/events.csv";
 const REFERENCES: [(&str, &str); 2] =
     [("fig04-unstable", "algebraic_unstable"), ("fig07-unstable", "exponential_unstable")];
 
-/// The time and the pedestrian of each event. The uncertainty is the larger of the difference between two methods and the
-/// distance from the reference solution, so that the bracket holds the latter.
+/// The time and the pedestrian of each event. The uncertainty is the larger of the difference between two methods and
+/// the distance from the reference solution, so that the bracket holds the latter.
 fn events(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
     let text = disk::read_text(&source.paths.root.join(REFERENCE_EVENTS))?.unwrap_or_default();
     let references = checkout::events::parse_all(REFERENCE_EVENTS, &text)?;
@@ -99,8 +99,8 @@ fn written_out(text: &str) -> Option<String> {
     Some(format!("{whole}{moved}.{left}"))
 }
 
-/// The jams at the end of figure 12's right panel, by the rule of `jam::jams`: pedestrians slower than half way between the
-/// least and the largest speed; and the least speed of the whole run once all have started.
+/// The jams at the end of figure 12's right panel, by the rule of `jam::jams`: pedestrians slower than half way between
+/// the least and the largest speed; and the least speed of the whole run once all have started.
 fn jams(source: &Source<'_>, all: &mut Quantities) -> Result<(), Failure> {
     let name = "data/fig12/t2000.csv";
     let speeds = numbers(&table(source.paths, name)?, "v")?;

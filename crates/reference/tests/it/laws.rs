@@ -39,7 +39,8 @@ fn accelerations_are_those_of_jam_to_rounding() {
         for i in 0..n {
             let (gap, speed) = (state[i].hi + ring.law.contact(), state[n + i].hi);
             let expected = model.acceleration(gap, speed, state[n + (i + 1) % n].hi);
-            // in doubles at most eight roundings of half a unit of the largest term, half of them in a function of two units
+            // in doubles at most eight roundings of half a unit of the largest term, half of them in a function of two
+            // units
             let largest = math::larger(math::larger(expected.abs(), speed.abs()), 3.0);
             let allowed = 8.0 * f64::EPSILON * largest;
             assert!((rates[n + i] - expected).hi.abs() <= allowed, "{name}, {i}: {} for {expected}", rates[n + i].hi);

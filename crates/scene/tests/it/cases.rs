@@ -60,7 +60,8 @@ fn no_method_steps_over_a_kink() {
 const CLIPPED_STD: f64 = 0.006_042_124_728_1;
 const CLIPPED_POSITION: f64 = 53.312_628_682_56;
 
-/// At the start everybody accelerates alike and steadily: Taylor's series is a polynomial, whose step would be without end.
+/// At the start everybody accelerates alike and steadily: Taylor's series is a polynomial, whose step would be without
+/// end.
 #[test]
 fn kinks_of_a_formula_are_met_to_the_stated_error() {
     assert_eq!(case("kinks-of-a-formula", &Overrides::default()).method, Method::Dop853, "without a method");

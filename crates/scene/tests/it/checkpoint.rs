@@ -103,7 +103,8 @@ fn bytes_of_another_form_are_no_checkpoint() {
 fn adaptive_runs_resumed_from_any_checkpoint_have_the_same_bits() {
     let smooth = "kind = \"algebraic\"\nmu = 0.45\nq = 2.0\nv0 = 3.0\n[ring]\npedestrians = 2000\nlength = 5970.0\n\
                   [start]\nshift = 0.4\n[run]\nt_end = 150.0\nsample = 0.7\n";
-    // a largest acceleration, and a force that begins at the spacing of the uniform flow: steps end on kinks at all times
+    // a largest acceleration, and a force that begins at the spacing of the uniform flow: steps end on kinks at all
+    // times
     let clipped = "kind = \"formula\"\nacceleration = \"min(0.5, (tanh(s - 2) + tanh(2) - ramp(s - 2, 0) - v)/0.6)\"\n\
                    body = 0.0\n[ring]\npedestrians = 2000\nlength = 4000.0\n\
                    [start]\nshift = 1.0\n[run]\nt_end = 30.0\nsample = 0.7\n";

@@ -79,9 +79,9 @@ fn one_plus_cos(k: f64) -> f64 {
     2.0 * half * half
 }
 
-/// On the contour the root is imaginary. The contour is rounded and so is the root: with `z^2 + b z + c = 0`, a relative
-/// change `e` of `c` or `b` moves the root by at most `e |z| (|z| + 2 |b|) / |2 z + b|`, and `|2 z + b| >= Re b >= 1`
-/// where the root is imaginary. `e` is some ten roundings, or more where the contour itself is known no better.
+/// On the contour the root is imaginary. The contour is rounded and so is the root: with `z^2 + b z + c = 0`, a
+/// relative change `e` of `c` or `b` moves the root by at most `e |z| (|z| + 2 |b|) / |2 z + b|`, and `|2 z + b| >= Re
+/// b >= 1` where the root is imaginary. `e` is some ten roundings, or more where the contour itself is known no better.
 fn assert_imaginary(linear: &Linear, k: f64, e: f64, what: &str) {
     let (re, im) = linear.root(k);
     let (b, _) = linear.polynomial(k);
@@ -195,8 +195,8 @@ fn figures_5_and_6_change_sign_where_the_closed_form_says() {
     }
 }
 
-/// `xi` and `beta` over `xi` in the limit `eps -> 0`, and `a_v`, of the flow with the critical distance `a' >= 2`: with it
-/// all else is explicit, `v' = v_0' (1 - ln d_0)` and `a_v = (a' - 2) / (2 v')`.
+/// `xi` and `beta` over `xi` in the limit `eps -> 0`, and `a_v`, of the flow with the critical distance `a' >= 2`: with
+/// it all else is explicit, `v' = v_0' (1 - ln d_0)` and `a_v = (a' - 2) / (2 v')`.
 fn flow(desired: f64, distance: f64) -> (f64, f64, f64) {
     let d0 = 1.0 + C * (1.0 - HEADWAY / distance);
     let speed = desired * (1.0 - math::ln(d0));

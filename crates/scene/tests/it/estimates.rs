@@ -105,7 +105,8 @@ fn estimates_are_honest_and_not_too_shy() {
 /// So many scenes are drawn.
 const SCENES: usize = 300;
 
-/// True errors over those that the steps of a run by Taylor's method tell: of std, of positions and of speeds at the end.
+/// True errors over those that the steps of a run by Taylor's method tell: of std, of positions and of speeds at the
+/// end.
 fn told(scene: &Scene) -> Option<[(f64, f64); 3]> {
     let mut propagated = Propagated::new(scene);
     let outcome = run_from(scene, None, &mut propagated).ok()?;

@@ -60,15 +60,15 @@ fn threshold(mut unstable: f64, mut stable: f64, margin: impl Fn(f64) -> f64) ->
     unstable
 }
 
-/// The linear equations of the whole ring, or a function of them: a matrix of 2N x 2N, of which the columns of pedestrian 0
-/// say everything, since the ring looks the same to all. Block m is what the gap and the speed of pedestrian 0 do to those
-/// of m.
+/// The linear equations of the whole ring, or a function of them: a matrix of 2N x 2N, of which the columns of
+/// pedestrian 0 say everything, since the ring looks the same to all. Block m is what the gap and the speed of
+/// pedestrian 0 do to those of m.
 #[derive(Clone)]
 struct Ring(Vec<[[f64; 2]; 2]>);
 
 impl Ring {
-    /// The derivatives of the equations of motion in the uniform flow, by differences of fourth order, with respect to one
-    /// pedestrian.
+    /// The derivatives of the equations of motion in the uniform flow, by differences of fourth order, with respect to
+    /// one pedestrian.
     fn derivatives(scene: &Scene, of: usize) -> Ring {
         const H: f64 = 2e-5;
         let (count, headway) = (scene.ring.pedestrians, scene.ring.headway());
@@ -148,7 +148,8 @@ impl Ring {
             .fold(0.0, |largest, value| if value.abs() > largest { value.abs() } else { largest })
     }
 
-    /// The largest growth rate of all perturbations: from the size of the propagator `exp(J t)`, squared again and again.
+    /// The largest growth rate of all perturbations: from the size of the propagator `exp(J t)`, squared again and
+    /// again.
     fn growth_rate(&self) -> f64 {
         const STEP: f64 = 1.0 / 16.0;
         const DOUBLINGS: i32 = 25;
@@ -228,8 +229,8 @@ fn sech2(x: f64) -> f64 {
 
 #[test]
 fn social_force_overlaps_and_exchanges_at_the_times_of_another_integration() {
-    // classical Runge-Kutta in 80-bit numbers, steps from 1e-2 to 1.6e-4, extrapolated: all digits agree. With a ramp of
-    // epsilon = 0.001 the same programme gives 3.4103419360 and 3.8929809112, the numbers of a smooth contact force.
+    // classical Runge-Kutta in 80-bit numbers, steps from 1e-2 to 1.6e-4, extrapolated: all digits agree. With a ramp
+    // of epsilon = 0.001 the same programme gives 3.4103419360 and 3.8929809112, the numbers of a smooth contact force.
     let scene = scene("social-force.toml", "main", &[]);
     assert_eq!(scene.at_overlap, AtOverlap::Continue);
     assert_near(scene.steady_speed.expect("a uniform flow"), -0.195_817_178_372, 1e-12);

@@ -127,8 +127,8 @@ fn every_parameter_of_every_law_can_be_an_axis() {
     assert_axis(&lines, "v0", |desired_speed| Model::Logarithmic(Logarithmic { v0: desired_speed, ..logarithmic }));
 }
 
-/// The growth rate of a law that answers to the gap alone, in double-double precision: `z^2 + z + phi (1 - e^{ik}) = 0` gives
-/// `2 Re z + 1 = sqrt((m + 1 - 4 c) / 2)` with `c + i d = phi (1 - e^{ik})` and `m = |1 - 4 (c + i d)|`.
+/// The growth rate of a law that answers to the gap alone, in double-double precision: `z^2 + z + phi (1 - e^{ik}) = 0`
+/// gives `2 Re z + 1 = sqrt((m + 1 - 4 c) / 2)` with `c + i d = phi (1 - e^{ik})` and `m = |1 - 4 (c + i d)|`.
 fn twofold_rate(linear: &Linear, k: f64) -> f64 {
     let phi = DoubleDouble::from(linear.phi);
     let (sin, half) = (DoubleDouble::from(math::sin(k)), DoubleDouble::from(math::sin(0.5 * k)));

@@ -109,8 +109,8 @@ fn what_is_not_certain_says_what_would_decide_it() {
     }
 }
 
-/// With `a_v = 0` the algebraic law depends on spacings and differences of speeds alone: another desired speed adds to all
-/// speeds and changes nothing else.
+/// With `a_v = 0` the algebraic law depends on spacings and differences of speeds alone: another desired speed adds to
+/// all speeds and changes nothing else.
 #[test]
 fn waves_seen_from_a_moving_frame_are_the_same_waves() {
     let [here, there] = [3.0, 1.0].map(|v0| verdict(&scene(&waves(v0), SMALL, 0.1, TAYLOR)));

@@ -8,7 +8,8 @@ use scene::Overrides;
 use scene::tables;
 
 /// A run of a figure and the name of its reference, with bounds for the error of its curve (in units of the curve's
-/// range) and of all gaps and speeds: the errors found, rounded up to the next power of ten. The manifest promises 1e-8.
+/// range) and of all gaps and speeds: the errors found, rounded up to the next power of ten. The manifest promises
+/// 1e-8.
 const RUNS: [(&str, &str, &str, f64, f64); 6] = [
     ("fig04", "stable", "algebraic_stable", 1e-14, 1e-14),
     ("fig04", "unstable", "algebraic_unstable", 1e-10, 1e-10),

@@ -89,8 +89,9 @@ fn a_run_that_changes_its_state_at_the_walls_counts_both_parts() {
     };
     let (last, before) = (least(first[first.len() - 1]), least(first[first.len() - 2]));
     assert!(!second.is_empty() && before >= 1e-3 && last < 1e-3, "{before}, {last}, {}", second.len());
-    // each step that is taken evaluates eleven stages and the rates at its end, each that is not at most as many; a step
-    // that is looked into evaluates three more, once for each sample, or some tens of times where an event is searched
+    // each step that is taken evaluates eleven stages and the rates at its end, each that is not at most as many; a
+    // step that is looked into evaluates three more, once for each sample, or some tens of times where an event is
+    // searched
     let stages = 12 * steps + 11 * rejected;
     assert_eq!((steps, rejected), (12_199, 3_621), "both parts have some of each; seen once and written down");
     assert!((12 * steps..stages + 3 * 20 * steps).contains(&evaluations), "{evaluations}, stages {stages}");

@@ -10,7 +10,8 @@ use jam::states::StateVariables;
 
 const HEADWAY: f64 = 3.0;
 const END: f64 = 1.0;
-/// The shift travels to one more pedestrian behind with every derivative: in this time to these with more than rounding.
+/// The shift travels to one more pedestrian behind with every derivative: in this time to these with more than
+/// rounding.
 const NEAR: usize = 10;
 
 fn run(pedestrians: usize, how: (ode::Method, ode::Control)) -> Result<HardRun, Failure> {

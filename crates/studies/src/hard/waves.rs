@@ -6,9 +6,10 @@ use jam::uniform::steady_speed;
 use jam::waves;
 use ode::{Control, Method};
 
-/// The growth rate of the wave `k` of the steady flow: the logarithm of its size after `time` over that before, by time.
-/// The case must be in deviations. `amplitude` is that of the places at the start; products of waves are as much smaller than
-/// it as it is smaller than 1, and make other waves than this one, but for `k = 2 pi / 3`, whose square is that wave again.
+/// The growth rate of the wave `k` of the steady flow: the logarithm of its size after `time` over that before, by
+/// time. The case must be in deviations. `amplitude` is that of the places at the start; products of waves are as much
+/// smaller than it as it is smaller than 1, and make other waves than this one, but for `k = 2 pi / 3`, whose square is
+/// that wave again.
 ///
 /// # Errors
 /// There is no steady flow, or the run ended before its time.

@@ -6,8 +6,8 @@ use crate::draw::Draw;
 use crate::hard::run::{Case, Leg};
 use figures::failure::Failure;
 
-/// How far apart the two are set, the root of the sum of squares of gaps and speeds. They stay so close that products of
-/// deviations do not matter, and so far that rounding does not.
+/// How far apart the two are set, the root of the sum of squares of gaps and speeds. They stay so close that products
+/// of deviations do not matter, and so far that rounding does not.
 const APART: f64 = 1e-6;
 /// How long they run between, in units of `tau`.
 const INTERVAL: f64 = 10.0;

@@ -42,8 +42,8 @@ const NUDGE: f64 = 1e-10;
 /// The paths of all are kept from here to there: the two methods still agree about them.
 pub const SHOWN: [f64; 2] = [1000.0, 1050.0];
 
-/// The tables: statistics window by window (`windows`) and of whole runs (`runs`), how far runs come apart (`parting`), and
-/// paths while they do not (`paths`).
+/// The tables: statistics window by window (`windows`) and of whole runs (`runs`), how far runs come apart (`parting`),
+/// and paths while they do not (`paths`).
 ///
 /// # Errors
 /// A run ended before its time.
@@ -170,8 +170,8 @@ mod tests {
         assert_eq!(maxima(&[1.0; 5]), 0);
     }
 
-    /// The paper's middle class, whose waves go around without changing: each window is like the one before, and like the
-    /// certified run of supplement 19.
+    /// The paper's middle class, whose waves go around without changing: each window is like the one before, and like
+    /// the certified run of supplement 19.
     #[test]
     fn windows_of_a_regular_wave_agree_with_the_run_of_supplement_19() {
         let law = Algebraic { mu: 0.32, delta: 1.0, q: 2.0, a_v: 0.0, epsilon: 0.1, v0: 3.0 };

@@ -148,8 +148,8 @@ fn repeats(seconds: f64) -> u32 {
     }
 }
 
-/// The rules for the steps, coarse to fine, each with the number that stands for it in tables: tolerances in decades, or
-/// steps that are powers of two, which meet the times of the solution without rounding.
+/// The rules for the steps, coarse to fine, each with the number that stands for it in tables: tolerances in decades,
+/// or steps that are powers of two, which meet the times of the solution without rounding.
 fn ladder(method: Method) -> Vec<(Control, f64)> {
     if method.is_adaptive() {
         TOLERANCES.map(|tolerance| (Control::Adaptive { tolerance }, tolerance)).to_vec()

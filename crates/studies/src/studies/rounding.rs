@@ -1,5 +1,5 @@
-//! Truncation against rounding of Heun's scheme on the stable run of figure 4, in every form of the state and in wrapped
-//! positions, with plain and compensated sums.
+//! Truncation against rounding of Heun's scheme on the stable run of figure 4, in every form of the state and in
+//! wrapped positions, with plain and compensated sums.
 
 use super::heun::{Adding, without_rounding};
 use super::solution::{Distances, distances, exact_scene, state_at, written};
@@ -76,7 +76,8 @@ const COLUMNS: [&str; 13] = [
     "rounding_std",
 ];
 
-/// A row: distances of the run from the solution, of the scheme without rounding from it, and of the two from each other.
+/// A row: distances of the run from the solution, of the scheme without rounding from it, and of the two from each
+/// other.
 struct Line {
     per_unit: f64,
     time: f64,

@@ -55,8 +55,8 @@ fn random_logarithmic(draw: &mut Draw) -> Option<Case> {
         .then(|| Case { linear: law.linearise(headway, speed), criterion: criteria::logarithmic(&law, headway, speed) })
 }
 
-/// Counts the laws whose largest growth rate over all waves has another sign than the margin for long waves (`wrong`), or
-/// than the paper's criterion (`paper_wrong`).
+/// Counts the laws whose largest growth rate over all waves has another sign than the margin for long waves (`wrong`),
+/// or than the paper's criterion (`paper_wrong`).
 pub fn all_waves() -> Rows {
     let mut rows =
         Rows::new(&["law", "cases", "waves", "unstable", "wrong", "paper_wrong", "at_the_edge", "worst_is_long"]);

@@ -119,8 +119,8 @@ pub fn contact() -> Result<Rows, Failure> {
 }
 
 /// Between which desired speeds contacts begin, for runs to several times: no contact up to `none_at`, one at
-/// `contact_at`. A second method says the same of both ends (`agree` = 1). Whether contacts stay away below is not proved:
-/// only the speeds that were tried are known.
+/// `contact_at`. A second method says the same of both ends (`agree` = 1). Whether contacts stay away below is not
+/// proved: only the speeds that were tried are known.
 ///
 /// # Errors
 /// A run failed.

@@ -5,8 +5,8 @@ use figures::failure::Failure;
 use scene::map::Map;
 
 /// For each map and each of its axes: pairs of neighbouring cells in which the value rises, falls, or stays the same.
-/// Neighbours that are both stable, both unstable, or one of each are counted apart: `all` and `across` (one stable, one
-/// not; there `rising` means that stability is lost along the axis).
+/// Neighbours that are both stable, both unstable, or one of each are counted apart: `all` and `across` (one stable,
+/// one not; there `rising` means that stability is lost along the axis).
 ///
 /// # Errors
 /// A map cannot be computed, or a cell of it is blank.

@@ -17,8 +17,8 @@ use ode::{Control, Method, Step};
 /// A law for each widening.
 type Widened = fn(f64) -> Model;
 
-/// The margin for long waves (negative: stable) and the largest growth rate on the ring, with the widening from 0 to 1 or
-/// as far as there is a uniform flow.
+/// The margin for long waves (negative: stable) and the largest growth rate on the ring, with the widening from 0 to 1
+/// or as far as there is a uniform flow.
 pub fn table() -> Rows {
     let mut rows =
         Rows::new(&["law", "fixed", "a_v", "speed", "gap", "phi", "margin", "growth_rate", "growth_rate_error"]);
@@ -150,8 +150,9 @@ impl RunObserver for Followed {
     }
 }
 
-/// What a smaller safety distance `a_0` and a longer `tau` do to the logarithmic law, in metres and seconds: pedestrians
-/// 0.9 m apart that want to walk 1.2 m/s. Both `v_0' = v_0 tau / a_0` and the headway in units of `a_0` change.
+/// What a smaller safety distance `a_0` and a longer `tau` do to the logarithmic law, in metres and seconds:
+/// pedestrians 0.9 m apart that want to walk 1.2 m/s. Both `v_0' = v_0 tau / a_0` and the headway in units of `a_0`
+/// change.
 pub fn safety() -> Rows {
     let mut rows = Rows::new(&["varied", "a_0", "tau", "v0", "headway", "xi", "margin", "unstable"]);
     let mut push = |varied: &str, a_0: f64, tau: f64| {

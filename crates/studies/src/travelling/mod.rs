@@ -194,8 +194,8 @@ fn turn(waves: &[Wave], is_extreme: impl Fn(f64, f64, f64) -> bool) -> Option<&W
     found.map(|three| &three[1])
 }
 
-/// The waves that runs begin with: one in the middle of those beyond the lowest, and that after the lowest, both on the part
-/// of the branch along which the strength grows; without a lowest one that of the middle alone.
+/// The waves that runs begin with: one in the middle of those beyond the lowest, and that after the lowest, both on the
+/// part of the branch along which the strength grows; without a lowest one that of the middle alone.
 fn lasting<'a>(waves: &'a [Wave], lowest: Option<&'a Wave>) -> Vec<&'a Wave> {
     let beyond: Vec<&Wave> =
         waves.iter().filter(|wave| lowest.is_none_or(|lowest| wave.amplitude > lowest.amplitude)).collect();

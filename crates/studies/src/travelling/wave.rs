@@ -1,9 +1,9 @@
 //! One travelling wave, by Newton's method: `v_n(t) = V(2 pi n / N + omega t)`, with one wave on the ring.
 //!
-//! The profile `V` is known at an odd number of equidistant places. Its derivative, its shift by one pedestrian and the gaps
-//! are those of the trigonometric polynomial through these values: each is the product with a circulant matrix. The gap
-//! changes at the rate `v_{n+1} - v_n`, so its profile is `d' + W V / omega` with `W` of the multipliers
-//! `(e^{i k 2 pi / N} - 1) / (i k)`.
+//! The profile `V` is known at an odd number of equidistant places. Its derivative, its shift by one pedestrian and the
+//! gaps are those of the trigonometric polynomial through these values: each is the product with a circulant matrix.
+//! The gap changes at the rate `v_{n+1} - v_n`, so its profile is `d' + W V / omega` with `W` of the multipliers `(e^{i
+//! k 2 pi / N} - 1) / (i k)`.
 
 use super::elimination::solve;
 use jam::laws::{Algebraic, Law};

@@ -30,7 +30,8 @@ fn in_the_blow_up_speeds_double_and_the_gap_closes_as_the_square_of_the_time() {
     for (k, pair) in throws.windows(2).enumerate() {
         // the next is the pedestrian behind
         assert_eq!(pair[1][0], (pair[0][0] + 66.0) % 67.0);
-        // what the drive adds in the time between two throws, against a speed that doubles: at most 3 / speed + 1 / speed
+        // what the drive adds in the time between two throws, against a speed that doubles: at most 3 / speed + 1 /
+        // speed
         assert!((pair[1][4] - 2.0).abs() < 10.0 / pair[0][3], "throw {k}: {pair:?}");
     }
     // energy in the frame of the one ahead: room = 2 mu^2 / (speed / 2)^2, so room speed^2 = 8 mu^2 = 2.42

@@ -121,8 +121,8 @@ struct Scratch {
 }
 
 impl Interpreted {
-    /// The force of this formula, with the formula of the effective gap where that is not the net gap; `is_singular` says
-    /// whether it has no value where two touch.
+    /// The force of this formula, with the formula of the effective gap where that is not the net gap; `is_singular`
+    /// says whether it has no value where two touch.
     pub fn new(prepared: Arc<Prepared>, gap: Option<Arc<Prepared>>, is_singular: bool) -> Interpreted {
         let mut scratch = Scratch::default();
         let own = prepared.program.registers;

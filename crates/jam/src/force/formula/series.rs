@@ -81,8 +81,8 @@ pub struct Memory<C: Copy> {
 }
 
 impl<C: Along> Memory<C> {
-    /// Writes the arguments of the operations with kinks, which begin at these histories: `order` rows, in each for each
-    /// of them one number for each pedestrian.
+    /// Writes the arguments of the operations with kinks, which begin at these histories: `order` rows, in each for
+    /// each of them one number for each pedestrian.
     pub fn arguments(&self, kinks: &[usize], pedestrians: usize, order: usize, arguments: &mut [f64]) {
         let (blocks, count) = (pedestrians.div_ceil(C::WIDTH), kinks.len() * pedestrians);
         let histories = Histories { memory: &self.histories, blocks, length: order, order: 0 };
@@ -175,7 +175,8 @@ impl<C: Along> Coefficients<'_, '_, C> {
         }
     }
 
-    /// Takes the variables of an order: at order 0 with the uniform flow, whose speed may have coefficients of other orders.
+    /// Takes the variables of an order: at order 0 with the uniform flow, whose speed may have coefficients of other
+    /// orders.
     fn take<const START: bool>(&mut self, k: usize) {
         let Motion { flow, pedestrians: n, dimension, along, .. } = self.motion;
         let row = &self.motion.coefficients[k * dimension..(k + 1) * dimension];
@@ -312,8 +313,8 @@ impl<C: Along> Next<'_, C> {
     }
 }
 
-/// The recurrence of an operation. A type, because each is a kernel of its own: one kernel of all took the compiler four
-/// times as long.
+/// The recurrence of an operation. A type, because each is a kernel of its own: one kernel of all took the compiler
+/// four times as long.
 trait Recurrence<C: Coefficient> {
     /// The coefficient of this order from those of the operands.
     fn next<const START: bool>(&self, history: History<'_, C>, x: C, y: C) -> C;

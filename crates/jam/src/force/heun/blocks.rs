@@ -1,10 +1,10 @@
 //! Heun's scheme on rings larger than a cache: block by block, many steps per block, on several threads.
 //!
 //! A step of Heun's scheme asks for two pedestrians ahead, never for one behind. So a block that is to make `m` steps
-//! takes `2 m` more from ahead with it as they are at the beginning, and makes some of their steps again: their last two
-//! become wrong with every step, the block itself never. Blocks are done in order, the foremost last, so that those ahead
-//! are still as they were. Every pedestrian is computed by the same operations as in one piece: the same bits, for any
-//! cut.
+//! takes `2 m` more from ahead with it as they are at the beginning, and makes some of their steps again: their last
+//! two become wrong with every step, the block itself never. Blocks are done in order, the foremost last, so that those
+//! ahead are still as they were. Every pedestrian is computed by the same operations as in one piece: the same bits,
+//! for any cut.
 
 use super::segment::{Scheme, Segment};
 use crate::force::Steps;
@@ -66,8 +66,8 @@ fn round<L: Law>(law: L, steps: Steps, cut: Cut, state: &mut [f64]) -> bool {
     })
 }
 
-/// The steps of the blocks of a part. A function of its own, or it would be compiled once more for the threads. Without a copy
-/// for the widest registers: the rows of large rings wait for the second-level cache.
+/// The steps of the blocks of a part. A function of its own, or it would be compiled once more for the threads. Without
+/// a copy for the widest registers: the rows of large rings wait for the second-level cache.
 #[inline(never)]
 fn in_part<L: Law>(law: L, steps: Steps, size: usize, part: Part<'_>) -> bool {
     dispatch_to_four(steps.limit, Blocks { law, steps, size, part })

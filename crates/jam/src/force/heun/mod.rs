@@ -1,9 +1,9 @@
 //! Many steps of Heun's scheme in positions and speeds at once. This is the scheme of the paper, whose runs have up to
 //! 3e8 steps.
 //!
-//! The same sums in the same order as the general method makes them, so the same bits. What makes it fast: all steps of a
-//! batch run in one function, on arrays that stay in the first-level cache ([`segment`]). Rings too large for a cache go
-//! through it block by block, each many steps at a time ([`blocks`]).
+//! The same sums in the same order as the general method makes them, so the same bits. What makes it fast: all steps of
+//! a batch run in one function, on arrays that stay in the first-level cache ([`segment`]). Rings too large for a cache
+//! go through it block by block, each many steps at a time ([`blocks`]).
 
 mod blocks;
 mod segment;

@@ -42,8 +42,8 @@ pub(super) struct Segment {
 pub(super) struct Scheme<'a, L> {
     /// The law.
     pub(super) law: &'a L,
-    /// Whether accelerations are computed in a function of its own, blocks of pedestrians at a time, with registers no wider
-    /// than this; short laws are computed where they are used.
+    /// Whether accelerations are computed in a function of its own, blocks of pedestrians at a time, with registers no
+    /// wider than this; short laws are computed where they are used.
     pub(super) in_rows: Option<Width>,
     /// Length of a step.
     pub(super) h: f64,
@@ -56,8 +56,8 @@ impl Segment {
         Segment { now, guess, accelerations: vec![0.0; size], net_gaps: [0.0; LENGTH], row: [0.0; LENGTH] }
     }
 
-    /// The accelerations now, and the state that an Euler step would reach. False if one of these pedestrians has no room
-    /// or a negative speed; what is not a number may pass for quiet.
+    /// The accelerations now, and the state that an Euler step would reach. False if one of these pedestrians has no
+    /// room or a negative speed; what is not a number may pass for quiet.
     #[inline(always)]
     pub(super) fn predict<L: Law>(&mut self, scheme: Scheme<'_, L>, range: Range<usize>) -> bool {
         let Segment { now, guess, accelerations, net_gaps, row } = self;

@@ -89,7 +89,8 @@ fn complaints_about_exponential_laws() {
     );
 }
 
-/// Of a formula the complaint names the expression, in a file by its line, of values that a program gives by their key alone.
+/// Of a formula the complaint names the expression, in a file by its line, of values that a program gives by their key
+/// alone.
 #[test]
 fn complaints_about_formulas_name_the_expression() {
     use files::reader::{Entry, Section, Value};
