@@ -1,5 +1,5 @@
-//! External dependencies: each has a purpose, build scripts are known, no font of the machine is used, and `unsafe`
-//! occurs only where ARCHITECTURE.md says. Licences and sources: `deny.toml`.
+//! External dependencies: each has a purpose, build scripts are known, no font of the machine is used, `unsafe`
+//! occurs only where ARCHITECTURE.md says, and comments are no wider than code. Licences and sources: `deny.toml`.
 
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
@@ -21,6 +21,16 @@ fn files(ending: &str) -> Vec<String> {
     let found = checkout::disk::walk(&root(), &enter).expect("folders");
     let names = found.iter().filter_map(|path| path.strip_prefix(root()).ok());
     names.map(|path| path.to_string_lossy().into_owned()).filter(|name| name.ends_with(ending)).collect()
+}
+
+/// The formatter leaves comments as wide as they are.
+#[test]
+fn comments_are_at_most_as_wide_as_code() {
+    let is_wide = |line: &str| line.trim_start().starts_with("//") && line.chars().count() > 120;
+    for name in files(".rs") {
+        let wide = text(&name).lines().position(is_wide).map(|index| index + 1);
+        assert_eq!(wide, None, "{name}: a comment is wider than 120 columns");
+    }
 }
 
 /// Name and source of the build script of every crate that the lock file names and that has one.
