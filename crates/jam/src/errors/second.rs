@@ -55,6 +55,9 @@ const AGREEMENT: f64 = 1.5;
 /// remains in the difference, whatever the sign of theirs.
 const STRONGER: f64 = 2.0;
 
+/// Steps of a run that decides, however short the run is that it decides about.
+const MANY_STEPS: u64 = 20_000;
+
 /// The order that is seen in the error of fixed steps where an accurate run costs more than they do: they pass over
 /// kinks, or over bends as sharp.
 const ORDER_SEEN: usize = 2;
@@ -89,17 +92,30 @@ impl Second {
     }
 
     fn compared(run: &Run, outcome: &Outcome, instants: &[Instant], onlooker: &mut dyn RunObserver) -> Second {
+        let few = most_steps(run, outcome);
         let step = match run.control {
-            Control::Adaptive { tolerance } => return by_tolerance(run, outcome, tolerance, instants, onlooker),
+            Control::Adaptive { tolerance } => return by_tolerance(run, outcome, (tolerance, few), instants, onlooker),
             Control::Fixed { step } => step,
         };
-        let accurate = by_tolerance(run, outcome, ACCURATE, instants, onlooker);
-        let is_refuted = confirmed::refuted_at(run, outcome, &accurate.outcome).is_some();
-        if is_refuted || is_sure(outcome, &accurate.outcome, end(run, outcome)) {
+        let tells = |accurate: &Second| {
+            let is_refuted = confirmed::refuted_at(run, outcome, &accurate.outcome).is_some();
+            is_refuted || is_sure(outcome, &accurate.outcome, end(run, outcome))
+        };
+        let accurate = by_tolerance(run, outcome, (ACCURATE, few), instants, onlooker);
+        if tells(&accurate) {
             return accurate;
         }
         let shorter = by_half_steps(run, outcome, step, instants, onlooker);
-        Second { evaluations: accurate.evaluations + shorter.evaluations, ..shorter }
+        let mut spent = accurate.evaluations + shorter.evaluations;
+        // the error of motion that fades too fast or too slowly is no multiple of a difference that leaves no digit
+        if few < MANY_STEPS && !leaves_digits(outcome, &shorter.outcome) {
+            let patient = by_tolerance(run, outcome, (ACCURATE, MANY_STEPS), instants, onlooker);
+            spent += patient.evaluations;
+            if tells(&patient) {
+                return Second { evaluations: spent, ..patient };
+            }
+        }
+        Second { evaluations: spent, ..shorter }
     }
 
     /// The errors of the run.
@@ -243,18 +259,18 @@ fn is_through_wall(run: &Run, outcome: &Outcome) -> bool {
     is_fixed && run.model.is_singular() && outcome.stop().is_some_and(|stop| stop.kind != EventKind::Undefined)
 }
 
-/// A run by another method at a smaller tolerance.
+/// A run by another method at a smaller tolerance, of at most so many steps.
 fn by_tolerance(
     run: &Run,
     outcome: &Outcome,
-    tolerance: f64,
+    (tolerance, most_steps): (f64, u64),
     instants: &[Instant],
     onlooker: &mut dyn RunObserver,
 ) -> Second {
     let mut spent = 0;
     let mut by = |(method, tolerance): (Method, f64)| {
         let control = Control::Adaptive { tolerance: if tolerance > TIGHTEST { tolerance } else { TIGHTEST } };
-        let second = Run { method, control, most_steps: most_steps(run, outcome), ..again(run, outcome) };
+        let second = Run { method, control, most_steps, ..again(run, outcome) };
         let made = made(&second, AGREEMENT, instants, onlooker);
         spent += made.evaluations;
         Second { evaluations: spent, ..made }
@@ -332,6 +348,12 @@ fn is_sure(outcome: &Outcome, accurate: &Outcome, end: f64) -> bool {
     is_whole && (stop.is_none() || stop == other && confirmed::reaches(outcome, accurate))
 }
 
+/// Whether two standard deviations differ by a part of themselves at all samples of both.
+fn leaves_digits(outcome: &Outcome, other: &Outcome) -> bool {
+    let mut pairs = outcome.samples.std.iter().zip(&other.samples.std);
+    pairs.all(|(one, other)| (one - other).abs() <= LARGE * math::larger(*one, *other))
+}
+
 /// A run by the same method with steps of half the length.
 fn by_half_steps(
     run: &Run,
@@ -399,7 +421,7 @@ fn most_steps(run: &Run, outcome: &Outcome) -> u64 {
         _ if loses_shift(run) => FEW_TIMES * like_run + 30_000,
         // steps over a bend that is too sharp for them blow up, and so do those of half the length
         Control::Fixed { .. } if !is_singular_end(outcome) => like_run + 50,
-        _ => FEW_TIMES * like_run + 20_000,
+        _ => FEW_TIMES * like_run + MANY_STEPS,
     }
 }
 
