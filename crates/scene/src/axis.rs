@@ -64,9 +64,9 @@ impl Axis {
     }
 }
 
-/// The law of `[law]`, read with the axes at the first cell. `read` sets them. The law of a formula may have a value in a
-/// part of the plane only: while it has none, others are tried that are spread over it. A law of the paper must be valid in
-/// every cell, and is so if in the first: its ranges have no upper end, and axes rise.
+/// The law of `[law]`, read with the axes at the first cell. `read` sets them. A formula may have a value in a part of
+/// the plane only: while it has none, other cells are tried that are spread over it. A law of the paper must be valid
+/// in every cell, and is so if in the first: its ranges have no upper end, and axes rise.
 ///
 /// # Errors
 /// That of the first cell: of a formula, if it fails everywhere.

@@ -314,7 +314,8 @@ impl Map {
         Ok(Computed { table, blank, undefined, first_undefined, error })
     }
 
-    /// Whether cells spread over the plane have values: a plane of a heavy formula is not computed in whole to be refused.
+    /// Whether cells spread over the plane have values: a plane of a heavy formula is not computed in whole to be
+    /// refused.
     fn has_values(&self, onlooker: &mut dyn FnMut(f64)) -> Result<(), String> {
         let (places, mut first) = (spread([&self.x, &self.y]), None);
         for at in &places {

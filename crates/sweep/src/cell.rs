@@ -168,8 +168,8 @@ impl Sweep {
     /// What is known of a cell without a run.
     ///
     /// # Errors
-    /// Where, and: formulas that look further than the ring is long; several steady speeds, of which the scene has to name
-    /// one; an axis that is no parameter of the law.
+    /// Where, and: formulas that look further than the ring is long; several steady speeds, of which the scene has to
+    /// name one; an axis that is no parameter of the law.
     pub fn place(&self, cell: [usize; 2]) -> Result<Precheck, String> {
         let scene = match self.scene(cell)? {
             Ok(scene) => scene,
