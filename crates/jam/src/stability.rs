@@ -1,8 +1,9 @@
 //! Linear stability of the uniform flow, exactly and for every wave number.
 //!
-//! Each law linearises to `eps_n'' = kappa (eps_{n+1}' - eps_n') + phi (eps_{n+1} - eps_n) - beta (eps_n' + eps_{n+1}')
-//! - eps_n'`. A wave `exp(z t + i k n)` then obeys `z^2 + (1 + beta (1 + e^{ik}) + kappa (1 - e^{ik})) z + phi (1 -
-//! e^{ik}) = 0` (eq:stabN, eq:stab_neu_av).
+//! Each law linearises to
+//! `eps_n'' = kappa (eps_{n+1}' - eps_n') + phi (eps_{n+1} - eps_n) - beta (eps_n' + eps_{n+1}') - eps_n'`. A wave
+//! `exp(z t + i k n)` then obeys `z^2 + (1 + beta (1 + e^{ik}) + kappa (1 - e^{ik})) z + phi (1 - e^{ik}) = 0`
+//! (eq:stabN, eq:stab_neu_av).
 
 use math::complex_sqrt;
 use math::double_double::DoubleDouble;

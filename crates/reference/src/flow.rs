@@ -15,9 +15,9 @@ pub enum Form {
 
 /// A ring under a law.
 ///
-/// A state is `[u_0 .. u_{N-1}, w_0 .. w_{N-1}, y_0, X, V]`: spacings `S + u_n`, speeds `V + w_n`, and the position `X
-/// + y_0` of pedestrian 0. In [`Form::Differences`] `X` and `V` are those of the uniform flow that starts at rest and
-/// `S = L / N`; in [`Form::Clearances`] they stay 0 and `S` is where standing pedestrians touch.
+/// A state is `[u_0 .. u_{N-1}, w_0 .. w_{N-1}, y_0, X, V]`: spacings `S + u_n`, speeds `V + w_n`, and the position
+/// `X + y_0` of pedestrian 0. In [`Form::Differences`] `X` and `V` are those of the uniform flow that starts at rest
+/// and `S = L / N`; in [`Form::Clearances`] they stay 0 and `S` is where standing pedestrians touch.
 #[derive(Clone, Debug)]
 pub struct Flow<T> {
     /// The law.
