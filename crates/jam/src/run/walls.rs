@@ -101,6 +101,13 @@ fn step_of(failure: &ode::Failure) -> f64 {
 /// What helps a run that broke.
 pub(crate) fn advice(failure: &ode::Failure, run: &Run) -> Option<&'static str> {
     match failure {
+        ode::Failure::TooManySteps { .. }
+            if run.form == StateVariables::Positions && run.most_steps < ode::MOST_STEPS =>
+        {
+            Some(
+                "raise most_steps or the tolerance, or use state = \"deviations\", which keeps more digits of small gaps",
+            )
+        }
         ode::Failure::TooManySteps { .. } if run.most_steps < ode::MOST_STEPS => {
             Some("raise most_steps or the tolerance")
         }
