@@ -108,7 +108,8 @@ impl Second {
         let shorter = by_half_steps(run, outcome, step, instants, onlooker);
         let mut spent = accurate.evaluations + shorter.evaluations;
         // the error of motion that fades too fast or too slowly is no multiple of a difference that leaves no digit
-        if few < MANY_STEPS && !leaves_digits(outcome, &shorter.outcome) {
+        let is_confirmed = confirmed::until(run, outcome, &shorter).is_none();
+        if few < MANY_STEPS && is_confirmed && !leaves_digits(outcome, &shorter.outcome) {
             let patient = by_tolerance(run, outcome, (ACCURATE, MANY_STEPS), instants, onlooker);
             spent += patient.evaluations;
             if tells(&patient) {
