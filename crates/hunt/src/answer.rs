@@ -67,6 +67,12 @@ impl Answer {
             .collect()
     }
 
+    /// The least value of what falls through 0 in events of this kind, and when that was.
+    pub fn least(&self, kind: Kind) -> (f64, f64) {
+        let index = Kind::ALL.iter().position(|other| *other == kind).unwrap_or(0);
+        self.solution.least[index]
+    }
+
     /// The first crossing of a kind by this pedestrian, and its twin.
     pub fn crossing(&self, kind: Kind, pedestrian: usize) -> Option<(&Crossing, &Crossing)> {
         fn find(solution: &Solution, kind: Kind, pedestrian: usize) -> Option<&Crossing> {

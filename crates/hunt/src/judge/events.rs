@@ -8,7 +8,7 @@ use crate::stated::{self, Stated};
 use jam::events::{Event, EventKind};
 use jam::run::Outcome;
 use math::larger;
-use reference::solution::{End, Kind};
+use reference::solution::{Crossing, End, Kind};
 use scene::run::Scene;
 
 /// What becomes negative in an event.
@@ -58,8 +58,7 @@ fn missed(verdict: &mut Verdict, scene: &Scene, outcome: &Outcome, answer: &Answ
         let is_known = outcome.events.iter().any(|happening| happening.kind.name() == kind.name());
         let latest = outcome.statistics.time - bound.moment(kind, rate);
         if !is_known && time < latest {
-            let index = Kind::ALL.iter().position(|other| *other == kind).unwrap_or(0);
-            let depth = answer.solution.least[index].0;
+            let depth = answer.least(kind).0;
             // a dip below 0 that is shallower than the error allowed
             let allowed = bound.value(kind);
             let text = format!(
@@ -82,8 +81,7 @@ fn crossing(
     let (name, found) = (kind.name(), happening.time);
     let crossings = answer.crossings(kind);
     let Some(&(_, time, uncertainty, _)) = crossings.first() else {
-        let index = Kind::ALL.iter().position(|other| *other == kind).unwrap_or(0);
-        let (least, when) = answer.solution.least[index];
+        let (least, when) = answer.least(kind);
         let text = format!(
             "{name} at t = {found:?} by {}, but the least value is {least:e} at {when:?}",
             happening.pedestrian
@@ -99,7 +97,9 @@ fn crossing(
     // the second integration finds no crossing more exactly
     let allowed = allowed + stated::FINEST * scene.t_end;
     Compared { what: "event", time, found, right: time, uncertainty, allowed, range: scene.t_end }.note(verdict);
-    gap(verdict, (happening, allowed), kind, scene, answer, bound);
+    if let Some(crossings) = answer.crossing(kind, happening.pedestrian) {
+        gap((happening, allowed), crossings, bound, scene.ring.headway()).note(verdict);
+    }
     let is_first = crossings.iter().any(|(n, t, ..)| *n == happening.pedestrian && t - time <= 2.0 * allowed)
         || answer.solution.time - time <= 2.0 * allowed;
     if !is_first {
@@ -108,16 +108,14 @@ fn crossing(
     }
 }
 
-/// The spacing at an event: as exact as positions are, at a time as exact as it is.
+/// The spacing at an event beside that of the second integration and of its twin: as exact as positions are, at a time
+/// as exact as it is.
 fn gap(
-    verdict: &mut Verdict,
     (happening, allowed): (&Event, f64),
-    kind: Kind,
-    scene: &Scene,
-    answer: &Answer,
+    (right, twin): (&Crossing, &Crossing),
     bound: &Bound,
-) {
-    let Some((right, twin)) = answer.crossing(kind, happening.pedestrian) else { return };
+    headway: f64,
+) -> Compared {
     Compared {
         what: "gap",
         time: happening.time,
@@ -125,9 +123,8 @@ fn gap(
         right: right.spacing,
         uncertainty: (right.spacing - twin.spacing).abs(),
         allowed: bound.value(Kind::Exchange) + right.opening.abs() * allowed,
-        range: scene.ring.headway(),
+        range: headway,
     }
-    .note(verdict);
 }
 
 /// Speeds double at every throw, so the end is as near as the ring is long over the speed reached.
